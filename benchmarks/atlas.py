@@ -1,12 +1,18 @@
-"""The atlas against contacts that are solved for the comparison: ``python -m benchmarks.atlas lines 300``.
+"""The atlas against contacts that are solved for the comparison: ``python -m benchmarks.atlas points 300``.
 
-Oils and groups are drawn at random. Each film is compared with the atlas: median, 95 % and largest
-difference, and the share inside the stated error.
+Oils and groups are drawn at random; contact number i is the same in every run. Solved contacts are appended
+to ``benchmarks/data/KIND-random.jsonl.gz``, so that a run goes on where the last one ended, and several runs
+may share the work with ``--part`` and ``--parts``. Each film is then compared with the atlas: median, 95 %
+and largest difference, and the share inside the stated error.
 """
 
+import argparse
+import gzip
+import json
 import math
-import sys
+from datetime import UTC, datetime
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
@@ -15,6 +21,7 @@ from ehlectric.errors import InputError
 from ehlectric.film.atlas.coefficient import OilGroups
 from ehlectric.film.atlas.compute import record
 from ehlectric.film.atlas.film import atlas_film
+from ehlectric.film.atlas.grids import lubricant_coordinate
 from ehlectric.film.atlas.groups import Groups, groups_of
 from ehlectric.film.atlas.measures import NAMES
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson
@@ -55,6 +62,12 @@ def oils(rng):
     return made
 
 
+DATA = Path(__file__).parent / "data"
+
+# Load groups and ratios of the semi-axes that are drawn: round and narrow contacts, and wide ones.
+RANGES = {"points": ((3.1, 11500.0), (1.0, 19.0)), "wide": ((3.1, 19.0), (0.26, 1.0))}
+
+
 def drawn(rng, kind):
     """Random groups of a line or of a point contact."""
 
@@ -63,43 +76,110 @@ def drawn(rng, kind):
 
     if kind == "lines":
         return Groups(between(0.3, 500.0), between(1.5, 45.0))
-    return groups_of(between(3.2, 2300.0), between(1.6, 45.0), between(1.0, 19.0))
+    loads, ratios = RANGES[kind]
+    load = between(*loads)
+    return groups_of(load, between(5.2, 108.0) / load ** (1.0 / 6.0), between(*ratios))
 
 
-def compared(groups, laws):
-    """Differences from a solved film and stated errors; None where either has no film."""
+def contact(number, kind, laws):
+    """Groups and number of the oil of a random contact; None where its Hertz pressure is no bearing's."""
+    rng = np.random.default_rng([15, number])
+    groups, oil = drawn(rng, kind), int(rng.integers(len(laws)))
+    pressure = groups.hertz_number / OilGroups.of(*laws[oil]).alpha
+    return (groups, oil) if 0.1e9 < pressure < 4e9 and groups.hertz_number < 100.0 else None
+
+
+def solve(kind, count, laws, chosen):
+    """Solve the first ``count`` random contacts that are not solved yet, and append them to the file."""
+    done, found, number = {row["number"] for row in solved(kind)}, 0, -1
+    name = (
+        f"{kind}-random.jsonl.gz"
+        if chosen.parts == 1
+        else f"{kind}-random-{chosen.part}of{chosen.parts}.jsonl.gz"
+    )
+    while found < count:
+        number += 1
+        drawing = contact(number, kind, laws)
+        if drawing is None:
+            continue
+        found += 1
+        if number in done or found % chosen.parts != chosen.part:
+            continue
+        if chosen.until and f"{datetime.now(UTC):%H:%M}" >= chosen.until:
+            return
+        groups, oil = drawing
+        row = {"number": number, "oil": oil} | record(groups, laws[oil], OilGroups.of(*laws[oil]).alpha)
+        with gzip.open(DATA / name, "at") as file:
+            file.write(json.dumps(row) + "\n")
+
+
+def solved(kind):
+    """Rows of all solved contacts of a kind."""
+    rows = []
+    for path in sorted(DATA.glob(f"{kind}-random*.jsonl.gz")):
+        with gzip.open(path, "rt") as file:
+            rows += [json.loads(line) for line in file]
+    return rows
+
+
+def compared(row, laws):
+    """Differences of the atlas from a solved film and its stated errors; None where either has no film."""
+    groups = Groups(row["m"], row["l"], row["k"])
     oil = OilGroups.of(*laws)
-    pressure = groups.hertz_number / oil.alpha
-    if not 0.1e9 < pressure < 4e9:
+    if row["status"] != "converged" or row["coarse"] is None:
         return None
     try:
         found = atlas_film(groups, laws, oil)
     except InputError:
         return None
-    row = record(groups, laws, oil.alpha)
-    if row["status"] != "converged" or row["coarse"] is None:
-        return None
     fine, coarse = np.array(row["fine"]), np.array(row["coarse"])
     step = np.where(np.abs(fine - coarse) < 0.2 * np.abs(fine), (fine - coarse) / 3.0, 0.0)
-    solved = dict(zip(NAMES, fine + step, strict=True))
-    density = laws[1](np.array([solved["pressure"] * pressure]))[0]
-    solved["central"] /= float(np.ravel(density)[0])
-    return [(getattr(found, name) / solved[name] - 1.0, found.errors[name]) for name in SHOWN]
+    films = dict(zip(NAMES, fine + step, strict=True))
+    density = laws[1](np.array([films["pressure"] * groups.hertz_number / oil.alpha]))[0]
+    films["central"] /= float(np.ravel(density)[0])
+    return [(getattr(found, name) / films[name] - 1.0, found.errors[name]) for name in SHOWN]
 
 
-def main(kind, number):
-    rng = np.random.default_rng(15)
-    laws, rows = oils(rng), []
-    while len(rows) < number:
-        row = compared(drawn(rng, kind), laws[rng.integers(len(laws))])
-        if row is not None:
-            rows.append(row)
+def report(rows):
+    """Print median, 95 % and largest difference, and the share inside the stated error."""
     differences, stated = np.moveaxis(np.array(rows), -1, 0)
     for name, off, error in zip(SHOWN, np.abs(differences).T, stated.T, strict=True):
         median, most, worst = 100.0 * np.quantile(off, [0.5, 0.95, 1.0])
-        kept = 100.0 * np.mean(off <= error)
-        print(f"{name:8s} {median:5.2f} % {most:5.2f} % {worst:5.2f} %   inside {kept:3.0f} %")
+        kept, said = 100.0 * np.mean(off <= error), 100.0 * np.median(error)
+        print(
+            f"{name:8s} {median:5.2f} % {most:5.2f} % {worst:5.2f} %   inside {kept:3.0f} % of {said:.1f} %"
+        )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("kind", choices=("lines", *RANGES))
+    parser.add_argument("number", type=int, help="contacts to solve; 0 compares those that are solved")
+    parser.add_argument("--part", type=int, default=0)
+    parser.add_argument("--parts", type=int, default=1)
+    parser.add_argument("--until", help="time of the day, UTC, at which to stop solving, such as 18:05")
+    parser.add_argument("--each", action="store_true", help="print the contacts that are off most")
+    chosen = parser.parse_args()
+    laws = oils(np.random.default_rng(15))
+    solve(chosen.kind, chosen.number, laws, chosen)
+    rows = solved(chosen.kind)
+    pairs = [(row, compared(row, laws[row["oil"]])) for row in rows]
+    kept = [(row, pair) for row, pair in pairs if pair is not None]
+    failed = sum(row["status"] != "converged" or row["coarse"] is None for row in rows)
+    print(f"{len(rows)} contacts: {failed} not solved, {len(rows) - failed - len(kept)} not in the atlas")
+    report([pair for _, pair in kept])
+    if chosen.each:
+        for row, pair in sorted(kept, key=lambda each: -max(abs(each[1][0][0]), abs(each[1][1][0])))[:12]:
+            groups = Groups(row["m"], row["l"], row["k"])
+            at = f"N {groups.load_group:7.1f} Y {lubricant_coordinate(groups):6.1f} k {row['k']:5.2f}"
+            print(
+                at,
+                *(
+                    f"{name} {100 * off:+.1f} ({100 * error:.1f})"
+                    for name, (off, error) in zip(SHOWN, pair, strict=True)
+                ),
+            )
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]))
+    main()

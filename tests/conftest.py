@@ -25,8 +25,9 @@ PAPER_CONTACT = {
 
 @pytest.fixture(scope="session")
 def paper_case():
-    """First row of the paper's Table 3."""
-    return Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}})
+    """First row of the paper's Table 3, on a grid of given nodes."""
+    tables = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 3201}}
+    return Case.from_dict(tables)
 
 
 @pytest.fixture(scope="session")

@@ -2,15 +2,16 @@
 A bearing over its speed
 ========================
 
-A deep-groove ball bearing 6208 in a motor with a common-mode voltage of 300 V. Its films are computed by
-formula, in about a second; they may be wrong by 30 %. Does a film break down, and below which speed?
+A deep-groove ball bearing 6208 in a motor with a common-mode voltage of 300 V. Its films come
+from the atlas of films, in about a second, with a stated error. Does a film break down, and below which
+speed?
 """
 
 import matplotlib.pyplot as plt
 
 import ehlectric
 
-bearing = ehlectric.BearingCase.from_toml("../../examples/bearing_6208.toml").replace({"contacts": "formula"})
+bearing = ehlectric.BearingCase.from_toml("../../examples/bearing_6208.toml").replace({"contacts": "atlas"})
 result = ehlectric.solve(bearing)
 
 # %%

@@ -268,7 +268,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "not-converged": Cause("The iteration of the film did not converge.", "severe"),
         "surfaces-touch": Cause("The surfaces of the computed film would touch in places."),
         "thinner-than-atom": Cause("The film is thinner than an atom in places."),
-        "refine-not-reached": Cause("The target error of grid.refine was not reached."),
+        "refine-not-reached": Cause("The error of the film that was asked for was not reached."),
         "error-unknown": Cause("The discretisation error of a rough contact's film is unknown."),
         "coarser-grid-unsolved": Cause("The discretisation error is unknown and probably large.", "severe"),
         "grid-too-coarse": Cause("The estimated discretisation error of the film is large."),
@@ -298,6 +298,11 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "steps-halved": Cause("Some time steps had to be halved.", "note"),
         # Bearings
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
+        "atlas-contacts": Cause("Contacts have the films of the atlas.", "note"),
+        "atlas-left": Cause("The atlas has no film of a contact, which is computed by formula."),
+        "atlas-left-light": Cause(
+            "The atlas has no film of a light contact, which is computed by formula.", "note"
+        ),
         "isothermal-film": Cause("The films are isothermal and fully flooded.", "note"),
         "temperature-unused": Cause("The films use a given viscosity at any temperature.", "note"),
         "viscosity-of-base": Cause("The viscosity is that of a lubricant of the library at any temperature."),

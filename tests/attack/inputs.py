@@ -78,7 +78,7 @@ def _small(path: Path) -> bool:
         return False
     case = Case.from_toml(path)
     most = 600 if case.contact.geometry == "line" else 65
-    return not case.grid.refine and case.grid.nodes <= most and (case.grid.nodes_y or 0) <= most
+    return not case.grid.refine and case.first_grid.nodes_along <= most and (case.grid.nodes_y or 0) <= most
 
 
 def bearing(_: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:

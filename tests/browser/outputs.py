@@ -36,7 +36,7 @@ def summary_by_command(kind, path, folder, *options):
     return json.loads(output)
 
 
-def bearing_by_command(page, folder, contacts="formula"):
+def bearing_by_command(page, folder, contacts="atlas"):
     """Numbers of the command for the case that the bearing page downloads now."""
     folder.mkdir(exist_ok=True)
     path = downloaded(page, "download-toml", folder)

@@ -106,7 +106,7 @@ def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key
     assert box.get_attribute("aria-invalid") == "true"
     assert error.get_attribute("id") in box.get_attribute("aria-describedby").split()
     path = downloaded(page, "download-toml", tmp_path)
-    _, told = command("bearing", path, "--contacts", "formula", folder=tmp_path, status=2)
+    _, told = command("bearing", path, "--contacts", "atlas", folder=tmp_path, status=2)
     # The line of the command, with its bounds in the unit of the field.
     (line,) = [line for line in told.splitlines() if f"{key}: " in line]
     shown = next(one for group in BEARING_GROUPS for one in group.fields if one.key == key)
@@ -143,7 +143,7 @@ def test_solving_shows_its_progress_and_can_be_cancelled(own_server, open_page):
     page.get_by_test_id("cancel").first.click()
     page.get_by_test_id("solve-message").filter(has_text="Cancelled").wait_for()
     assert wait_until(lambda: not any(map(alive, started)))
-    assert page.get_by_test_id("answer").get_attribute("data-contacts") == "formula"
+    assert page.get_by_test_id("answer").get_attribute("data-contacts") == "atlas"
     assert number(page, "capacitance") == formula
 
 
@@ -164,7 +164,7 @@ def test_solved_contacts_replace_the_formula_and_say_by_how_much(open_page, app_
     assert f"{abs(change):.2g}" in row.inner_text()
     page.get_by_test_id("other-contacts").click()
     wait_for_command(page, formula)
-    assert page.get_by_test_id("answer").get_attribute("data-contacts") == "formula"
+    assert page.get_by_test_id("answer").get_attribute("data-contacts") == "atlas"
     page.get_by_test_id("other-contacts").click()
     wait_for_command(page, solved)
 

@@ -15,8 +15,8 @@ LOAD = "bearing.radial_load"
 
 
 def capacitance(load="1800 N"):
-    """Capacitance that the command computes by formula for the first page's file [pF]."""
-    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({LOAD: load, "contacts": "formula"})
+    """Capacitance that the command computes from the atlas for the first page's file [pF]."""
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({LOAD: load, "contacts": "atlas"})
     return 1e12 * summary_of(solve_bearing(case).solution)["bearing"]["capacitance"]
 
 

@@ -16,7 +16,7 @@ from tests.browser.test_first_page import LOAD, capacitance
 from tests.helpers.places import DEKTAK
 
 # Options with which the command solves what each page shows.
-_OPTIONS = {"bearing": ("bearing", "--contacts", "formula"), "contact": ("run",)}
+_OPTIONS = {"bearing": ("bearing", "--contacts", "atlas"), "contact": ("run",)}
 
 # Keys of a summary that differ between two runs of one case.
 _OWN = ("computing_time", "solution_time", "seconds", "created", "date", "elapsed")

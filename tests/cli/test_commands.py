@@ -43,7 +43,7 @@ def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
     assert set(summary["film"]) == {
         "minimum_thickness", "minimum_position", "central_thickness", "mean_thickness", "max_pressure",
         "load_residual", "residual", "newton_iterations", "discretisation_error", "solver", "nodes",
-        "max_pressure_error",
+        "max_pressure_error", "target_error",
     }  # fmt: skip
     assert set(summary["field"]) == {
         "voltage", "max_strength", "max_strength_position", "max_dimensionless", "central_dimensionless",

@@ -153,7 +153,7 @@ def test_a_bearing_is_checked_by_formula(ehlectric, files):
     summary = json.loads(ehlectric("check", "bearing.toml", "--json").stdout)
     assert ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots", "-q").returncode == 0
     solved = json.loads((files / "out" / "summary.json").read_text())
-    assert summary["by_formula"] is True
+    assert summary["films"] == "formula"
     assert summary["bearing"] == solved["bearing"]
     assert f"{solved['bearing']['margin']:.4g}" in checked.stdout
     # The same answer for contacts that the command would solve.

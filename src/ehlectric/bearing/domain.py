@@ -9,7 +9,7 @@ from ehlectric.bearing.ring_contacts import BallContact, RollerContact
 from ehlectric.cases.grid import Grid, point_grid
 
 # Discretisation error of the minimum film, relative, to which the grid of each contact is refined.
-REFINE = 0.03
+REFINE = 0.02
 
 # Domain of a ball's contact ahead of it, beside it and behind it, in lengths sqrt(2 R h) over which the
 # pressure builds up, and the most that a grid holds ahead and beside, in semi-axes. The domain costs below
@@ -44,7 +44,7 @@ def roller_grid(contact: RollerContact) -> Grid:
             "inlet": -inlet,
             "outlet": outlet,
             # A grid takes sixteen nodes or more in the Hertz zone.
-            "nodes": max(3201, 8 * math.ceil(inlet + outlet) + 1),
+            "nodes": max(801, 8 * math.ceil(inlet + outlet) + 1),
             # Grids reach a hundred half-widths for the field at the most, and 1.25 by default.
             "field_range": [-max(1.25, min(length, inlet, 100.0)), max(1.25, min(length, outlet, 100.0))],
             "refine": REFINE,
@@ -89,7 +89,7 @@ def ball_grid(contact: BallContact) -> Grid:
     along, across = _point_lengths(contact)
     inlet, outlet = max(4.5, min(_ALONG * along, _MOST[0])), max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
     side = max(contact.conditions.side, min(1.0 + _ACROSS * across, _MOST[1]))
-    nodes = max(257, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
+    nodes = max(129, 8 * math.ceil(inlet + outlet) + 1, 16 * math.ceil(side) + 1)
     return _point_grid(inlet, outlet, side, nodes)
 
 

@@ -68,7 +68,7 @@ _LUBRICANT: Keys = {
     ),
 }
 _CAPACITANCES: Keys = {
-    "contacts": ResultKey('how films and fields were obtained: "solved" or "formula"'),
+    "contacts": ResultKey('how films and fields were obtained: "solved", "atlas" or "formula"'),
     "capacitance": ResultKey(
         "capacitance of the smooth films from ring to ring, mean over the positions of the cage, with `fill` "
         "around the films; of ceramic elements an upper bound, or what the file gives",
@@ -248,9 +248,17 @@ _VOLTAGES: Keys = {
         "A/m**2",
     ),
     "discretisation_error": ResultKey(
-        "maximum estimated error of the solved films; null where one is not known"
+        "maximum estimated error of the solved films; null where one is not known, and for contacts from the "
+        "atlas"
     ),
-    "interpolation_error": ResultKey("maximum error at a load that is left out of the interpolation"),
+    "film_error": ResultKey(
+        "estimated error of the films and their interpolation over the load; for contacts from the atlas "
+        "of loads above 2 % of the largest, for contacts by formula that of the formula"
+    ),
+    "interpolation_error": ResultKey(
+        "maximum error at a load that is left out of the interpolation; of the breakdown voltage only for at "
+        "least 2 % of the largest load"
+    ),
 }
 _MECHANICS: Keys = {
     "max_load": ResultKey("load of the most loaded contact with the outer ring", "N"),

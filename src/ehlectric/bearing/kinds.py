@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from ehlectric.bearing.by_formula import ball_by_formula, roller_by_formula
 from ehlectric.bearing.contacts import ContactSolution, solve_ball, solve_roller
 from ehlectric.bearing.domain import ball_fits, ball_grid, roller_fits, roller_grid
 from ehlectric.bearing.loads.balls import ball_equilibrium
@@ -14,6 +13,8 @@ from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.rollers import roller_equilibrium
 from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.quick.by_atlas import ball_by_atlas, roller_by_atlas
+from ehlectric.bearing.quick.by_formula import ball_by_formula, roller_by_formula
 from ehlectric.bearing.ring_contacts import (
     BallContact,
     RingContacts,
@@ -45,12 +46,15 @@ class Kind(Generic[G, C]):
         Contact -> grid of its film and field.
     solve : callable
         Contact and table ``[solver]`` -> contact with its film and field solved.
-    by_formula : callable
-        Contact -> contact by film formulas.
+    quick : mapping of str to callable
+        Contact -> contact without solving it, by ``contacts`` of a bearing file: "atlas" or "formula".
     fits : callable
         Contact -> whether the domain holds the length over which the film builds up.
     rigid_capacitance : callable
         Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
+    loads : int
+        Number of loads that are solved for each ring, without those of light elements. Rollers, whose films
+        change more between them, are solved ten times as fast as balls.
     dry_exponents : tuple of float
         Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling
         direction.
@@ -61,9 +65,10 @@ class Kind(Generic[G, C]):
     contact: Callable[[RingContacts[G], float], C]
     grid: Callable[[C], Grid]
     solve: Callable[[C, Solver], ContactSolution]
-    by_formula: Callable[[C], ContactSolution]
+    quick: Mapping[str, Callable[[C], ContactSolution]]
     fits: Callable[[C], bool]
     rigid_capacitance: Callable[[RingContacts[G], float], float]
+    loads: int
     dry_exponents: tuple[float, float, float]
 
 
@@ -99,9 +104,10 @@ _BALLS = Kind[BallBearing, BallContact](
     contact=BallContact,
     grid=ball_grid,
     solve=solve_ball,
-    by_formula=ball_by_formula,
+    quick={"atlas": ball_by_atlas, "formula": ball_by_formula},
     fits=ball_fits,
     rigid_capacitance=rigid_ball,
+    loads=5,
     dry_exponents=(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0),
 )
 _ROLLERS = Kind[RollerBearing, RollerContact](
@@ -110,9 +116,10 @@ _ROLLERS = Kind[RollerBearing, RollerContact](
     contact=RollerContact,
     grid=roller_grid,
     solve=solve_roller,
-    by_formula=roller_by_formula,
+    quick={"atlas": roller_by_atlas, "formula": roller_by_formula},
     fits=roller_fits,
     rigid_capacitance=rigid_roller,
+    loads=10,
     dry_exponents=(0.5, 0.5, 0.0),
 )
 

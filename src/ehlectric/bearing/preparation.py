@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.by_formula import check_formula
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
 from ehlectric.bearing.fits.mounted import MountedClearance, mounted_clearance
 from ehlectric.bearing.kinds import KINDS, kind_of
@@ -19,6 +18,7 @@ from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, mirrored
+from ehlectric.bearing.quick.ways import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
@@ -28,9 +28,9 @@ from ehlectric.formulas.hertz_line import reduced_modulus
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.temperature import inlet_shear_factor
 
-# Number of loads that are solved for each ring, without those of light elements, and the least of these loads
-# over the largest.
-LOADS, _LEAST = 6, 0.02
+# Least load over the largest of those that are not the loads of light elements, and number of loads down to
+# it whose contacts come from the atlas or by formula: they take milliseconds.
+_LEAST, _QUICK_LOADS = 0.02, 16
 
 # Least load that is solved over the largest: the films of lighter contacts hardly change the circuit of the
 # bearing.
@@ -191,8 +191,8 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
         Where the bearing cannot carry its load, or is beyond the limits of the model.
     """
     conditions = resolve_bearing(case)
-    if case.contacts == "formula":
-        check_formula(conditions.discharge, conditions.oil)
+    if is_quick(case):
+        check_quick(case.contacts, conditions.discharge, conditions.oil)
     check_load(conditions)
     equilibria = equilibria_of(conditions, positions)
     for at in equilibria:
@@ -260,16 +260,17 @@ def least_load(ring: RingContacts[Any]) -> float:
     return math.inf
 
 
-def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any]) -> list[float]:
+def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:
     """Loads of a ring's contacts to solve [N], by increasing load.
 
-    Six loads are evenly spaced in their logarithm. Lighter loads come before them where elements carry
-    hardly more than their centrifugal force.
+    The loads of the kind, or more for a quick way, are evenly spaced in their logarithm. Lighter loads come
+    before them where elements carry hardly more than their centrifugal force.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
     largest = float(np.max(all_loads))
     least = float(np.min(all_loads[all_loads >= _LEAST * largest]))
-    loads = np.geomspace(least, largest, LOADS) if largest / least > _ALIKE else np.array([largest])
+    number = _QUICK_LOADS if quick else kind_of(ring).loads
+    loads = np.geomspace(least, largest, number) if largest / least > _ALIKE else np.array([largest])
     # Elements that are pressed outward only by their centrifugal force carry far less than the others.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
     lightest = least_load(ring)

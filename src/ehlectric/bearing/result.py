@@ -130,8 +130,8 @@ class BearingResult(Shown):
     def margin_analysis(self) -> MarginAnalysis:
         """Critical speed, effects of the inputs on the margin, and its range from ``ranges``.
 
-        It solves some twenty bearings with contacts by formula when it is first asked for: a few seconds at
-        most, beside a minute for a bearing with solved contacts.
+        It solves some twenty bearings with contacts from the atlas when it is first asked for: a few
+        seconds at most, beside a minute for a bearing with solved contacts.
         """
         return analyse_margin(self.solution)
 

@@ -1,4 +1,4 @@
-"""Bearing at several shaft speeds, with contacts by formula."""
+"""Bearing at several shaft speeds, without solving its contacts."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.by_formula import formula_case
 from ehlectric.bearing.margin.critical_speed import LEAST, MOST
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.bearing.summary import summary_of
@@ -27,12 +27,13 @@ _ABOVE, _TRIES = 1e-3, 4
 
 
 def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list[ResultWarning]]:
-    """Summaries of a bearing at speeds around that of its case, with contacts by formula.
+    """Summaries of a bearing at speeds around that of its case, with contacts from the atlas.
 
     Parameters
     ----------
     case : BearingCase
-        Case of the bearing; the temperature is the same at all speeds.
+        Case of the bearing, whose contacts stay by formula where they are. The temperature is the same at
+        all speeds.
     count : int
         Number of speeds, from a tenth of the case's speed to four times this speed.
 
@@ -63,7 +64,7 @@ def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list
     >>> slow["capacitance"] > fast["capacitance"], left_out
     (True, [])
     """
-    changed, refused = formula_case(case)
+    changed, refused = quick_case(case)
     left_out = []
     if refused is not None:
         text = f"figures over speed are incomplete: {refused}"

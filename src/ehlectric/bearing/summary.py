@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+from ehlectric.bearing.accuracy import film_error
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of, strength_per_volt
 from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.discharges.energy import bearing_costs
@@ -100,6 +101,7 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
     strength, shaft, across = strength_per_volt(solution), shaft_voltage(solution), film_voltage(solution)
     leaks, rough = shaft_leakage(solution), rough_capacitance(solution)
     errors = [contact.error for curve in solution.curves for contact in curve.solutions]
+    estimated = solution.case.contacts != "atlas"
     known = [error for error in errors if error is not None]
     return {
         "contacts": solution.case.contacts,
@@ -128,7 +130,8 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
         "film_voltage_after_period": _part(across, None if leaks is None else leaks.film_after_period),
         "shaft_voltage_after_rise": _part(shaft, None if leaks is None else leaks.after_rise),
         **dataclasses.asdict(bearing_costs(solution)),
-        "discretisation_error": max(known) if len(known) == len(errors) else None,
+        "discretisation_error": max(known) if estimated and len(known) == len(errors) else None,
+        "film_error": film_error(solution),
         "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
     }
 

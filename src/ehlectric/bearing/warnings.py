@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ehlectric.bearing.accuracy import error_text, with_light
 from ehlectric.bearing.breakdown import breakdown_of, strength_per_volt
-from ehlectric.bearing.by_formula import formula_error
 from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.discharges.energy import current_warnings
 from ehlectric.bearing.discharges.leakage import leakage_warnings
@@ -69,12 +69,17 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
 def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
     if solution.case.contacts == "formula":
-        error = formula_error(solution.case.bearing.kind)
         text = (
-            f"contacts by formula: film thicknesses may be wrong by {error}, "
+            f"contacts by formula: film thicknesses may be wrong by {error_text(solution)}, "
             'and fields are V/h_min; use contacts = "solved" for design'
         )
         yield ResultWarning("formula-contacts", text)
+    elif solution.case.contacts == "atlas":
+        text = (
+            f"contacts from the atlas of films: film thicknesses may be wrong by {error_text(solution)}, "
+            "and fields are V/h_min"
+        )
+        yield ResultWarning("atlas-contacts", text)
     yield _smooth(solution)
     of_base = library_viscosity(solution.case.lubricant)
     if of_base is not None:
@@ -277,7 +282,7 @@ def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of single contacts, and of contacts that reach over the shoulder of a groove."""
     yield from edge_warnings(solution.case.bearing, solution.positions)
     yield from contact_warnings(
-        {"inner": solution.inner_curve.solutions, "outer": solution.outer_curve.solutions}
+        {"inner": with_light(solution.inner_curve), "outer": with_light(solution.outer_curve)}
     )
 
 

@@ -17,7 +17,7 @@ from ehlectric.cases.changes import displace_alternatives, drop_geometry, flatte
 from ehlectric.cases.contact import Contact
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.grid import POINT_GRID_KEYS, Electric, Grid, Solver, point_grid
+from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
 from ehlectric.cases.meter import Meter
@@ -126,12 +126,7 @@ class Case(Tabled, Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.contact.geometry != "point":
-            for key in POINT_GRID_KEYS:
-                if getattr(self.grid, key) is not None:
-                    raise InputError.worded(
-                        f"grid.{key}", "is not used by a line contact, only where contact.geometry is 'point'"
-                    )
+        self.grid.check_geometry(self.contact.geometry)
         self.lubricant.at(self.contact.temperature)
         check_geometry(self.roughness, self.contact.geometry)
         if self.discharge is not None:
@@ -142,6 +137,8 @@ class Case(Tabled, Table):
             self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
+        if self.motion is not None:
+            object.__setattr__(self, "grid", self.grid.fixed())
         return self
 
     @property
@@ -149,6 +146,11 @@ class Case(Tabled, Table):
         """Oil at the temperature of the contact: its numbers and its laws over pressure."""
         oil = self.lubricant.at(self.contact.temperature)
         return oil if self._laws is None else self._laws.applied(oil)
+
+    @property
+    def first_grid(self) -> Grid:
+        """Grid on which the film is solved first, with its number of nodes."""
+        return self.grid.first(rough=bool(self.roughness))
 
     @property
     def own_laws(self) -> SampledLaws | None:
@@ -327,7 +329,7 @@ class Case(Tabled, Table):
 
         A new key replaces its alternative: a Hertz pressure replaces the load, two radii replace the reduced
         radius, and a new ``lubricant.base`` replaces all values of the lubricant. A new geometry removes the
-        keys that only the old geometry has, and the lengths and nodes of its grid.
+        keys that only the old geometry has, and the lengths, nodes and error of its grid.
 
         Parameters
         ----------

@@ -153,8 +153,8 @@ def drop(table: dict[str, Any], key: str) -> None:
             del table[first]
 
 
-# Keys of a grid that stay if the geometry changes. Lengths and numbers of nodes are removed, because the
-# other geometry has other units of length and other defaults.
+# Keys of a grid that stay if the geometry changes. Lengths, numbers of nodes and the error are removed,
+# because the other geometry has other units of length and other defaults.
 _GRID_OF_ANY = ("wedge", "field_degree", "refine")
 
 
@@ -179,6 +179,7 @@ def displace_alternatives(table: dict[str, Any], changes: Mapping[str, Any], geo
         "discharge": (STRENGTHS, TABLES),
         "meter": (FILLINGS,),
         "motion": ((("passes",), ("duration",)),),
+        "grid": tuple((("error",), (key,)) for key in ("nodes", "nodes_y", "refine")),
     }
     displace(table, changes, alternatives)
     displace_oil(table.get("lubricant", {}), nested(changes, "lubricant"))

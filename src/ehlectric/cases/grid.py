@@ -43,7 +43,16 @@ _LEAST_COLUMNS = 16
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
 
 # Defaults of a point contact's grid where they differ from those of a line contact; lengths in semi-axes.
-_POINT_GRID: dict[str, Any] = {"nodes": 257, "inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
+_POINT_GRID: dict[str, Any] = {"inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
+
+# Numbers of nodes of a grid that is not refined and has no ``nodes``, and intervals of the first grid of one
+# that is, over the default domain of six lengths: of a line and of a point contact.
+_FIXED = {False: 3201, True: 257}
+_FIRST = {False: 400, True: 128}
+_DEFAULT_LENGTH = 6.0
+
+# Error of the film to which a grid without ``nodes`` is refined: of a line and of a point contact.
+_ERROR = {False: 0.01, True: 0.02}
 
 # Keys that only the grid of a point contact has.
 POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")
@@ -61,10 +70,20 @@ class Grid(Table):
     entrainment; for ``side`` and ``field_side`` it is the semi-axis across.
     """
 
-    nodes: Annotated[
-        int,
-        Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
-    ] = 3201
+    nodes: (
+        Annotated[
+            int,
+            Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
+        ]
+        | None
+    ) = None
+    error: (
+        Annotated[
+            float,
+            Quantity("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
+        ]
+        | None
+    ) = None
     nodes_y: (
         Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
         | None
@@ -104,17 +123,69 @@ class Grid(Table):
 
     @property
     def nodes_across(self) -> int:
-        """Number of nodes across a point contact; ``nodes`` if ``nodes_y`` is not given."""
-        return self.nodes if self.nodes_y is None else self.nodes_y
+        """Number of nodes across a point contact; that along it if ``nodes_y`` is not given."""
+        return self.first().nodes_along if self.nodes_y is None else self.nodes_y
+
+    @property
+    def nodes_along(self) -> int:
+        """Number of nodes along entrainment of the first grid."""
+        nodes = self.first().nodes
+        assert nodes is not None
+        return nodes
+
+    @property
+    def target(self) -> float | None:
+        """Relative error of the film to which the grid is refined; None if it has given nodes only."""
+        if self.refine is not None or self.error is not None:
+            return self.refine if self.error is None else self.error
+        return None if self._given else _ERROR[self.of_point]
+
+    @property
+    def _given(self) -> bool:
+        return self.nodes is not None or self.nodes_y is not None
+
+    def first(self, *, rough: bool = False) -> Grid:
+        """Grid with which a refinement begins: this one if it has nodes, else a coarse one.
+
+        With ``nodes_y`` alone it has the number of nodes along entrainment of a grid that is not refined. So
+        has that of a rough contact, since roughness needs a spacing that a coarse grid does not have.
+        """
+        if self.nodes is not None:
+            return self
+        if rough or self.nodes_y is not None:
+            return self.fixed()
+        intervals = _FIRST[self.of_point]
+        while (self.outlet - self.inlet) / intervals > 1.01 * _DEFAULT_LENGTH / _FIRST[self.of_point]:
+            intervals *= 2
+        return self.model_copy(update={"nodes": intervals + 1})
+
+    def fixed(self) -> Grid:
+        """Grid with its nodes, or with the default number if it has none; it is not refined by itself."""
+        if self.nodes is not None:
+            return self
+        return self.model_copy(update={"nodes": _FIXED[self.of_point]})
+
+    def check_geometry(self, geometry: str) -> None:
+        """Raise an InputError if the grid of a line contact has a key of point contacts."""
+        for key in POINT_GRID_KEYS if geometry != "point" else ():
+            if getattr(self, key) is not None:
+                raise InputError.worded(
+                    f"grid.{key}", "is not used by a line contact, only where contact.geometry is 'point'"
+                )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         domain = self.outlet - self.inlet
-        if self.nodes < 8.0 * domain:
+        for key in ("nodes", "nodes_y", "refine"):
+            if self.error is not None and getattr(self, key) is not None:
+                raise InputError(
+                    "error", got=f"error beside {key}", takes="one of them; nodes and refine go together"
+                )
+        if self.nodes_along < 8.0 * domain:
             lengths = "semi-axes" if self.of_point else "half-widths"
             raise InputError(
                 "nodes",
-                got=f"{self.nodes} over {domain:g} {lengths}",
+                got=f"{self.nodes_along} over {domain:g} {lengths}",
                 takes=f"at least {int(8.0 * domain) + 1} there: sixteen in the Hertz zone",
             )
         self._check_field_range(domain)
@@ -131,7 +202,7 @@ class Grid(Table):
                 got=f"[{start:g}, {stop:g}]{default}",
                 takes=f"two increasing numbers within inlet and outlet, [{self.inlet:g}, {self.outlet:g}]",
             )
-        columns = (stop - start) / domain * (self.nodes - 1)
+        columns = (stop - start) / domain * (self.nodes_along - 1)
         if self.field_nodes is None and columns < _LEAST_COLUMNS:
             raise InputError(
                 "field_range",
@@ -195,8 +266,8 @@ def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
     Examples
     --------
     >>> grid = Grid.from_dict(point_grid({"inlet": -9.0}))
-    >>> grid.nodes, grid.inlet, grid.outlet, grid.field_side
-    (257, -9.0, 1.5, 1.25)
+    >>> grid.inlet, grid.outlet, grid.field_side, grid.target, grid.first().nodes
+    (-9.0, 1.5, 1.25, 0.02, 257)
     """
     return {**_POINT_GRID, **table}
 

@@ -294,6 +294,12 @@ def input_field(key: str) -> FieldInfo:
     return field
 
 
+def _in_a_table(key: str) -> bool:
+    """Whether a key begins with the name of a table; the search for the nearest key takes milliseconds."""
+    name = key.partition(".")[0]
+    return name in Case.known_keys() or name in BearingCase.known_keys()
+
+
 def number_of(field: FieldInfo) -> Quantity | Count | None:
     """Quantity or count of a field that is a number; None for a text, a list or a choice.
 
@@ -336,6 +342,8 @@ def unit_of(key: str) -> str:
     >>> unit_of("contact.load_per_length"), unit_of("discharge.strength_table.strength.0")
     ('N/m', 'V/m')
     """
+    if not _in_a_table(key):
+        return ""
     try:
         name = key.rstrip("0123456789").rstrip(".") if key[-2:-1] == "." else key
         annotation = _annotation(input_field(name))
@@ -355,6 +363,8 @@ def kind_of(key: str) -> Quantity | Count | None:
     >>> kind_of("film.minimum_thickness") is None
     True
     """
+    if not _in_a_table(key):
+        return None
     try:
         return number_of(input_field(key))
     except InputError:

@@ -57,9 +57,10 @@ class Motion(Table):
             raise InputError(
                 "grid.wedge", got=f"{grid.wedge!r} beside motion", takes="'third-order' or 'second-order'"
             )
-        if grid.refine is not None:
-            raise InputError.worded(
-                "grid.refine",
-                "is not used with [motion], which has a single grid; give grid.nodes",
-                takes="grid.nodes",
-            )
+        for key in ("refine", "error"):
+            if getattr(grid, key) is not None:
+                raise InputError.worded(
+                    f"grid.{key}",
+                    "is not used with [motion], which has a single grid; give grid.nodes",
+                    takes="grid.nodes",
+                )

@@ -35,7 +35,7 @@ _ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasat
 _EXAMPLES = """\b
 Examples:
   ehlectric init bearing.toml --kind bearing      write a bearing to start from
-  ehlectric check bearing.toml                    what it means, by formula, at once
+  ehlectric check bearing.toml                    what it means, unsolved, at once
   ehlectric bearing bearing.toml -o results       solve it; does it spark?
   ehlectric init case.toml                        a single contact
   ehlectric run case.toml -o contact              solve it, with tables and figures
@@ -48,7 +48,7 @@ _COMMANDS = (
     ("examples", examples, "List or copy the examples.", ("examples", "examples bearing_6208 -o trial")),
     ("check", check, "Check a file without solving it.", ("check bearing.toml", "check sweep.toml --json")),
     ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
-    ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts formula",)),
+    ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts atlas",)),
     ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
     (
         "film",

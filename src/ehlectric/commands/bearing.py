@@ -58,10 +58,10 @@ def bearing(
         str,
         typer.Option(
             metavar="HOW",
-            help="Solve the contacts (solved), or take films from a formula at once (formula). Without this "
-            "option the file decides.",
+            help="Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
+            "(formula). Without this option the file decides.",
             show_default=False,
-            autocompletion=one_of("solved", "formula"),
+            autocompletion=one_of("solved", "atlas", "formula"),
         ),
     ] = "",
     measured: Measured = None,

@@ -22,7 +22,7 @@ def check(
     """Check a file of any kind without solving it, and print what it means.
 
     Hertz contact, groups, regime and film formulas of a contact; with [discharge], an estimate of its
-    breakdown voltage. Loads, speeds, oil, films, capacitance and margin of a bearing by formula. Number of
+    breakdown voltage. Loads, speeds, oil, films, capacitance and margin of a bearing, unsolved. Number of
     points of a sweep, and its first point.
 
     Exit status 0: the file can be solved. 2: the input is wrong.

@@ -67,13 +67,18 @@ _FILM: Keys = {
         "",
         "discretisation error of the film",
     ),
+    "target_error": ResultKey(
+        "relative error of the film to which the grid was to be refined; null for a grid of given nodes",
+        "",
+        "error asked of the film",
+    ),
     "max_pressure_error": ResultKey(
         "estimated relative error of max_pressure; above about 0.3 the grid does not resolve its peak",
         "",
         "error of the maximum pressure",
     ),
     "solver": ResultKey('solver of the film: "ehlectric" or "paper"'),
-    "nodes": ResultKey("nodes of the film; with `grid.refine` those of the last grid"),
+    "nodes": ResultKey("nodes of the film, of the last grid where it is refined"),
 }
 _POINT_FILM: Keys = {
     **_FILM,
@@ -89,7 +94,7 @@ _POINT_FILM: Keys = {
         "mean film thickness within the Hertz ellipse", "m", "mean film thickness", r"$\bar{h}$"
     ),
     "load_residual": ResultKey("abs(∫∫P dX dY/(2 π k/3) − 1)"),
-    "nodes": ResultKey("nodes [along, across] of the film; with `grid.refine` those of the last grid"),
+    "nodes": ResultKey("nodes [along, across] of the film, of the last grid where it is refined"),
     "inlet_deficit": ResultKey("share of the reduced pressure that would build up upstream of the domain"),
     "side_deficit": ResultKey(
         "share of the reduced pressure that the sides cut off, where the pressure is set to ambient"

@@ -46,8 +46,8 @@ def check_memory(case: Case) -> None:
         If film and field, or the recorded instants of a motion, need more than the available memory.
     """
     if case.motion is not None:
-        _check_record(case.motion, case.grid, _NODES[case.contact.geometry](case.grid))
-    check_grid(case.contact.geometry, case.grid, rough=bool(case.roughness))
+        _check_record(case.motion, case.first_grid, _NODES[case.contact.geometry](case.first_grid))
+    check_grid(case.contact.geometry, case.first_grid, rough=bool(case.roughness))
 
 
 def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:
@@ -73,7 +73,7 @@ def check_grid(geometry: str, grid: Grid, *, rough: bool) -> None:
 
 def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
     """Raise a MemoryLimitError if the instants of a motion, all read back at its end, do not fit."""
-    steps = motion.steps or (math.inf if motion.passes is None else motion.passes * grid.nodes)
+    steps = motion.steps or (math.inf if motion.passes is None else motion.passes * grid.nodes_along)
     available, needed = available_memory(), RECORD_BYTES * nodes * min(motion.record, steps + 1)
     if needed > available:
         raise MemoryLimitError(
@@ -103,13 +103,13 @@ def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, st
 def _columns_along(grid: Grid) -> int:
     """Number of columns of the field along entrainment."""
     start, stop = grid.field_range
-    return grid.field_nodes or int(grid.nodes * (stop - start) / (grid.outlet - grid.inlet))
+    return grid.field_nodes or int(grid.nodes_along * (stop - start) / (grid.outlet - grid.inlet))
 
 
 def line_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
     """Largest memory of the film and of the field of a line contact [bytes], rough or smooth."""
     del rough
-    film = FILM_BYTES * grid.nodes
+    film = FILM_BYTES * grid.nodes_along
     return film, FIELD_BYTES * _columns_along(grid) * (grid.field_degree + 1) ** 2
 
 
@@ -141,7 +141,7 @@ def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
     nodes_y, columns, columns_y = _point_sizes(grid)
     whole = rough or nodes_y % 2 == 0
     lines = nodes_y if whole else nodes_y // 2 + 1
-    film = (POINT_FILM_BYTES + 8 * KRYLOV_VECTORS) * grid.nodes * lines
+    film = (POINT_FILM_BYTES + 8 * KRYLOV_VECTORS) * grid.nodes_along * lines
     if not whole and (grid.field_nodes_y is None or grid.field_nodes_y % 2 == 1):
         columns_y = columns_y // 2 + 1
     return film, POINT_FIELD_BYTES * columns * columns_y * (grid.field_degree + 1)
@@ -158,12 +158,12 @@ def _point_sizes(grid: Grid) -> tuple[int, int, int]:
 
 
 def _line_size(grid: Grid) -> tuple[str, str]:
-    return f"{grid.nodes}", f"{_columns_along(grid)}"
+    return f"{grid.nodes_along}", f"{_columns_along(grid)}"
 
 
 def _point_size(grid: Grid) -> tuple[str, str]:
     nodes_y, columns, columns_y = _point_sizes(grid)
-    return f"{grid.nodes} x {nodes_y}", f"{columns} x {columns_y}"
+    return f"{grid.nodes_along} x {nodes_y}", f"{columns} x {columns_y}"
 
 
 # Functions of a grid by the geometry of the contact: memory of film and field, their grids as text, and
@@ -171,6 +171,6 @@ def _point_size(grid: Grid) -> tuple[str, str]:
 _NEEDED = {"line": line_memory, "point": point_memory}
 _SIZES = {"line": _line_size, "point": _point_size}
 _NODES: dict[str, Callable[[Grid], int]] = {
-    "line": lambda grid: grid.nodes,
-    "point": lambda grid: grid.nodes * grid.nodes_across,
+    "line": lambda grid: grid.nodes_along,
+    "point": lambda grid: grid.nodes_along * grid.nodes_across,
 }

@@ -68,9 +68,9 @@ def domain_of(setup: Case | Setup, conditions: PointConditions) -> Domain:
 
 def spacings(setup: Case | Setup, conditions: PointConditions) -> tuple[float, float]:
     """Node spacings of the film of a point contact, along and across entrainment [m]."""
-    domain, grid = domain_of(setup, conditions), setup.grid
+    domain, grid = domain_of(setup, conditions), setup.first_grid
     along, across = domain.outlet - domain.inlet, 2.0 * domain.side
-    return along / (grid.nodes - 1), across / (grid.nodes_across - 1)
+    return along / (grid.nodes_along - 1), across / (grid.nodes_across - 1)
 
 
 def geometry_of(conditions: PointConditions) -> Geometry:
@@ -101,7 +101,7 @@ def point_film_problem(
         smooth_problem(setup, conditions, nijenbanning_venner_moes(conditions.contact)),
         geometry=geometry_of(conditions),
         width=Width(
-            nodes=setup.grid.nodes_across,
+            nodes=setup.first_grid.nodes_across,
             side=conditions.side * conditions.ratio,
             symmetric=_symmetric(setup, conditions, rough),
         ),
@@ -113,8 +113,8 @@ def _symmetric(setup: Case | Setup, conditions: PointConditions, rough: Sequence
     """Whether the surfaces are symmetric about y = 0 at the nodes of the film."""
     if not rough:
         return True
-    domain, grid = domain_of(setup, conditions), setup.grid
-    x = np.linspace(domain.inlet, domain.outlet, grid.nodes)
+    domain, grid = domain_of(setup, conditions), setup.first_grid
+    x = np.linspace(domain.inlet, domain.outlet, grid.nodes_along)
     y = np.linspace(-domain.side, domain.side, grid.nodes_across)
     heights = heights_of(rough, x, y)
     difference = np.max(np.abs(heights - heights[:, :, ::-1]))
@@ -221,7 +221,7 @@ def line_domain_of(setup: Case | Setup, conditions: Conditions) -> Domain:
 
 def spacing(setup: Case | Setup, conditions: Conditions) -> float:
     """Node spacing of the film of a line contact [m]."""
-    return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.grid.nodes - 1)
+    return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.first_grid.nodes_along - 1)
 
 
 def check_tolerance(solver: Solver) -> None:
@@ -257,12 +257,12 @@ def smooth_problem(
     InputError is raised for a tolerance that is too large.
     """
     check_tolerance(setup.solver)
-    grid, guess = setup.grid, expected.central_thickness
+    grid, guess = setup.first_grid, expected.central_thickness
     wedge_order, flow = SCHEMES[grid.wedge]
     fluid = fluid_of(setup.oil, conditions.max_pressure, conditions.velocity_parameter)
     return FilmProblem(
         fluid=replace(fluid, flow=flow),
-        nodes=grid.nodes,
+        nodes=grid.nodes_along,
         inlet=grid.inlet,
         outlet=grid.outlet,
         thickness_guess=guess / conditions.thickness_scale,

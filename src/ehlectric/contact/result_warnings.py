@@ -82,7 +82,7 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
             + (", or not with the third-order wedge" if setup.grid.wedge == "first-order" else "")
             + ", so the discretisation error is unknown and probably large; use more grid.nodes",
         )
-    elif error is not None and error > max(0.01, setup.grid.refine or 0.0):
+    elif error is not None and error > max(0.01, setup.grid.target or 0.0):
         code, advice = "grid-too-coarse", ""
         if error > 0.1:
             code, advice = "grid-far-too-coarse", "do not use this film, "

@@ -44,6 +44,11 @@ class Setup:
     roughness: tuple[Roughness, ...] = ()
     title: str = ""
 
+    @property
+    def first_grid(self) -> Grid:
+        """Grid on which the film is solved first, with its number of nodes."""
+        return self.grid.first(rough=bool(self.roughness))
+
     @classmethod
     def of(cls, case: Case | Setup) -> Setup:
         """Make the setup of a case, or a copy of a setup."""

@@ -21,7 +21,7 @@ from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.memory import check_grid
 from ehlectric.contact.meter.reading import meter_warnings
 from ehlectric.contact.problems import heights_of
-from ehlectric.contact.refinement import refined
+from ehlectric.contact.refinement import Refined, refined
 from ehlectric.contact.result_warnings import accuracy_warnings, film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
@@ -213,7 +213,7 @@ def solve_contact(
         roughness=tuple(roughness),
         title=title,
     )
-    check_grid(conditions.geometry, grid, rough=bool(setup.roughness))
+    check_grid(conditions.geometry, setup.first_grid, rough=bool(setup.roughness))
     domain = kind.domain(setup, conditions)
     return _solved(
         PreparedContact(
@@ -260,7 +260,7 @@ def _solved(
     field = field_solvers.field[geometry](kind.field_problem(case, conditions, film, roughness))
     own, smooth = field_solvers.name == OWN.name, None
     if rough and beside_smooth:
-        smooth = _smooth(replace(contact, case=films.setup), field.axes, solvers)
+        smooth = _smooth(contact, films, field.axes, solvers)
     return RESULTS[geometry](
         case=case,
         conditions=conditions,  # type: ignore[arg-type]  # their type follows from the geometry
@@ -301,15 +301,36 @@ def _logged(progress: Progress | None) -> Progress:
     return step
 
 
-def _smooth(contact: PreparedContact, columns: tuple[Array, ...], solvers: Solvers) -> Smooth | None:
+def _smooth(
+    contact: PreparedContact, films: Refined, columns: tuple[Array, ...], solvers: Solvers
+) -> Smooth | None:
     """Solve the contact with smooth surfaces on the same grids; None if its film does not converge.
 
-    ``columns`` are the axes of the rough contact's field [m].
+    ``films`` are the films of the rough contact, and ``columns`` the axes of its field [m].
     """
-    smooth = replace(contact, case=replace(Setup.of(contact.case), roughness=()), rough=())
-    result = _solved(smooth, solvers=solvers)
-    if not result.converged:
+    kind, conditions = contact.kind, contact.conditions
+    first, last = (replace(setup, roughness=()) for setup in (films.first, films.setup))
+    problem = kind.film_problem(first, conditions, ())
+    if last.grid.nodes_along > first.grid.nodes_along:
+        # Refined as often as the rough film, whatever its error.
+        problem = replace(problem, target_error=0.0, most_nodes=last.grid.nodes_along)
+    film = solvers.film[conditions.geometry](problem)
+    if not film.converged:
         return None
-    middle = RegularGridInterpolator(result.field.axes, result.field.middle_strength)
-    at = np.stack(np.meshgrid(*columns, indexing="ij"), axis=-1)
-    return Smooth(result.film.pressure, result.film.thickness, middle(at))
+    heights = heights_of((), *film.axes)
+    field = solvers.field[conditions.geometry](kind.field_problem(last, conditions, film, heights))
+    nodes = films.film.axes
+    return Smooth(
+        _on(film.axes, film.pressure, nodes),
+        _on(film.axes, film.thickness, nodes),
+        _on(field.axes, field.middle_strength, columns),
+    )
+
+
+def _on(axes: tuple[Array, ...], values: Array, nodes: tuple[Array, ...]) -> Array:
+    """Values on other nodes within the same domain; as they are where the nodes are the same."""
+    if all(np.array_equal(axis, other) for axis, other in zip(axes, nodes, strict=True)):
+        return values
+    at = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
+    found: Array = RegularGridInterpolator(axes, values)(at)
+    return found

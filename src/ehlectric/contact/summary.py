@@ -78,7 +78,8 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "discretisation_error",
         "max_pressure_error",
     )
-    return {name: getattr(film, name) for name in names} | {"solver": solution.film_solver}
+    target = {"target_error": solution.case.grid.target}
+    return {name: getattr(film, name) for name in names} | target | {"solver": solution.film_solver}
 
 
 def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from typing import Any
 import xarray as xr
 from matplotlib.figure import Figure
 
-from ehlectric.bearing.by_formula import formula_case
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.table import nearest
@@ -104,9 +104,9 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
 def figure_names(result: AnyResult) -> list[str]:
     """Names of the figures that a result has.
 
-    Those of a bearing include its figures over speed, which are drawn from contacts by formula. Those of a
-    sweep are maps and lines of each value that has a name, over the first varied keys; ``x`` and ``y`` choose
-    others.
+    Those of a bearing include its figures over speed, which are drawn from contacts that are not solved.
+    Those of a sweep are maps and lines of each value that has a name, over the first varied keys; ``x`` and
+    ``y`` choose others.
 
     Parameters
     ----------
@@ -213,8 +213,8 @@ def _save_measured(factors: FilmFactors, folder: Path, formats: Sequence[str]) -
 
 
 def _names_of_bearing(result: BearingResult) -> list[str]:
-    """Names of the figures of a bearing, also over speed as far as formulas compute them."""
-    case, _ = formula_case(result.case)
+    """Names of the figures of a bearing, also over speed as far as its quick contacts have them."""
+    case, _ = quick_case(result.case)
     if case is None:
         return list(bearing.bearing_figures_of(result))
     breaks = case.discharge.has_strength and not result.solution.conditions.ceramic

@@ -230,6 +230,31 @@ class Deflection:
             matrix += np.where(y > 0, self.influence[along, y[:, np.newaxis] + y], 0.0)
         return matrix
 
+    def beside(self, steps: tuple[int, ...]) -> Array:
+        """Influence coefficients along a line of nodes beside those of a pressure.
+
+        Parameters
+        ----------
+        steps : tuple of int
+            Steps along x.
+
+        Returns
+        -------
+        ndarray, shape (n steps, 2 nx - 1)
+            Deflection at the node a step behind node i by the pressure of node j, over j - i from 1 - nx to
+            nx - 1. Beyond the grid it is that of its largest distance.
+        """
+        if steps not in self._beside:
+            nx = len(self.influence)
+            apart = np.abs(np.arange(1 - nx, nx) - np.array(steps)[:, np.newaxis])
+            self._beside[steps] = self.influence[np.minimum(apart, nx - 1), 0]
+        return self._beside[steps]
+
+    @cached_property
+    def _beside(self) -> dict[tuple[int, ...], Array]:
+        """Coefficients of ``beside`` by their steps."""
+        return {}
+
     def __call__(self, pressure: Array) -> Array:
         """Deflection under ``pressure`` (nx, ny), by which the gap opens; dimensionless, shape (nx, ny)."""
         nx, ny = pressure.shape

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 
@@ -98,7 +99,7 @@ def of_three_grids(films: Sequence[tuple[Mesh, Array]]) -> float:
     >>> round(of_three_grids(films), 4)
     0.0056
     """
-    minima, centres = np.array([[_lowest(*film), at_centre(*film)] for film in films]).T
+    minima, centres = np.array([[lowest(*film), at_centre(*film)] for film in films]).T
     least = float(np.min(films[0][1]))
     of_minimum = _change(minima, MINIMUM_ORDER) / _MINIMUM_GAIN + (least - minima[0])
     of_centre = _change(centres, 2.0) / 3.0
@@ -111,19 +112,38 @@ def _change(values: Array, order: float) -> float:
     return float(max(fine, coarse / 2.0**order))
 
 
-def _lowest(mesh: Mesh, thickness: Array) -> float:
-    """Lowest film thickness between the nodes, by a parabola along each axis through the lowest node."""
+def lowest(mesh: Mesh, thickness: Array) -> float:
+    """Lowest film thickness between the nodes, by a parabola along each axis through the lowest node.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Grid.
+    thickness : ndarray, shape (nx, ny)
+        Film thickness, in any unit.
+
+    Returns
+    -------
+    float
+        Lowest film thickness, in the unit of ``thickness``.
+
+    Examples
+    --------
+    >>> mesh = Mesh.over(4, -1.0, 2.0)
+    >>> round(lowest(mesh, 1.0 + (mesh.x[:, np.newaxis] - 0.4) ** 2), 12)
+    1.0
+    """
     whole = mesh.mirrored(thickness)
     at = np.unravel_index(int(np.argmin(whole)), whole.shape)
-    lowest = float(whole[at])
+    least = float(whole[at])
     for axis, place in enumerate(at):
         if 0 < place < whole.shape[axis] - 1:
             before, here, after = np.take(
                 np.moveaxis(whole, axis, 0)[:, at[1 - axis]], [place - 1, place, place + 1]
             )
             bend = before - 2.0 * here + after
-            lowest -= float((after - before) ** 2 / (8.0 * bend)) if bend > 0.0 else 0.0
-    return lowest
+            least -= float((after - before) ** 2 / (8.0 * bend)) if bend > 0.0 else 0.0
+    return least
 
 
 def film_error(
@@ -231,13 +251,20 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
     increments = 0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure)
     inside = float(np.max(np.cumsum(increments)))
     # With X = inlet/t and 0 < t < 1 the integrand is smooth: it is about t^2.
-    points, weights = np.polynomial.legendre.leggauss(40)
+    points, weights = _gauss_points()
     t = 0.5 * (points + 1.0)
     gap = float(mass[0]) + 0.5 * float(x[0]) ** 2 * (1.0 / t**2 - 1.0)
     gradient = fluid.velocity_parameter * (gap - flow) / gap**3
     before = float(np.sum(0.5 * weights * gradient * abs(float(x[0])) / t**2))
     before /= 1.0 + 2.0 * geometry.radius_ratio / 3.0
     return before / (before + inside) if before > 0.0 else 0.0
+
+
+@cache
+def _gauss_points() -> tuple[Array, Array]:
+    """Points and weights of Gauss-Legendre quadrature between -1 and 1; their search takes a millisecond."""
+    points, weights = np.polynomial.legendre.leggauss(40)
+    return points, weights
 
 
 def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:

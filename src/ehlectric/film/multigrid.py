@@ -18,7 +18,7 @@ from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.relaxation import LineRelaxation, distributed_nodes
-from ehlectric.film.reynolds import Stencil, linearise, poiseuille_weight
+from ehlectric.film.reynolds import ALONG, OFFSETS, Stencil, linearise, poiseuille_weight
 
 # Change of ln eps between neighbours above which a coarser grid cannot resolve the solution.
 _UNRESOLVED = 1.5
@@ -26,6 +26,9 @@ _UNRESOLVED = 1.5
 # Largest change of ln eps at any node up to which a preconditioner is kept. Up to 2 it costs no more GMRES
 # iterations than a new one.
 _ALIKE = 0.6
+
+# Steps along x to the nodes that a row of a stencil couples.
+_STEPS = tuple(step for step, _ in OFFSETS[:ALONG])
 
 # Fraction of the residual below which one cycle on a coarser grid is enough, and no second cycle follows.
 _ENOUGH = 0.1
@@ -54,7 +57,7 @@ class Linearised:
     log_viscosity : ndarray, shape (nx, ny)
         ln(eta/eta_0) at the state.
     kept : Linearised or None
-        Similar Jacobian at an older state, whose line relaxation is used instead of a new one.
+        Similar Jacobian at an older state, whose line relaxation or factors are used instead of new ones.
     """
 
     gap: Gap
@@ -113,6 +116,8 @@ class Linearised:
     @cached_property
     def solve_dense(self) -> DenseSolver:
         """Direct solver with this Jacobian for the coarsest grid, a function (r, load) -> (dP, dH00)."""
+        if self.kept is not None:
+            return self.kept.solve_dense
         return DenseSolver.of(self.gap, self.by_p, self.by_h, self.full_film)
 
 
@@ -124,11 +129,14 @@ class DenseSolver:
     ----------
     full_film : ndarray of bool, shape (nx, ny)
         Nodes whose pressure changes; the change at all others is zero.
+    part : slice
+        Nodes from the first one with a full film to the last one, of all nodes with y fastest.
     factors, pivots : ndarray
-        LU factorisation of the matrix of nx ny + 1 rows.
+        LU factorisation of the transposed matrix of these nodes and of the balance of load.
     """
 
     full_film: Mask
+    part: slice
     factors: Array
     pivots: Array
 
@@ -138,22 +146,49 @@ class DenseSolver:
 
         The rows of the derivatives must be zero at cavitated nodes.
         """
-        n = full_film.size
-        # LAPACK takes columns, which are the rows of the transposed matrix here: nothing is copied.
+        # Nodes before and behind the full film, as in a cavitated outlet, are left out.
+        free = np.flatnonzero(full_film)
+        part = slice(int(free[0]), int(free[-1]) + 1) if free.size else slice(0, 1)
+        n = part.stop - part.start
         matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = by_p.matrix() + by_h.times(gap.matrix())
-        matrix[:n, n] = by_h.coefficients.sum(axis=0).ravel()
-        matrix[n, :n] = np.where(full_film, gap.load_weights(), 0.0).ravel()
-        cavitated = np.flatnonzero(~full_film.ravel())
+        if full_film.shape[1] == 1:
+            _fill_of_line(matrix, gap, by_p, by_h, part)
+        else:
+            matrix[:n, :n] = (by_p.matrix() + by_h.times(gap.matrix()))[part, part]
+        matrix[:n, n] = by_h.coefficients.sum(axis=0).ravel()[part]
+        matrix[n, :n] = np.where(full_film, gap.load_weights(), 0.0).ravel()[part]
+        cavitated = np.flatnonzero(~full_film.ravel()[part])
         matrix[cavitated, cavitated] = 1.0
-        factors, pivots, _ = lapack.dgetrf(matrix)
-        return cls(full_film, factors, pivots)
+        # LAPACK takes columns, which are the rows of the transposed matrix here: nothing is copied.
+        factors, pivots, _ = lapack.dgetrf(matrix.T, overwrite_a=1)
+        return cls(full_film, part, factors, pivots)
 
     def __call__(self, r: Array, load: float) -> tuple[Array, float]:
         """Solution dP (nx, ny) and dH00 for the right side r (nx, ny) and ``load``."""
-        right = np.append(np.where(self.full_film, r, 0.0), load)
-        solution, _ = lapack.dgetrs(self.factors, self.pivots, right)
-        return np.where(self.full_film, solution[:-1].reshape(r.shape), 0.0), float(solution[-1])
+        right = np.append(np.where(self.full_film, r, 0.0).ravel()[self.part], load)
+        solution, _ = lapack.dgetrs(self.factors, self.pivots, right, trans=1, overwrite_b=1)
+        dp = np.zeros(r.size)
+        dp[self.part] = solution[:-1]
+        return np.where(self.full_film, dp.reshape(r.shape), 0.0), float(solution[-1])
+
+
+def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: slice) -> None:
+    """Write the Jacobian of some nodes of a line contact by the pressures of these nodes into ``matrix``.
+
+    ``matrix`` has one more row and column than there are nodes. The derivatives of H depend on the distance
+    of the nodes only. All rows over this distance are one product of matrices, and the Jacobian is a view of
+    it whose rows begin one distance further left from row to row.
+    """
+    n, nodes = len(matrix) - 1, gap.level.nodes
+    kernel = gap.level.deflection.beside(_STEPS)[:, nodes - n : nodes + n - 1]
+    over_distance = (by_h.coefficients[:ALONG, part, 0].T @ kernel).reshape(-1)
+    matrix[:n, :n] = over_distance[n - 1 : n - 1 + n * (2 * n - 2)].reshape(n, 2 * n - 2)[:, :n]
+    flat = matrix.reshape(-1)
+    for row, step in zip(by_p.coefficients[:ALONG, part, 0], _STEPS, strict=True):
+        first, count = max(0, -step), n - abs(step)
+        if count > 0:
+            start = first * (n + 2) + step
+            flat[start : start + count * (n + 2) : n + 2] += row[first : first + count]
 
 
 def _resolved(level: Level, eps: Array, full_film: Mask) -> Mask:
@@ -227,7 +262,7 @@ def with_kept_preconditioner(
     list of Linearised or None
         None where the states differ too much for the older preconditioner, or are cavitated elsewhere.
     """
-    if len(jacobians) < 2:
+    if not jacobians:
         return None
     last, *coarser = jacobians
     old = last.kept or last

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from ehlectric.arrays import Array
+from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.newton import assess, newton
@@ -26,6 +29,18 @@ NESTED_TOLERANCE = 1e-6
 # point contact. A quarter of the nodes would not resolve a thin film.
 FIRST_GRID = 101
 _FIRST_GRID_POINT = 33
+
+# Largest number of nodes of a line contact whose linear systems are solved directly, without coarser grids:
+# the factorisation then takes less time than the cycles.
+_DIRECT = 401
+
+# Largest number of nodes of a smooth line contact whose grids are kept for the next contact, and number of
+# such grids, which take about 10 MB at most.
+_MOST_KEPT, _GRIDS_KEPT = 3201, 12
+
+# Residual of the film of first order that a line contact starts from: the Newton steps below it change less
+# than the order of the wedge term does.
+_WARM_TOLERANCE = 1e-2
 
 # Continuation in roughness height: first and smallest increment as fractions of the full height, and the
 # tolerance of the intermediate films.
@@ -151,20 +166,31 @@ def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
     if added is not None:
         smooth = geometry.dry_gap
         geometry = replace(geometry, dry_gap=lambda x, y: smooth(x, y) + roughness * added(x, y))
-    levels = hierarchy(
-        problem.nodes,
-        inlet=problem.inlet,
-        outlet=problem.outlet,
-        geometry=geometry,
-        wedge_order=problem.wedge_order,
-        width=problem.width,
-        source=problem.source,
-    )
+    if added is None and problem.width is None and problem.source is None and problem.nodes <= _MOST_KEPT:
+        levels = list(
+            _line_levels(problem.nodes, problem.inlet, problem.outlet, geometry, problem.wedge_order)
+        )
+    else:
+        levels = hierarchy(
+            problem.nodes,
+            inlet=problem.inlet,
+            outlet=problem.outlet,
+            geometry=geometry,
+            wedge_order=problem.wedge_order,
+            width=problem.width,
+            source=problem.source,
+        )
     if problem.edge_pressure is None:
         return levels
-    mesh = levels[0].mesh
-    excess = problem.edge_pressure(mesh.x, mesh.y) - problem.fluid.ambient_pressure
-    return [replace(levels[0], edge_excess=np.where(mesh.edge, excess, 0.0)), *levels[1:]]
+    return [replace(levels[0], edge_excess=problem.edge_excess(levels[0].mesh)), *levels[1:]]
+
+
+@lru_cache(maxsize=_GRIDS_KEPT)
+def _line_levels(
+    nodes: int, inlet: float, outlet: float, geometry: Geometry, wedge_order: int
+) -> tuple[Level, ...]:
+    """Grids of a smooth line contact, which are the same for all contacts on as many nodes."""
+    return tuple(hierarchy(nodes, inlet=inlet, outlet=outlet, geometry=geometry, wedge_order=wedge_order))
 
 
 def _is_trial_grid(problem: FilmProblem, solution: GridSolution) -> bool:
@@ -260,9 +286,10 @@ def _solve_grid(
     to solve the nodes of the pressure spike separately.
     """
     finest = levels[0].nodes == problem.nodes
+    direct = problem.width is None and levels[0].nodes <= _DIRECT
     return newton(
         problem.fluid,
-        levels,
+        levels[:1] if direct else levels,
         state,
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,
@@ -289,10 +316,52 @@ def _from_coarser(
 def _interpolated(level: Level, coarse: GridSolution) -> State:
     """State on a grid with the pressure of a coarser grid, interpolated by a monotone cubic."""
     of = coarse.level.mesh
-    pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
+    if level.nodes == 2 * of.x.size - 1:
+        pressure = halved(coarse.state.pressure)
+    else:
+        pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
     if of.y.size > 1:
         pressure = PchipInterpolator(of.whole_y, of.mirrored(pressure), axis=1)(level.mesh.y)
     return State.of(level, pressure, coarse.state.h00)
+
+
+def halved(values: Array) -> Array:
+    """Values along the first axis at the nodes of a uniform grid and half-way between them.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n, ny)
+        Values at the nodes, n > 2.
+
+    Returns
+    -------
+    ndarray, shape (2 n - 1, ny)
+        Values of the monotone cubic of ``scipy.interpolate.PchipInterpolator``.
+
+    Notes
+    -----
+    F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, doi:10.1137/0905021: the slope at a
+    node is the harmonic mean of the slopes on both sides, and zero between slopes of different signs.
+
+    Examples
+    --------
+    >>> halved(np.array([[0.0], [0.5], [2.0]]))[:, 0].tolist()
+    [0.0, 0.15625, 0.5, 1.09375, 2.0]
+    """
+    rises = np.diff(values, axis=0)
+    before, after = rises[:-1], rises[1:]
+    slopes = np.empty_like(values)
+    product = before * after
+    alike = product > 0.0
+    slopes[1:-1] = np.divide(2.0 * product, before + after, out=np.zeros_like(product), where=alike)
+    for end, near, next_one in ((0, rises[0], rises[1]), (-1, rises[-1], rises[-2])):
+        slope = 1.5 * near - 0.5 * next_one
+        slope = np.where((near * next_one < 0.0) & (np.abs(slope) > 3.0 * np.abs(near)), 3.0 * near, slope)
+        slopes[end] = np.where(slope * near > 0.0, slope, 0.0)
+    fine = np.empty((2 * len(values) - 1, *values.shape[1:]))
+    fine[::2] = values
+    fine[1::2] = 0.5 * (values[1:] + values[:-1]) + 0.125 * (slopes[:-1] - slopes[1:])
+    return fine
 
 
 def _from_hertz(
@@ -313,7 +382,10 @@ def _from_hertz(
         monotone = [
             replace(level, wedge=wedge_stencil(level.mesh.shape, level.mesh.dx, order=1)) for level in levels
         ]
-        start = _solve_grid(problem, monotone, state, progress, spike=False)
+        loosely = problem
+        if problem.width is None:
+            loosely = replace(problem, tolerance=max(problem.tolerance, _WARM_TOLERANCE))
+        start = _solve_grid(loosely, monotone, state, progress, spike=False)
         yield start
         state = start.state if start.status == "converged" else state
     yield _solve_grid(problem, levels, state, progress, spike=False)

@@ -47,6 +47,10 @@ KRYLOV_LIMIT = 60
 # Residual below which a film that has grown in two successive steps is filled over many nodes at a time.
 _NEAR = 1e-3
 
+# Numbers of nodes of a stationary line contact between which an older preconditioner is kept. On fewer nodes
+# a new one takes less time than an iteration; on more nodes an older one takes one and a half times as many.
+_KEPT = (201, 10_000)
+
 # Weight of the relative load imbalance in the residual: the load is balanced ten times as closely as the
 # Reynolds equation.
 _LOAD_WEIGHT = 10.0
@@ -101,9 +105,9 @@ def newton(
     # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
     tolerance = max(tolerance, ROUNDING * level.rate)
     # In a stationary line contact the pressure spike dominates the norm of the residual. A linear system that
-    # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids. There an
-    # older preconditioner takes more iterations, too.
+    # is not solved closely leaves errors in the inlet, which take more Newton steps on fine grids.
     loose = transient or level.mesh.dy is not None
+    keeps = _keeps(levels, transient=transient)
     steps: list[NewtonStep] = []
     grown = 0  # successive steps in which the full film has grown
     now = assess(fluid, level, state)
@@ -114,7 +118,7 @@ def newton(
             progress(level.nodes, len(steps), now.norm)
         if eliminate_spike:
             state, now = _without_spike(fluid, level, state, now)
-        jacobians = _linearised(fluid, levels, state, now, last=jacobians if loose else [])
+        jacobians = _linearised(fluid, levels, state, now, last=jacobians if keeps else [])
         close = LINEAR_TOLERANCE
         if loose:
             close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)
@@ -136,6 +140,14 @@ def newton(
         state, now = candidate, assessed
     status: Status = "converged" if now.norm <= tolerance else "stalled"
     return GridSolution(level, state, now, tuple(steps), status)
+
+
+def _keeps(levels: list[Level], *, transient: bool) -> bool:
+    """Whether the preconditioner of one Newton step may serve the next."""
+    least, most = _KEPT
+    if levels[0].mesh.dy is None and not transient:
+        return least < levels[0].nodes < most
+    return len(levels) > 1
 
 
 def _refilled(now: Residual) -> Residual:
@@ -250,8 +262,11 @@ def _direction(
     finest = jacobians[0]
     resting = fluid.ambient_pressure + finest.level.edge_excess
     to_ambient = np.where(now.full_film, 0.0, resting - state.pressure)
-    change, load_change = finest(to_ambient, 0.0)
+    change, load_change = finest(to_ambient, 0.0) if to_ambient.any() else (0.0, 0.0)
     right = np.append(-finest.scale * (now.reynolds + change), now.load - load_change)
+    if len(jacobians) == 1 and finest.kept is None:
+        solution = cycled(jacobians, right)
+        return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), 1
     cycles = 0
 
     def precondition(image: Array) -> Array:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from ehlectric.arrays import Array
 from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.flow import Fluid
-from ehlectric.film.mesh import Width
+from ehlectric.film.mesh import Mesh, Width
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,13 @@ class FilmProblem:
     def order(self) -> int:
         """Order of the discretisation, 1 or 2: the flow through the faces is accurate to second order."""
         return min(2, self.wedge_order)
+
+    def edge_excess(self, mesh: Mesh) -> Array | float:
+        """Pressure above ambient on the edges of a mesh (nx, ny), zero inside."""
+        if self.edge_pressure is None:
+            return 0.0
+        excess = self.edge_pressure(mesh.x, mesh.y) - self.fluid.ambient_pressure
+        return np.where(mesh.edge, excess, 0.0)
 
     def doubled(self) -> FilmProblem:
         """Problem on the grid with twice as many intervals along both axes."""

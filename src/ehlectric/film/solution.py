@@ -171,7 +171,15 @@ def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any
     outer = patch.outer_deflection(patch.times(mesh))(mesh.x, mesh.y)
     fine = _values(scales, finest, outer)
     coarse = _values(scales, patch.coarse, 0.0)
-    return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}
+    added = patch.problem.added_gap
+    if added is None:
+        return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}
+    # The film without roughness is smooth enough to be interpolated between the coarse nodes.
+    for values, on in ((coarse, patch.coarse.level.mesh), (fine, mesh)):
+        values["thickness"] = values["thickness"] - scales.thickness * added(on.x, on.y)
+    nodal = {name: joined(coarse[name], fine[name]) for name in fine}
+    nodal["thickness"] += scales.thickness * added(joined.x, joined.y)
+    return joined.x, nodal
 
 
 def _values(scales: Scales, solution: GridSolution, outer: Array | float) -> dict[str, NDArray[Any]]:

@@ -134,7 +134,7 @@ class UnsteadyFilm:
         self._moving_gap = moving_gap
         dry = problem.geometry.dry_gap
         standing = problem.added_gap
-        self._levels = hierarchy(
+        levels = hierarchy(
             problem.nodes,
             inlet=problem.inlet,
             outlet=problem.outlet,
@@ -144,6 +144,8 @@ class UnsteadyFilm:
             wedge_order=2,
             width=problem.width,
         )
+        edge_excess = problem.edge_excess(levels[0].mesh)
+        self._levels = [replace(levels[0], edge_excess=edge_excess), *levels[1:]]
 
     @property
     def level(self) -> Level:

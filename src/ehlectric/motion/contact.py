@@ -146,7 +146,7 @@ def travelled_case(case: Case, schedule: Schedule) -> Case:
             inlet = min(inlet, grid.inlet - beyond)
         else:
             outlet = max(outlet, grid.outlet + beyond)
-    nodes = 1 + int(np.ceil((grid.nodes - 1) * (outlet - inlet) / length - _ROUNDING))
+    nodes = 1 + int(np.ceil((grid.nodes_along - 1) * (outlet - inlet) / length - _ROUNDING))
     changes = {"inlet": inlet, "outlet": outlet, "nodes": nodes}
     changes |= KINDS[case.contact.geometry].nodes_across(grid)
     return case.model_copy(update={"grid": grid.model_copy(update=changes)})

@@ -41,6 +41,12 @@ _STEPS = {
     "krylov_iterations": ("whole", "1"),
     "halvings": ("whole", "1"),
 }
+_KEY_FILMS = {
+    "lowest_thickness": "finite",
+    "central_thickness": "positive",
+    "coarse_lowest_thickness": "finite or NaN",
+    "coarse_central_thickness": "not negative or NaN",
+}
 _FRAMES = {
     "frame_time": ("increasing", "s"),
     "frame_step": ("increasing", "1"),
@@ -107,7 +113,8 @@ def _rules(axes: tuple[str, ...], *, stationary: bool) -> dict[str, Rule]:
         found |= {name: Rule(dims, *what) for name, what in table.items() if name not in lacking}
     if stationary:
         found |= {f"stationary_{name}": Rule(axes, *what) for name, what in _MAPS.items()}
-    # Runs of earlier versions have no estimate of it.
+    # Runs of earlier versions have no estimate of errors.
+    found |= {name: Rule(("step",), values, "m", needed=False) for name, values in _KEY_FILMS.items()}
     found["max_strength_error"] = Rule(("frame",), "not negative or NaN", "1", needed=False)
     return found
 

@@ -20,9 +20,10 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError
 from ehlectric.film.unsteady import History
+from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.kinds import AnyKind
-from ehlectric.motion.resume import keep, kept
+from ehlectric.motion.resume import COARSE, keep, kept
 from ehlectric.motion.solver import Snapshot, TransientSolver
 from ehlectric.runtime.files import plain, write
 from ehlectric.runtime.netcdf import changed, created, opened, resize
@@ -35,6 +36,13 @@ _STEPS = {
     "minimum_thickness": ("minimum film thickness", "m"),
     "minimum_x": ("position of the minimum film thickness, along entrainment", "m"),
     "minimum_y": ("position of the minimum film thickness, across entrainment", "m"),
+    "lowest_thickness": ("minimum film thickness between the nodes", "m"),
+    "central_thickness": ("film thickness at the centre of the contact", "m"),
+    "coarse_lowest_thickness": (
+        "minimum film thickness between the nodes of the companion, NaN between its steps",
+        "m",
+    ),
+    "coarse_central_thickness": ("film thickness at the centre of the companion, NaN between its steps", "m"),
     "max_pressure": ("maximum pressure", "Pa"),
     "thin_gap_strength": ("voltage / minimum film thickness", "V/m"),
     "newton_iterations": ("Newton steps of a time step", "1"),
@@ -72,13 +80,17 @@ class Row:
     values: Mapping[str, float]
 
     @classmethod
-    def of(cls, solver: TransientSolver, history: History) -> Row:
-        """Values of the last time step of a history."""
+    def of(cls, solver: TransientSolver, history: History, coarse: KeyFilms) -> Row:
+        """Values of the last time step of a history, with the film thicknesses of the companion there."""
         contact, instant = solver.contact, history.now
-        extremes = solver.extremes(instant)
+        extremes, films = solver.extremes(instant), solver.key_films(instant)
         values: dict[str, float] = {
             "time": instant.time * contact.schedule.time,
             "minimum_thickness": extremes.minimum_thickness,
+            "lowest_thickness": films.lowest,
+            "central_thickness": films.central,
+            "coarse_lowest_thickness": coarse.lowest,
+            "coarse_central_thickness": coarse.central,
             "max_pressure": extremes.max_pressure,
             "thin_gap_strength": contact.case.electric.voltage / extremes.minimum_thickness,
             "newton_iterations": history.effort.newton,
@@ -102,6 +114,8 @@ class Record:
         Film, roughness and field.
     history : History
         Films of the last two time steps, from which the run can be resumed.
+    coarse : History or None
+        Films of the last two time steps of the companion; None if it did not converge.
     seconds : float
         Computing time since the last recorded instant [s].
     """
@@ -110,6 +124,7 @@ class Record:
     rows: Sequence[Row]
     snapshot: Snapshot
     history: History
+    coarse: History | None
     seconds: float
 
 
@@ -192,6 +207,8 @@ class MotionFile:
         for name, value in (*maps.items(), *numbers.items()):
             file.variables[name][frame] = value
         keep(file, record.history, frame)
+        if record.coarse is not None:
+            keep(file, record.coarse, frame, group=COARSE)
         file.attrs["seconds"] = float(file.attrs["seconds"]) + record.seconds
         file.attrs["frames"] = frame + 1
         file.attrs["complete"] = int(step == self._contact.schedule.steps)
@@ -216,8 +233,10 @@ class MotionFile:
         except (OSError, KeyError, ValueError, RuntimeError):
             return False  # there is no file, or it is damaged or has no run
 
-    def resumed(self) -> tuple[int, History] | None:
+    def resumed(self) -> tuple[int, History, History | None] | None:
         """Last recorded step of an unfinished run of the same case, and the films to resume it from.
+
+        The last films are those of the companion; None if the file does not have them.
 
         None if the file does not exist, or does not contain such a run.
 
@@ -234,7 +253,10 @@ class MotionFile:
                     return None
                 self._left, frames = _state(file), int(file.attrs["frames"])
                 history = kept(file, frames)
-                return None if history is None else (int(file.variables["frame_step"][frames - 1]), history)
+                if history is None:
+                    return None
+                coarse = kept(file, frames, group=COARSE) if COARSE in file.groups else None
+                return int(file.variables["frame_step"][frames - 1]), history, coarse
         except DamagedError as error:
             text = error.text.replace("compute it again", "remove it to solve the case from its start")
             raise DamagedError(self._path, text) from None

@@ -54,6 +54,16 @@ _FILM: Keys = {
         r"$p_\mathrm{max}$",
     ),
     "max_pressure_time": ResultKey("time of max_pressure", "s"),
+    "discretisation_error": ResultKey(
+        "estimated relative discretisation error, of grid and time steps together: the larger of "
+        "minimum_thickness_error and central_thickness_error; null if unknown",
+        "",
+        "discretisation error of the film",
+    ),
+    "minimum_thickness_error": ResultKey("estimated relative error of minimum_thickness; null if unknown"),
+    "central_thickness_error": ResultKey(
+        "largest estimated relative error over time of the film thickness at the centre; null if unknown"
+    ),
 }
 _FIELD: Keys = {
     "voltage": ResultKey("abs(V2 − V1)", "V", "voltage", "$V_{12}$"),
@@ -92,7 +102,7 @@ _DISCHARGE: Keys = {
     "breakdown_time": ResultKey("time of breakdown_voltage", "s"),
     "breakdown_field_error": ResultKey(
         "relative error of breakdown_voltage that is due to the field, `field.max_strength_error`; the error "
-        "of the film comes on top; null if unknown"
+        "of the film, `film.minimum_thickness_error`, comes on top; null if unknown"
     ),
     "breakdown_voltage_before": ResultKey("breakdown voltage before the motion", "V"),
     "breakdown_voltage_median": ResultKey("median of the breakdown voltage over time", "V"),
@@ -161,7 +171,8 @@ def _stationary(capacitance: str) -> Keys:
         "max_strength": ResultKey("maximum field strength", "V/m"),
         "capacitance": ResultKey("capacitance of the field range", capacitance),
         "discretisation_error": ResultKey(
-            "relative discretisation error of the stationary film; the moving film has no estimate"
+            "relative discretisation error of the stationary film; that of the moving film is "
+            "`film.discretisation_error`"
         ),
     }
 

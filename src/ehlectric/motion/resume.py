@@ -24,8 +24,11 @@ _NUMBERS = ("t", "h00")
 # Number of places that are written alternately.
 _PLACES = 2
 
+# Groups with the films of the run and with those of its companion.
+_FINE, COARSE = "resume", "resume_coarse"
 
-def keep(file: Any, history: History, frame: int) -> None:
+
+def keep(file: Any, history: History, frame: int, *, group: str = _FINE) -> None:
     """Write the last two instants of a run.
 
     Parameters
@@ -36,17 +39,19 @@ def keep(file: Any, history: History, frame: int) -> None:
         Last two instants.
     frame : int
         Number of the recorded instant, which determines the place.
+    group : str
+        Group of the file: that of the run, or ``COARSE`` for the films of its companion.
     """
     values = _values_of(history)
-    if "resume" not in file.groups:
-        _create(file, history.now.state.pressure.shape)
-    group, place = file.groups["resume"], frame % _PLACES
+    if group not in file.groups:
+        _create(file, group, history.now.state.pressure.shape)
+    variables, place = file.groups[group].variables, frame % _PLACES
     for name, array in values.items():
-        group.variables[name][place] = array
-    group.variables["checksum"][place] = _checksum(values)
+        variables[name][place] = array
+    variables["checksum"][place] = _checksum(values)
 
 
-def kept(file: Any, frames: int) -> History | None:
+def kept(file: Any, frames: int, *, group: str = _FINE) -> History | None:
     """Read the last two instants of a run.
 
     Parameters
@@ -55,6 +60,8 @@ def kept(file: Any, frames: int) -> History | None:
         File of the run, open for reading.
     frames : int
         Number of recorded instants.
+    group : str
+        Group of the file: that of the run, or ``COARSE`` for the films of its companion.
 
     Returns
     -------
@@ -64,21 +71,21 @@ def kept(file: Any, frames: int) -> History | None:
     Raises
     ------
     KeyError
-        If the file has no group "resume", or not all its variables.
+        If the file has no such group, or not all its variables.
     """
-    group, place = file.groups["resume"], (frames - 1) % _PLACES
-    values = {name: np.asarray(group.variables[name][place]) for name in (*_OVER_MESH, *_NUMBERS)}
-    if not frames or _checksum(values) != int(group.variables["checksum"][place]):
+    variables, place = file.groups[group].variables, (frames - 1) % _PLACES
+    values = {name: np.asarray(variables[name][place]) for name in (*_OVER_MESH, *_NUMBERS)}
+    if not frames or _checksum(values) != int(variables["checksum"][place]):
         return None
     return History(now=_instant(values, 0), before=_instant(values, 1))
 
 
-def _create(file: Any, shape: tuple[int, ...]) -> None:
-    group = file.create_group("resume")
+def _create(file: Any, name: str, shape: tuple[int, ...]) -> None:
+    group = file.create_group(name)
     group.dimensions = {"place": _PLACES, "instant": 2, "along": shape[0], "across": shape[1]}
-    for name in (*_OVER_MESH, *_NUMBERS):
-        over = ("along", "across") if name in _OVER_MESH else ()
-        group.create_variable(name, ("place", "instant", *over), _type_of(name))
+    for variable in (*_OVER_MESH, *_NUMBERS):
+        over = ("along", "across") if variable in _OVER_MESH else ()
+        group.create_variable(variable, ("place", "instant", *over), _type_of(variable))
     group.create_variable("checksum", ("place",), "i8")
 
 

@@ -15,6 +15,7 @@ from ehlectric.contact.files import FILES, SUMMARY
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError
+from ehlectric.motion.companion import Companion
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.file import MotionFile, Record, Row, described
 from ehlectric.motion.solver import TransientSolver
@@ -123,7 +124,7 @@ def _solve(
     contact: TransientContact, prepared: PreparedContact, path: Path, *, again: bool, progress: Progress
 ) -> None:
     """Solve the time steps that a file does not have yet, and write the recorded instants into it."""
-    solver = TransientSolver(contact)
+    solver, companion = TransientSolver(contact), Companion(contact)
     file = MotionFile(path, contact)
     if not again and file.whole():
         return
@@ -131,30 +132,34 @@ def _solve(
     if resumed is None:
         path.unlink(missing_ok=True)
         progress(0, contact.schedule.steps, "film before the motion")
-        _begin(file, solver, prepared)
+        _begin(file, solver, companion, prepared)
         resumed = file.resumed()
         assert resumed is not None
-    done, history = resumed
+    done, history, coarse = resumed
+    coarse = companion.resumed(coarse, done)
     progress(done, contact.schedule.steps, "time steps")
     started, rows = time.perf_counter(), list[Row]()
     recorded = set(contact.schedule.recorded.tolist())
     for step, latest in solver.run(history, done):
-        rows.append(Row.of(solver, latest))
+        coarse = companion.after(step, coarse)
+        rows.append(Row.of(solver, latest, companion.films(step, coarse)))
         if step in recorded:
             snapshot = solver.snapshot(latest.now)
             since, started = started, time.perf_counter()
-            file.append(Record(step, rows, snapshot, latest, started - since))
+            file.append(Record(step, rows, snapshot, latest, coarse, started - since))
             rows = []
             progress(step, contact.schedule.steps, "time steps")
     seal(path)
 
 
-def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact) -> None:
+def _begin(
+    file: MotionFile, solver: TransientSolver, companion: Companion, prepared: PreparedContact
+) -> None:
     """Write the film before the motion as the first instant, with the film of stationary roughness."""
     contact, started = solver.contact, time.perf_counter()
     at_rest = contact.case.replace(motion=None)
     still = solve(at_rest, prepared=prepared, beside_smooth=False)
-    history = solver.start()
+    history, coarse = solver.start(), companion.start()
     first = solver.snapshot(history.now)
     attributes = {
         "title": contact.case.title,
@@ -166,8 +171,8 @@ def _begin(file: MotionFile, solver: TransientSolver, prepared: PreparedContact)
         "seconds": 0.0,
     }
     attributes |= as_attributes(motion_warnings(contact, still))
-    rows, seconds = [Row.of(solver, history)], time.perf_counter() - started
-    record = Record(0, rows, first, history, seconds)
+    rows = [Row.of(solver, history, companion.films(0, coarse))]
+    record = Record(0, rows, first, history, coarse, time.perf_counter() - started)
     file.create(record, attributes | contact.schedule.moments(), _maps(contact, still))
 
 

@@ -183,7 +183,7 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
     time = conditions.half_width / conditions.entrainment_speed
     length = grid.outlet - grid.inlet
     end = motion.passes * length if motion.passes is not None else (motion.duration or 0.0) / time
-    spacing = length / (grid.nodes - 1)
+    spacing = length / (grid.nodes_along - 1)
     steps = motion.steps or round(end / spacing)
     if not steps:
         raise InputError(

@@ -13,14 +13,14 @@ from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
+from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.line import Film
-from ehlectric.film.nested import nested_iteration
 from ehlectric.film.point import PointFilm
 from ehlectric.film.solution import FilmSolution, pressure_of, quiet_solution
-from ehlectric.film.state import Progress
-from ehlectric.film.unsteady import History, Instant, UnsteadyFilm
+from ehlectric.film.unsteady import History, Instant
+from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
 
 
@@ -76,9 +76,9 @@ class TransientSolver:
 
     def __init__(self, contact: TransientContact) -> None:
         self.contact = contact
-        self._film = UnsteadyFilm(contact.problem, contact.moving_gap)
+        self._moving = MovingFilm(contact.problem, contact.moving_gap)
 
-    def start(self, progress: Progress | None = None) -> History:
+    def start(self) -> History:
         """Stationary film before any moving roughness has entered: the initial condition of the run.
 
         Raises
@@ -86,11 +86,7 @@ class TransientSolver:
         ConvergenceError
             If the stationary film does not converge.
         """
-        with quiet_solution():
-            steady = nested_iteration(self.contact.problem, progress)[-1]
-        if steady.status != "converged":
-            raise ConvergenceError(f"film before the motion, {steady.status}")
-        return self._film.start(steady, self.contact.schedule.step)
+        return self._moving.start(self.contact.schedule.step)
 
     def run(self, history: History, done: int = 0) -> Iterator[tuple[int, History]]:
         """Solve the time steps after step ``done``.
@@ -116,7 +112,7 @@ class TransientSolver:
         for step in range(done + 1, schedule.steps + 1):
             with quiet_solution():
                 try:
-                    history = self._film.advance(history, schedule.step)
+                    history = self._moving.film.advance(history, schedule.step)
                 except ConvergenceError as error:
                     raise ConvergenceError(f"step {step} of {schedule.steps}: {error}") from None
             yield step, history
@@ -132,7 +128,7 @@ class TransientSolver:
 
     def extremes(self, instant: Instant) -> Extremes:
         """Minimum film thickness and largest pressure; unlike ``film``, no deflection is computed."""
-        mesh, scales = self._film.level.mesh, self.contact.problem.scales
+        mesh, scales = self._moving.film.level.mesh, self.contact.problem.scales
         thickness = self.contact.kind.shaped(mesh, scales.thickness * instant.state.thickness)
         place = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
         axes = (scales.length * mesh.x, scales.length * mesh.whole_y)[: thickness.ndim]
@@ -142,9 +138,14 @@ class TransientSolver:
             max_pressure=float(np.max(pressure_of(scales, instant.state, instant.full_film))),
         )
 
+    def key_films(self, instant: Instant) -> KeyFilms:
+        """Film thicknesses of an instant that are compared with those of the companion."""
+        return KeyFilms.of(self._moving.film.level.mesh, instant, self.contact.problem.scales.thickness)
+
     def film(self, instant: Instant) -> Film | PointFilm:
         """Film at an instant, SI units."""
-        return film_of(self.contact, self._film.level, instant)
+        moving = self._moving
+        return film_of(self.contact, moving.steady.level, moving.whole(instant))
 
 
 def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film | PointFilm:

@@ -13,6 +13,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.contact.result_warnings import FIELD_ERROR, inaccurate_field, unknown_error
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
+from ehlectric.motion.accuracy import run_errors
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import of_attributes, texts_and_codes
@@ -27,6 +28,9 @@ QUANTILES = 0.05, 0.5, 0.95
 # The recorded instant that is compared with stationary roughness may be at most this far from the time at
 # which all roughness is at its position in the case [time steps].
 _NEAR = 0.6
+
+# Estimated errors of the moving film above which there is a warning, and above which it says not to use it.
+FILM_ERROR, FAR_TOO_LARGE = 0.01, 0.1
 
 
 def counted(run: MotionRun) -> Mask:
@@ -62,7 +66,9 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "version": str(attributes["version"]),
         "title": run.case.title,
         "converged": complete,
-        **texts_and_codes([*of_attributes(attributes), *_halved(run), *_inaccurate(run)]),
+        **texts_and_codes(
+            [*of_attributes(attributes), *_halved(run), *_inaccurate_film(run), *_inaccurate(run)]
+        ),
         "inputs": run.case.to_dict(),
         "motion": _course(run),
         "film": _film(run),
@@ -84,6 +90,31 @@ def _halved(run: MotionRun) -> Iterator[ResultWarning]:
             "steps-halved",
             f"{np.count_nonzero(halvings)} time steps did not converge and were halved, "
             f"{int(halvings.sum())} times in all; more motion.steps or more grid.nodes may help",
+        )
+
+
+def _inaccurate_film(run: MotionRun) -> Iterator[ResultWarning]:
+    """Warning about a film over time whose estimated error is large or unknown."""
+    if "coarse_lowest_thickness" not in run.dataset:
+        return  # a run of an earlier version, which has no estimate
+    errors = run_errors(run)
+    if errors is None:
+        yield ResultWarning(
+            "error-unknown",
+            "the discretisation error of the moving film is unknown, because the film on every second node "
+            "with twice the time step did not converge, or the run has less than two steps; it is probably "
+            "large: solve again with more grid.nodes and compare",
+        )
+    elif errors.largest > FILM_ERROR:
+        code, advice = "grid-too-coarse", ""
+        if errors.largest > FAR_TOO_LARGE:
+            code, advice = "grid-far-too-coarse", "do not use this film, "
+        steps = " and more motion.steps" if run.case.motion and run.case.motion.steps else ""
+        yield ResultWarning(
+            code,
+            f"the discretisation error of the moving film, by its grid and its time steps together, is "
+            f"estimated at {100.0 * errors.largest:.2g} % and may be larger; {advice}use more "
+            f"grid.nodes{steps}",
         )
 
 
@@ -130,7 +161,7 @@ def _film(run: MotionRun) -> dict[str, Any]:
     dataset = run.dataset
     thickness, pressure = dataset["minimum_thickness"].values, dataset["max_pressure"].values
     thinnest, highest = int(np.argmin(thickness)), int(np.argmax(pressure))
-    time = dataset["time"].values
+    time, errors = dataset["time"].values, run_errors(run)
     return {
         "before": thickness[0],
         "minimum_thickness": thickness[thinnest],
@@ -138,6 +169,9 @@ def _film(run: MotionRun) -> dict[str, Any]:
         "minimum_position": _position(run, "minimum", thinnest),
         "max_pressure": pressure[highest],
         "max_pressure_time": time[highest],
+        "discretisation_error": errors and errors.largest,
+        "minimum_thickness_error": errors and errors.minimum,
+        "central_thickness_error": errors and errors.central,
     }
 
 

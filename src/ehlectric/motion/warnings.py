@@ -58,7 +58,7 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
     elif (error := still.film.discretisation_error) is not None and error > 0.01:
         text = (
             f"the discretisation error of the film with stationary roughness is estimated at "
-            f"{100.0 * error:.2g} %, and with moving roughness it is probably similar; use more grid.nodes"
+            f"{100.0 * error:.2g} %; use more grid.nodes"
         )
         yield ResultWarning("stationary-error", text)
 

@@ -21,7 +21,9 @@ def _accepted(case: Case) -> Case:
             got=shown(case.contact.geometry),
             takes="'line'",
         )
-    fas.grid_sizes(case.grid.nodes)
+    grid = case.grid.fixed() if case.grid.error is None else case.grid
+    fas.grid_sizes(grid.nodes_along)
+    case = case.model_copy(update={"grid": grid})
     if case.grid.wedge != "third-order":
         return case
     if "wedge" in case.grid.model_fields_set:

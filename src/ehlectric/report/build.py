@@ -10,6 +10,7 @@ from textwrap import shorten
 from typing import Any
 
 from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
@@ -204,7 +205,7 @@ def _bearing(result: BearingResult) -> Part:
         ),
     )
     return Part(
-        kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {_how(result.case.contacts)}",
+        kind=f"{result.case.bearing.kind} bearing{of_library}, contacts {HOW[result.case.contacts]}",
         command="bearing",
         failure="" if result.converged else _UNSOLVED,
         verdict=result.verdict,
@@ -215,10 +216,6 @@ def _bearing(result: BearingResult) -> Part:
         details=_details(summary, ""),
         toml=result.case.to_toml(),
     )
-
-
-def _how(contacts: str) -> str:
-    return "by formula" if contacts == "formula" else "solved"
 
 
 def _details(summary: dict[str, Any], date: str) -> dict[str, str]:

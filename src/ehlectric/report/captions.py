@@ -42,10 +42,10 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
         "bearing_pitch": "Capacitance and, where they vary, breakdown voltages over one pitch of the cage.",
         "bearing_impedance": "Magnitude and, where it varies, phase of the impedance of the bearing over "
         "frequency.",
-        "capacitance_over_speed": "Capacitance of the bearing over the speed of the shaft, with contacts by "
-        "formula, scaled to the result.",
+        "capacitance_over_speed": "Capacitance of the bearing over the speed of the shaft, with contacts "
+        "that are not solved, scaled to the result.",
         "breakdown_over_speed": "First breakdown voltage and shaft voltage over the speed of the shaft, with "
-        "contacts by formula, scaled to the result.",
+        "contacts that are not solved, scaled to the result.",
         # Sweeps
         "sensitivity": "Share of the spread that each varied input contributes, with confidence intervals.",
     }

@@ -69,6 +69,10 @@ def _by_formula(case: AnyCase) -> bool:
     return isinstance(case, BearingCase) and case.contacts == "formula"
 
 
+def _from_atlas(case: AnyCase) -> bool:
+    return isinstance(case, BearingCase) and case.contacts == "atlas"
+
+
 def _line(case: AnyCase) -> bool:
     return isinstance(case, Case) and case.contact.geometry == "line"
 
@@ -105,6 +109,13 @@ LIMITS = (
         "Films are those of published formulas for smooth, fully flooded contacts, and fields are voltage "
         "divided by the minimum film. Formulas may be 30 to 40 % off a solved film.",
         _by_formula,
+    ),
+    Limit(
+        "contacts from the atlas",
+        "Films are interpolated between those of smooth, fully flooded contacts that were solved for the "
+        "atlas of films, with the error that the result states, and fields are voltage divided by the "
+        "minimum film. Where the atlas has no film, formulas take its place, which may be 30 to 40 % off.",
+        _from_atlas,
     ),
     Limit("oil", "The oil is Newtonian: shear thinning, which makes films thinner, is left out."),
     Limit(

@@ -227,7 +227,7 @@ def run_bearing(
     workers: int | None = None,
     measured: MeasuredFile | None = None,
 ) -> RunOutcome[BearingResult]:
-    """Solve a bearing, and write its results; ``contacts``, "solved" or "formula", replaces the key.
+    """Solve a bearing, and write its results; ``contacts``, "solved", "atlas" or "formula", replaces the key.
 
     With a measurement, its film factors are written together with them.
     """

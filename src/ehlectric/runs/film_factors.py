@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.measured.factors import bearing_factors
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import QUICK, Contacts
 from ehlectric.cases.case import Case
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.measurements.reading import Measurement, read_measurement
@@ -104,7 +105,7 @@ def film_factors(
     uncertainty : str or float, optional
         Relative standard uncertainty, such as "5 %", where the measurement has no such column.
     contacts : str, optional
-        "formula" or "solved". By default ``contacts`` of a bearing file, and "solved" for a contact.
+        "atlas", "formula" or "solved". By default ``contacts`` of a bearing file, and "solved" for a contact.
     progress : callable, optional
         Called with the number of parts done, the number of all parts, and a text.
     workers : int, optional
@@ -134,8 +135,8 @@ def film_factors(
     >>> round(found.mean.value, 2), found.mean.rows
     (0.9, 2)
     """
-    if contacts not in (None, "formula", "solved"):
-        raise InputError("contacts", got=shown(contacts), takes="'formula' or 'solved'")
+    if contacts not in (None, "atlas", "formula", "solved"):
+        raise InputError("contacts", got=shown(contacts), takes="'atlas', 'formula' or 'solved'")
     options: dict[str, Any] = {"progress": progress}
     if uncertainty is not None:
         options["uncertainty"] = _parsed(_UNCERTAINTY, "uncertainty", uncertainty)
@@ -147,7 +148,8 @@ def film_factors(
         return bearing_factors(case, rows, workers=workers, **options)
     if background is not None:
         raise InputError.worded("background", "is taken off a capacitance, and a film has none")
-    return contact_factors(case, rows, contacts="formula" if contacts == "formula" else "solved", **options)
+    way: Contacts = next((one for one in QUICK if one == contacts), "solved")
+    return contact_factors(case, rows, contacts=way, **options)
 
 
 def _parsed(quantity: Quantity, name: str, value: str | float, takes: str = "") -> float:

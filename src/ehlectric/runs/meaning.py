@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import HOW, QUICK
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
 from ehlectric.cases.units import rpm
@@ -153,20 +154,22 @@ def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
 
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
-    from ehlectric.bearing.by_formula import formula_case, formula_error
+    from ehlectric.bearing.accuracy import error_text
+    from ehlectric.bearing.quick.ways import quick_case
     from ehlectric.bearing.solver import check_bearing
     from ehlectric.tables.bearing import input_rows, outcome_rows
 
     check_bearing(case)
-    judged, refused = formula_case(case)
+    judged, refused = quick_case(case)
     if judged is None:
-        reason = "film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
+        reason = "the atlas and film formulas need a piezoviscous oil; ehlectric bearing solves the contacts"
         return _without_films(case, reason)
-    result = _solved_by_formula(judged)
-    summary = {**result.summary(), "by_formula": True}
+    result = _solved_quickly(judged)
+    summary = {**result.summary(), "films": judged.contacts}
     totals = (row for row in outcome_rows(summary) if row.name != "computing time")
     accuracy = Row(
-        "accuracy of all that follows", note=f"films may be {formula_error(case.bearing.kind)} off"
+        "accuracy of all that follows",
+        note=f"contacts {HOW[judged.contacts]}: films may be {error_text(result.solution)} off",
     )
     rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
     if refused is not None:
@@ -174,14 +177,14 @@ def _check_bearing(case: BearingCase) -> Meaning:
     return Meaning(case.title, tuple(rows), summary, result.warnings, result.verdict)
 
 
-def _solved_by_formula(case: BearingCase) -> BearingResult:
+def _solved_quickly(case: BearingCase) -> BearingResult:
     from ehlectric.bearing.solver import solve_bearing
 
     return solve_bearing(case, workers=1)
 
 
 def _without_films(case: BearingCase, reason: str) -> Meaning:
-    """Meaning of a bearing whose contacts no formula describes: its inputs alone."""
+    """Meaning of a bearing whose contacts neither the atlas nor a formula describes: its inputs alone."""
     from ehlectric.bearing.preparation import resolve_bearing
     from ehlectric.bearing.summary import clearances_of
     from ehlectric.tables.bearing import input_rows
@@ -194,7 +197,7 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
             "viscosity": conditions.oil.viscosity,
         },
         "bearing": clearances_of(conditions),
-        "by_formula": False,
+        "films": None,
     }
     rows = (*input_rows(summary), Row("films and voltages", note=reason))
     return Meaning(case.title, rows, summary, ())
@@ -202,13 +205,19 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
 
 def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
     """Rows of the most loaded dry contact with each ring, and of the speeds."""
+    how = HOW[summary["bearing"]["contacts"]]
     for ring in ("inner", "outer"):
         contacts = [row for row in summary["contacts"] if row["ring"] == ring]
         most = max(contacts, key=lambda row: float(row["load"]))
         yield Row(f"most loaded contact, {ring} ring")
         yield Row(f"load, {ring} ring", most["load"], "N")
         yield Row(f"Hertz pressure, {ring} ring", most["max_pressure"], "GPa")
-        yield Row(f"minimum film, {ring} ring", most["minimum_thickness"], "µm", ", by formula")
+        yield Row(
+            f"minimum film, {ring} ring",
+            most["minimum_thickness"],
+            "µm",
+            f", {how}",
+        )
         speed = summary["mechanics"][f"entrainment_speed_{ring}"]
         yield Row(f"entrainment speed, {ring} ring", speed, "m/s")
 
@@ -262,9 +271,11 @@ def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> I
     if described["points_refused"]:
         refused = f"of {described['points_checked']} checked points are no valid case: {described['reason']}"
         yield Row("  refused", str(described["points_refused"]), note=refused, alarm=True)
-    if isinstance(sweep.case, BearingCase) and sweep.case.contacts == "formula":
+    if isinstance(sweep.case, BearingCase) and sweep.case.contacts in QUICK:
         whole = sweep.size * seconds / cores()
-        yield Row("time, estimated", whole, "s", f", by formula on {cores()} cores", digits=".2g")
+        yield Row(
+            "time, estimated", whole, "s", f", {HOW[sweep.case.contacts]} on {cores()} cores", digits=".2g"
+        )
     else:
         command = "bearing" if isinstance(sweep.case, BearingCase) else "run"
         note = f"that of {sweep.size} times ehlectric {command}, divided by {cores()} cores"

@@ -239,7 +239,7 @@ class _Percent:
     """
 
     def __init__(self, case: Case, progress: Progress) -> None:
-        self._nodes, self._power = case.grid.nodes, 1 if case.contact.geometry == "line" else 2
+        self._nodes, self._power = case.first_grid.nodes_along, 1 if case.contact.geometry == "line" else 2
         self._tolerance, self._progress = case.solver.tolerance, progress
         self._grid, self._first, self._most = 0, 1.0, 0
         self._start = 0.0  # share of coarser grids than the first, which are not solved

@@ -73,7 +73,7 @@ def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterato
     workers : int, optional
         Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
         this process, one after the other. Processes take some seconds to start: 1 is faster for a few cases
-        of a second or less, such as bearings with contacts by formula.
+        of a second or less, such as bearings whose contacts are not solved.
 
     Yields
     ------

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path, PurePosixPath
 
@@ -24,6 +26,9 @@ _VERSIONS = {
     2: ("memory.max", "memory.current", "inactive_file"),
     1: ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
 }
+
+# Time for which what the control groups leave is not read again [s].
+_FRESH = 0.1
 
 
 def physical_memory() -> float:
@@ -44,8 +49,33 @@ def available_memory() -> float:
     -------
     float
         Memory [bytes]; at least zero, and infinite where the operating system tells no limit.
+
+    Notes
+    -----
+    The control groups are read ten times a second at most. They are some ten files, and a contact that
+    refines its grid asks for every grid.
     """
-    return max(0.0, min(physical_memory(), left_of_process(), left_of_groups()))
+    return max(0.0, min(physical_memory(), left_of_process(), _lately(left_of_groups)))
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """Number of bytes that a function returned, with the time at which it was called [s]."""
+
+    of: Callable[[], float]
+    at: float
+    left: float
+
+
+_readings: list[_Reading] = []
+
+
+def _lately(of: Callable[[], float]) -> float:
+    """Number of bytes that a function has returned within a tenth of a second, or returns now."""
+    now = time.monotonic()
+    if not _readings or _readings[-1].of is not of or now - _readings[-1].at > _FRESH:
+        _readings[:] = [_Reading(of, now, of())]
+    return _readings[-1].left
 
 
 def least_limit() -> str:

@@ -10,6 +10,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
+from typing import Any
 
 from threadpoolctl import ThreadpoolController
 
@@ -22,6 +23,12 @@ def _controller() -> ThreadpoolController:
     return ThreadpoolController()
 
 
+@cache
+def _blas() -> list[Any]:
+    """Libraries of BLAS and LAPACK in this process, with their present ``num_threads``."""
+    return [each for each in _controller().lib_controllers if each.user_api == "blas"]
+
+
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
     """Context in which BLAS and LAPACK run on one thread.
@@ -29,5 +36,10 @@ def one_blas_thread() -> Iterator[None]:
     The limit holds for the whole process. Threads therefore take turns: overlapping contexts could leave the
     limit set at their end. Solve in several processes to use several cores.
     """
-    with _turn, _controller().limit(limits=1, user_api="blas"):
-        yield
+    with _turn:
+        # The processes of a sweep have one thread already; to set it and to set it back takes time.
+        if all(library.num_threads == 1 for library in _blas()):
+            yield
+        else:
+            with _controller().limit(limits=1, user_api="blas"):
+                yield

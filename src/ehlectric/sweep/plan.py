@@ -18,6 +18,9 @@ from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.results import Status
 from ehlectric.version import __version__
 
+# Points whose tables are kept from the plan to the solution, about 10 MB. The others are made twice.
+_TABLES_KEPT = 2000
+
 
 @dataclass(frozen=True)
 class Planned:
@@ -33,12 +36,15 @@ class Planned:
         Key of its case, from ``case_key``; None if these inputs make no valid case.
     refused : str
         Reason why the inputs make no valid case; empty if they do.
+    table : mapping or None
+        Tables of its case, for the first points only, which would fill the memory of a large sweep.
     """
 
     number: int
     inputs: Mapping[str, Any]
     key: str | None
     refused: str = ""
+    table: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -125,6 +131,8 @@ def plan(sweep: Sweep) -> Iterator[Planned]:
     """Points of a sweep, each with the key of its case, or with the reason why it is no valid case."""
     for number, inputs in enumerate(sweep.points()):
         try:
-            yield Planned(number, inputs, case_key(sweep.case.replace(inputs)))
+            case = sweep.case.replace(inputs)
+            table = case.to_dict() if number < _TABLES_KEPT else None
+            yield Planned(number, inputs, case_key(case), table=table)
         except InputError as error:
             yield Planned(number, inputs, None, str(error))

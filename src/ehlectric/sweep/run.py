@@ -173,6 +173,7 @@ def planned_points(sweep: Sweep) -> list[Planned]:
 
 def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew, progress: Progress) -> None:
     """Solve the open points, save each, and call the progress."""
+    tables = {point.key: point.table for point in planned if point.table is not None}
     points, counts = Counter(point.key for point in planned), Counter(store.counts())
 
     def done(outcomes: Sequence[tuple[str, Outcome]]) -> None:
@@ -187,7 +188,8 @@ def _solve(sweep: Sweep, store: Store, planned: Sequence[Planned], solvers: Crew
 
     def tasks() -> Iterator[Task]:
         for key, inputs in store.open_points():
-            yield key, _plain(sweep, inputs)
+            table = tables.get(key)
+            yield key, _plain(sweep, inputs) if table is None else table
 
     done(())
     run_points(tasks(), solvers, done)

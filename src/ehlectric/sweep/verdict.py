@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.by_formula import formula_factor
+from ehlectric.bearing.accuracy import percent
+from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import QUICK
 from ehlectric.cases.row import value_at
 from ehlectric.discharge.verdict import (
     DOUBTS,
@@ -24,7 +26,7 @@ from ehlectric.discharge.verdict import (
 )
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.labels import Scale, label_of
-from ehlectric.sweep.points import SweepPoints
+from ehlectric.sweep.points import Point, SweepPoints
 
 # Reason for which a bearing with a lambda ratio below 1 has no margin.
 _TOUCH = "surfaces touch (discharges likely as contacts open)"
@@ -43,10 +45,10 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     Verdict or None
         Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
         margin: they are not solved or must not be used, or their surfaces touch. Nor is it green or red where
-        the margin of a point may lie on the other side of 1, by the accuracy of formulas, by its warnings, or
-        at a strength that differs by 20 %. Without any margin it is red where the surfaces touch at all
-        points of a bearing with a motor, yellow where they touch at some or without a motor, and None where
-        they touch at none.
+        the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by
+        its warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces
+        touch at all points of a bearing with a motor, yellow where they touch at some or without a motor, and
+        None where they touch at none.
     """
     usable = _margins(results)
     known = usable[np.isfinite(usable)]
@@ -99,16 +101,14 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
         for point, margin in zip(results.points, margins, strict=True)
         if math.isfinite(margin)
     ]
-    case = results.case
-    factor = formula_factor(case.bearing.kind) if isinstance(case, BearingCase) else 1.0
+    errors = [_film_error(point, results.case) for point, _ in known]
+    off = max(errors)
     near = sum(
-        1.0 / factor <= margin < factor
-        for point, margin in known
-        if value_at(point.summary or {}, "bearing.contacts") == "formula"
+        margin / (1.0 + error) < 1.0 <= margin * (1.0 + error)
+        for error, (_, margin) in zip(errors, known, strict=True)
     )
     if near:
-        off = 100.0 * (factor - 1.0)
-        yield f"At {near} of the points the margin is within the {off:.0f} % that formulas may be off."
+        yield f"At {near} of the points the margin is within the {percent(off)} that films may be off."
     if not _strength_varies(results):
         weak = sum(low < 1.0 <= high for low, high in (strength_interval(margin) for _, margin in known))
         if weak:
@@ -120,6 +120,17 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
     )
     if doubtful:
         yield f"At {doubtful} of the points warnings say that the margin may be lower."
+
+
+def _film_error(point: Point, case: AnyCase) -> float:
+    """Relative error of the films of a bearing that is not solved; 0 of other points."""
+    summary = point.summary or {}
+    contacts = value_at(summary, "bearing.contacts")
+    if contacts not in QUICK or not isinstance(case, BearingCase):
+        return 0.0
+    if contacts == "formula":
+        return formula_factor(case.bearing.kind) - 1.0
+    return float(value_at(summary, "bearing.film_error") or 0.0)
 
 
 def _strength_varies(results: SweepPoints) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.bearing.margin.sensitivity import OF_TABLE
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.row import Bound, Row, amount, amount_row, rows_of
 from ehlectric.cases.units import rpm_text
@@ -110,6 +111,7 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
         ("film factor", "bearing.film_factor", "", _film_factor(summary)),
         ("discretisation error of the films", "bearing.discretisation_error", "%"),
         ("interpolation error over the load", "bearing.interpolation_error", "%"),
+        *_film_error(totals),
     )
     capacitances = (
         ("capacitance of the bearing", "bearing.capacitance", "pF"),
@@ -131,7 +133,7 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
     )
     coated, bounds = totals.get("coating_capacitance") is not None, bounds_of(summary)
     return [
-        Row(f"films, contacts {_HOW[totals['contacts']]}"),
+        Row(f"films, contacts {HOW[totals['contacts']]}"),
         _lambda_ratio(totals),
         *rows_of(BEARING_KEYS, summary, films),
         Row("computing time", summary["seconds"], "s", digits=".3g"),
@@ -223,8 +225,10 @@ def _costs(summary: Mapping[str, Any]) -> Iterator[Row]:
         yield from rows
 
 
-# How the contacts were obtained, in words.
-_HOW = {"solved": "solved", "formula": "by formula"}
+def _film_error(totals: Mapping[str, Any]) -> list[tuple[str, str, str]]:
+    """Row of the error of films that are not solved, which results of earlier versions do not have."""
+    known = totals["contacts"] != "solved" and totals.get("film_error") is not None
+    return [("error of the films", "bearing.film_error", "%")] if known else []
 
 
 def input_rows(summary: Mapping[str, Any]) -> Iterator[Row]:

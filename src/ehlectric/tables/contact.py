@@ -119,13 +119,21 @@ def _dry_contact(conditions: Conditions | PointConditions) -> Iterator[Row]:
     yield Row("lubrication regime", regime)
 
 
+def _nodes(case: Case, nodes: str) -> Row:
+    """Nodes of the film, or the error to which its grid is refined."""
+    target = case.grid.target
+    if target is None:
+        return Row("grid of the film", nodes, "nodes")
+    return Row("grid of the film", f"refined to an error of {100.0 * target:g} %")
+
+
 def _line_grid(case: Case, _: Conditions) -> Iterator[Row]:
-    yield Row("grid of the film", str(case.grid.nodes), "nodes")
+    yield _nodes(case, str(case.grid.nodes))
     yield _wedge(case)
 
 
 def _point_grid(case: Case, conditions: PointConditions) -> Iterator[Row]:
-    yield Row("grid of the film", f"{case.grid.nodes} x {case.grid.nodes_across}", "nodes")
+    yield _nodes(case, f"{case.first_grid.nodes_along} x {case.first_grid.nodes_across}")
     yield Row("half-width of the domain across", conditions.side, note="semi-axes a")
     yield _wedge(case)
 
@@ -179,7 +187,10 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
     yield Row("maximum pressure", film.max_pressure, "GPa", _pressure_error(film.max_pressure_error))
     nodes = " x ".join(str(count) for count in film.thickness.shape)
-    name, grid, error = "discretisation error of the film", f", {nodes} nodes", film.discretisation_error
+    target = result.case.grid.target
+    asked = "" if target is None else f", {100.0 * target:g} % asked"
+    name, error = "discretisation error of the film", film.discretisation_error
+    grid = f", {nodes} nodes{asked}"
     yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
     after = f"after {film.newton_iterations} {steps}"

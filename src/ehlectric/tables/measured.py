@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.measurements.average import RAISED, SCATTER, MeanFactor
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.row import Row, amount
@@ -82,14 +83,14 @@ def factor_rows(factors: FilmFactors) -> Iterator[Row]:
     if factors.slope is not None:
         slope, error = factors.slope
         yield Row("film factor over speed", f"speed^({slope:.2g} +- {error:.1g})")
-    how = f"{factors.solves} solved" if factors.contacts == "solved" else "by formula"
+    how = f"{factors.solves} solved" if factors.contacts == "solved" else HOW[factors.contacts]
     yield Row("contacts" if factors.quantity == "capacitance" else "films", how)
 
 
 def _beside(factors: FilmFactors) -> str:
-    """Note on the error of formulas, which is not in the interval."""
+    """Note on the error of films that are not solved, which is not in the interval."""
     error = factors.formula_error
-    return "" if error is None else f", beside up to {100.0 * error:.0f} % of the formula"
+    return "" if error is None else f", beside up to {100.0 * error:.2g} % of the {factors.contacts}"
 
 
 def _counted(factors: FilmFactors) -> str:

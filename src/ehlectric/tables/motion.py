@@ -94,6 +94,7 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
         "film",
         (
             ("minimum film, moving roughness", "film.minimum_thickness", "µm", film_at),
+            ("discretisation error in space and time", "film.discretisation_error", "%"),
             ("minimum film, stationary roughness", "stationary.minimum_thickness", "µm"),
             ("minimum film before the motion", "film.before", "µm"),
             ("maximum pressure, moving roughness", "film.max_pressure", "GPa"),

@@ -113,3 +113,44 @@ def test_film_on_a_patch_covers_the_whole_domain(tmp_path):
     again = load(tmp_path / "result.nc")
     np.testing.assert_array_equal(again.film.x, film.x)
     assert again.film.discretisation_error == film.discretisation_error
+
+
+# Rough contacts: a wave at an angle, and random roughness on the moving ball.
+ROUGH = {
+    "wave": {"generator": "sinusoid", "amplitude": "30 nm", "wavelength": "40 um", "orientation": "30 deg"},
+    "random": {"generator": "gaussian", "rq": "20 nm", "correlation_length": "25 um", "seed": 3},
+}
+
+
+def nearest(fine, nodes):
+    """Indices of nodes among those of a finer grid that has them all."""
+    found = np.argmin(np.abs(fine[:, np.newaxis] - nodes), axis=0)
+    np.testing.assert_allclose(fine[found], nodes, atol=1e-6 * fine[-1])
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ROUGH)
+def test_rough_film_on_a_patch_is_that_of_the_whole_domain(name):
+    """Roughness is on the fine nodes inside the patch, and on the coarse ones for the pressure outside."""
+    rough = contact("20 N", "2 m/s").replace({"roughness": [{"surface": 1, **ROUGH[name]}]})
+    whole = solve(rough.replace({"grid.nodes": 257}), beside_smooth=False)
+    first = rough.replace({"grid.nodes": 129, "grid.refine": 1e-4})
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("ehlectric.contact.refinement._MOST_DOUBLED_ROUGH", {"point": 1})
+        result = solve(first)
+    film = result.film
+    assert film.converged
+    assert max(np.diff(film.x)) > 1.9 * min(np.diff(film.x))
+    assert film.central_thickness == pytest.approx(whole.film.central_thickness, rel=3e-4)
+    assert film.minimum_thickness == pytest.approx(whole.film.minimum_thickness, rel=3e-4)
+    # Outside the patch the film has the roughness of its own nodes, not of the coarse ones.
+    rows, lines = (nearest(fine, axis) for fine, axis in zip(whole.film.axes, film.axes, strict=True))
+    expected = whole.film.thickness[np.ix_(rows, lines)]
+    assert np.max(np.abs(film.thickness - expected)) < 5e-3 * film.central_thickness
+    # The film with smooth surfaces has the same nodes.
+    assert result.smooth.thickness.shape == film.thickness.shape
+    smooth = solve(contact("20 N", "2 m/s").replace({"grid.nodes": 257})).film.thickness
+    assert (
+        np.max(np.abs(result.smooth.thickness - smooth[np.ix_(rows, lines)])) < 2e-3 * film.central_thickness
+    )

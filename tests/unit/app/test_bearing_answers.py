@@ -10,11 +10,11 @@ import pytest
 from ehlectric.app.answers.bearing import BearingAnswer
 from ehlectric.app.answers.told import PLACES, Told, beside, counts, elsewhere
 from ehlectric.app.compute.bearing import (
-    answer_by_formula,
     answer_of,
     bearing_case,
+    quick_answer,
     solve_contacts,
-    whole_answer_by_formula,
+    whole_quick_answer,
 )
 from ehlectric.app.compute.bearing_numbers import differences, shown_numbers
 from ehlectric.app.compute.bearing_verdict import judged
@@ -43,29 +43,37 @@ def inputs(**bearing):
 
 @pytest.fixture(scope="module")
 def summary(tmp_path_factory) -> dict:
-    """Summary that ``ehlectric bearing FILE --contacts formula`` writes for the example."""
+    """Summary that ``ehlectric bearing FILE --contacts atlas`` writes for the example."""
     folder = tmp_path_factory.mktemp("command")
     path = folder / "case.toml"
     path.write_text(TEXT, encoding="utf-8")
-    run(path, folder / "result", contacts="formula")
+    run(path, folder / "result", contacts="atlas")
     return json.loads((folder / "result" / "summary.json").read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="module")
 def quick() -> BearingAnswer:
-    return answer_by_formula(inputs())
+    return quick_answer(inputs())
 
 
 @pytest.fixture(scope="module")
 def whole() -> BearingAnswer:
-    return whole_answer_by_formula(inputs())
+    return whole_quick_answer(inputs())
 
 
 def test_the_answer_at_once_has_the_numbers_of_the_command(quick, summary):
     assert quick.numbers == summary["bearing"]
     assert list(quick.contact_rows) == summary["contacts"]
     assert [told.code for told in quick.warnings] == summary["warning_codes"]
-    assert (quick.contacts, quick.whole, quick.margin, quick.converged) == ("formula", False, None, True)
+    assert (quick.contacts, quick.whole, quick.margin, quick.converged) == ("atlas", False, None, True)
+
+
+def test_a_case_by_formula_keeps_its_choice():
+    """Its films differ from those of the atlas, and their error is that of the formula."""
+    answer = quick_answer(inputs() | {"contacts": "formula"})
+    assert answer.contacts == "formula"
+    assert answer.how.startswith("Contacts by formula: films may be 30 % off.")
+    assert "formula-contacts" in [told.code for told in answer.warnings]
 
 
 def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
@@ -109,7 +117,7 @@ def test_the_critical_speed_comes_with_the_whole_answer(whole, summary):
 def test_the_details_are_the_rows_that_the_command_prints(whole, quick):
     from ehlectric.tables.bearing import total_rows
 
-    result = solve_bearing(bearing_case(inputs(), "formula"), workers=1)
+    result = solve_bearing(bearing_case(inputs(), "atlas"), workers=1)
     rows = [(row.name, row.text) for row in total_rows(result.summary()) if row.name != "computing time"]
     assert [(line.name, line.text) for line in whole.lines if line.name != "computing time"] == rows
     assert len(quick.lines) < len(whole.lines)
@@ -121,7 +129,7 @@ def test_without_ranges_the_verdict_at_once_has_the_level_of_the_whole_one(quick
 
 def test_with_ranges_the_verdict_at_once_is_not_green():
     table = inputs() | {"ranges": {"bearing.radial_load": ["1700 N", "1900 N"]}}
-    quick, whole = answer_by_formula(table), whole_answer_by_formula(table)
+    quick, whole = quick_answer(table), whole_quick_answer(table)
     assert quick.level == "yellow"
     assert "its range follows" in quick.text
     assert "could not be computed" not in quick.text
@@ -132,7 +140,7 @@ def test_with_ranges_the_verdict_at_once_is_not_green():
 
 
 def test_silicon_nitride_has_an_upper_bound_and_no_voltages():
-    quick = answer_by_formula(inputs(element_material="silicon-nitride"))
+    quick = quick_answer(inputs(element_material="silicon-nitride"))
     assert quick.level == "grey"
     capacitance, shaft = quick.number("capacitance"), quick.number("shaft-voltage")
     assert (capacitance.bound, capacitance.note.startswith("upper bound")) == ("≤", True)
@@ -142,7 +150,7 @@ def test_silicon_nitride_has_an_upper_bound_and_no_voltages():
 
 
 def test_touching_surfaces_have_no_voltage_and_no_green():
-    quick = answer_by_formula(inputs(inner_speed="60 rpm"))
+    quick = quick_answer(inputs(inner_speed="60 rpm"))
     assert (quick.level, quick.judged.lead) == ("red", "Discharges likely")
     first = quick.number("first-break")
     assert (first.known, "not safe" in first.note) == (False, True)
@@ -159,9 +167,9 @@ def test_every_code_of_a_warning_has_a_place():
 
 def test_warnings_stand_beside_the_numbers_they_concern(quick):
     found = {number.name: [told.code for told in number.told] for number in quick.shown}
-    assert found["capacitance"] == ["formula-contacts"]
+    assert found["capacitance"] == ["atlas-contacts"]
     for name in ("first-break", "margin", "lambda"):
-        assert found[name] == ["formula-contacts", "isothermal-film"]
+        assert found[name] == ["atlas-contacts", "isothermal-film"]
     placed = {code for codes in found.values() for code in codes}
     assert placed | {told.code for told in elsewhere(quick.warnings)} == {t.code for t in quick.warnings}
 
@@ -191,7 +199,7 @@ def test_no_figures_of_films_that_are_not_converged(monkeypatch):
     from ehlectric.bearing.solution import BearingSolution
 
     monkeypatch.setattr(BearingSolution, "converged", False)
-    result = solve_bearing(bearing_case(inputs(), "formula"), workers=1)
+    result = solve_bearing(bearing_case(inputs(), "atlas"), workers=1)
     answer = answer_of(result, whole=False)
     assert (answer.level, answer.figures) == ("grey", {})
 
@@ -218,7 +226,7 @@ def test_the_figure_over_speed_passes_through_the_bearing_itself(whole, summary)
 
 
 def test_no_voltage_is_drawn_where_surfaces_touch():
-    slow = whole_answer_by_formula(inputs(inner_speed="600 rpm"))
+    slow = whole_quick_answer(inputs(inner_speed="600 rpm"))
     data = slow.figures["breakdown"].plot["data"]
     (hatched,) = (trace for trace in data if "no voltage" in str(trace.get("name")))
     assert hatched["fillpattern"]["shape"]
@@ -244,13 +252,13 @@ def test_figures_are_json_without_nan(whole):
 
 def test_a_wrong_input_passes_with_its_key():
     with pytest.raises(InputError) as caught:
-        answer_by_formula(inputs(radial_load="-1 N"))
+        quick_answer(inputs(radial_load="-1 N"))
     assert caught.value.key == "bearing.radial_load"
 
 
 def test_a_table_without_a_bearing_is_refused():
     with pytest.raises(InputError) as caught:
-        answer_by_formula({"bearing": {}})
+        quick_answer({"bearing": {}})
     assert caught.value.key
 
 
@@ -258,24 +266,24 @@ def test_differences_of_solved_contacts(summary):
     totals = summary["bearing"]
     thinner = {"capacitance": 1.1 * totals["capacitance"], "margin": None, "lambda_ratio": 0.8}
     solved = summary | {"bearing": totals | thinner | {"shaft_first_break": 0.5 * totals["first_break"]}}
-    formula = summary | {"bearing": totals | {"lambda_ratio": 1.0}}
-    found = {one.name: one.change for one in differences(formula, solved)}
+    quick = summary | {"bearing": totals | {"lambda_ratio": 1.0}}
+    found = {one.name: one.change for one in differences(quick, solved)}
     assert found == {
         "capacitance": "+10.0 %",
         "first breakdown voltage": "-50.0 %",
         "shaft voltage": "+0.0 %",
-        "margin": "only by formula",
+        "margin": "only from the atlas",
         "minimum film": "-20.0 %",
     }
 
 
 def test_the_words_of_a_margin_below_one_are_those_of_the_level():
     """Yellow is likely and red is expected, in the verdict, beside the margin, and in the figure."""
-    likely = whole_answer_by_formula(inputs(inner_speed="970 rpm"))
+    likely = whole_quick_answer(inputs(inner_speed="1200 rpm"))
     weak = tomllib.loads(TEXT) | {"discharge": {"dielectric_strength": "5 V/um"}}
     for answer, level, word in (
         (likely, "yellow", "likely"),
-        (whole_answer_by_formula(weak), "red", "expected"),
+        (whole_quick_answer(weak), "red", "expected"),
     ):
         assert (answer.level, answer.judged.lead) == (level, f"Breakdown {word} even in an ideal film")
         assert f"are {word}" in answer.judged.meaning
@@ -305,7 +313,7 @@ def test_the_effects_have_the_value_that_belongs_to_each_margin(whole, quick, su
 
 def test_a_coating_has_its_own_name_for_the_voltage_on_the_shaft():
     coated = inputs(coating=COATING)
-    quick = answer_by_formula(coated)
+    quick = quick_answer(coated)
     first = quick.number("first-break")
     assert first.label == "Shaft voltage of the first breakdown"
     assert first.text == amount(quick.numbers["shaft_first_break"], "V")
@@ -315,7 +323,7 @@ def test_a_coating_has_its_own_name_for_the_voltage_on_the_shaft():
 def test_the_figure_over_speed_says_what_it_draws():
     table = inputs()
     del table["discharge"]
-    figure = whole_answer_by_formula(table).figures["breakdown"]
+    figure = whole_quick_answer(table).figures["breakdown"]
     assert figure.title == "Shaft voltage over speed"
     assert "breakdown" not in figure.label + figure.caption.lower()
     assert "upper bound" not in figure.caption.lower()
@@ -323,7 +331,7 @@ def test_the_figure_over_speed_says_what_it_draws():
 
 def test_a_purely_axial_load_points_out_of_the_figure():
     axial = inputs(radial_load="0 N", axial_load="500 N")
-    figure = answer_by_formula(axial).figures["load"]
+    figure = quick_answer(axial).figures["load"]
     assert figure.caption.startswith("The load is purely axial")
     assert "0° (load)" not in figure.plot["layout"]["polar"]["angularaxis"]["ticktext"]
 

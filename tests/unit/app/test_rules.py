@@ -131,7 +131,16 @@ def test_another_geometry_of_a_contact_drops_keys_of_this_one():
     point = changed(line, {"contact.geometry": "point"})
     flat = point.flat()
     assert not any(key in flat for key in ONLY["line"])
-    assert "grid.nodes" not in flat
+    assert "grid.error" in line.flat()
+    assert not {"grid.nodes", "grid.error"} & set(flat)
+
+
+def test_nodes_and_error_of_a_grid_take_the_place_of_one_another():
+    line = Inputs(tomllib.loads(example_text("line_contact")))
+    given = changed(line, {"grid.nodes": 801})
+    assert "grid.error" not in given.flat()
+    assert "grid.nodes" not in changed(given, {"grid.error": "1 %"}).flat()
+    assert "grid.error" not in changed(line, {"motion": {"passes": 1}}).flat()
 
 
 def test_wrong_texts_stay_for_the_checks():

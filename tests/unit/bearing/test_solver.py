@@ -129,7 +129,7 @@ def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contac
         check_bearing(case)
 
 
-@pytest.mark.parametrize(("tables", "size"), [(BALLS, "257 x 257"), (ROLLERS, "3201")])
+@pytest.mark.parametrize(("tables", "size"), [(BALLS, "129 x 129"), (ROLLERS, "801")])
 def test_a_contact_beyond_the_memory_is_named(monkeypatch, tables, size):
     """By both that check and solve; the contact is one of the ring's, its grid no table of the file."""
     monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e6)

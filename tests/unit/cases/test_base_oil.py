@@ -89,3 +89,16 @@ def test_types_of_the_table_are_those_with_a_correlation():
     annotation = OilTemperature.model_fields["base_oil"].annotation
     (names,) = [get_args(part) for part in get_args(annotation) if get_args(part)]
     assert names == tuple(BASE_OILS)
+
+
+def test_the_oil_of_a_table_is_made_once_for_each_temperature():
+    table = {"kinematic_viscosity_40": "46 mm^2/s", "kinematic_viscosity_100": "6.8 mm^2/s"}
+    lubricant, thin = (
+        Lubricant.from_dict({"base": "paper", "temperature": {**table, **given, "density_15": "870 kg/m^3"}})
+        for given in ({}, {"kinematic_viscosity_40": "32 mm^2/s", "kinematic_viscosity_100": "5.4 mm^2/s"})
+    )
+    cold, again = lubricant.at(313.15), lubricant.at(313.15)
+    assert again is cold
+    assert lubricant.at(343.15).viscosity < 0.5 * cold.viscosity
+    assert thin.at(313.15).viscosity < 0.8 * cold.viscosity
+    assert lubricant.at(313.15).viscosity == cold.viscosity

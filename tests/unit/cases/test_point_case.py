@@ -98,13 +98,13 @@ def test_bad_input_gets_one_line(given, message):
 
 def test_grid_of_a_point_has_its_own_defaults():
     grid = point().grid
-    assert (grid.nodes, grid.inlet, grid.outlet) == (257, -4.5, 1.5)
+    assert (grid.nodes, grid.inlet, grid.outlet) == (None, -4.5, 1.5)
     assert (grid.field_range, grid.field_side) == ((-1.25, 1.25), 1.25)
     assert (grid.nodes_y, grid.side, grid.field_nodes, grid.field_nodes_y) == (None, None, None, None)
     part = point(grid={"nodes": 129}).grid
     assert (part.nodes, part.inlet) == (129, -4.5)
     line = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}).grid
-    assert (line.nodes, line.inlet, line.field_side) == (3201, -4.0, None)
+    assert (line.nodes, line.inlet, line.field_side) == (None, -4.0, None)
 
 
 def test_parts_make_a_case_as_tables_do():
@@ -288,7 +288,7 @@ def test_replace_changes_the_geometry():
         "contact.radius_y": 0.01,
     }
     case = line.replace(round_one)
-    assert (case.grid.nodes, case.grid.wedge) == (257, "first-order")
+    assert (case.first_grid.nodes, case.grid.wedge) == (129, "first-order")
     assert case.contact.reduced_modulus == line.contact.reduced_modulus
     again = case.replace(
         {f"contact.{key}": value for key, value in PAPER_CONTACT.items()}, contact={"geometry": "line"}

@@ -23,7 +23,7 @@ SLOW = partial(pytest.param, marks=pytest.mark.slow)
 FILM_KEYS = {
     "minimum_thickness", "minimum_position", "central_thickness", "mean_thickness", "max_pressure",
     "load_residual", "residual", "newton_iterations", "discretisation_error", "solver", "nodes",
-    "max_pressure_error", "inlet_deficit", "side_deficit",
+    "max_pressure_error", "inlet_deficit", "side_deficit", "target_error",
 }  # fmt: skip
 # DESIGN: those of the line contact where they mean the same, capacitance and high_field_area in their place.
 FIELD_KEYS = {

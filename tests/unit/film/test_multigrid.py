@@ -184,6 +184,22 @@ def test_dense_solve_inverts_the_operator():
     assert np.all(dp[~coarsest.full_film] == 0.0)
 
 
+@pytest.mark.parametrize("part", [slice(40, 43), slice(0, 60), slice(150, 201), slice(61, 200)])
+def test_dense_solve_with_cavitated_nodes_anywhere(part):
+    """Inside the full film, before it, behind it, and all but a part of it."""
+    *_, coarsest = jacobians(401)
+    full_film = coarsest.full_film.copy()
+    full_film[part] = False
+    by_p, by_h = (stencil.on_rows(full_film) for stencil in (coarsest.by_p, coarsest.by_h))
+    copy = dataclasses.replace(coarsest, full_film=full_film, by_p=by_p, by_h=by_h)
+    r = np.where(full_film, np.random.default_rng(6).standard_normal(full_film.shape), 0.0)
+    dp, dh00 = copy.solve_dense(r, 0.3)
+    change, load = copy(dp, dh00)
+    np.testing.assert_allclose(change, r, atol=1e-9 * np.max(np.abs(by_p.coefficients)))
+    assert load == pytest.approx(0.3)
+    assert np.all(dp[~full_film] == 0.0)
+
+
 def convergence_factor(levels):
     """Spectral radius of the error propagation of a V-cycle, by power iteration."""
     random = np.random.default_rng(7)

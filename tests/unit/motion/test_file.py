@@ -372,8 +372,11 @@ def test_a_motion_without_an_instant_or_a_case_is_none(stopped, change):
 def test_a_step_that_is_not_solved_leaves_what_was_found(tmp_path, monkeypatch, whole, stopped):
     stopped(0)
     advance, solved = UnsteadyFilm.advance, []
+    own = TransientContact.of(CASE).schedule.step
 
     def failing(self, history, step):
+        if step > 1.5 * own:  # a step of the companion
+            return advance(self, history, step)
         if len(solved) == 6:
             raise ConvergenceError("film not found at T = 1.3")
         solved.append(step)

@@ -150,3 +150,21 @@ def test_limits_below_which_nothing_starts(megabytes):
 def test_a_system_without_limits(monkeypatch):
     monkeypatch.setitem(sys.modules, "resource", None)
     assert left_of_process(Path("/nowhere")) == float("inf")
+
+
+def test_groups_are_read_ten_times_a_second_at_most(monkeypatch):
+    clock, left, reads = [100.0], [3e9], []
+
+    def groups():
+        reads.append(clock[0])
+        return left[0]
+
+    monkeypatch.setattr(memory.time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(memory, "left_of_groups", groups)
+    monkeypatch.setattr(memory, "physical_memory", lambda: 64e9)
+    assert available_memory() == 3e9
+    left[0], clock[0] = 2e9, 100.05
+    assert available_memory() == 3e9
+    clock[0] = 100.2
+    assert available_memory() == 2e9
+    assert reads == [100.0, 100.2]

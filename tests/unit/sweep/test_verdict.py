@@ -26,8 +26,8 @@ def rpm(value):
     return value * math.pi / 30.0
 
 
-def point(number, inputs, margin, *, status="solved", codes=(), lubrication="full film", contacts="solved"):
-    table = {"margin": margin, "lubrication": lubrication, "contacts": contacts}
+def point(number, inputs, margin, *, status="solved", codes=(), lubrication="full film", **bearing):
+    table = {"margin": margin, "lubrication": lubrication, "contacts": "solved", **bearing}
     summary = {"bearing": table, "discharge": table, "warnings": list(codes), "warning_codes": list(codes)}
     return Point(number, inputs, status, summary=summary)
 
@@ -89,6 +89,14 @@ def test_a_margin_that_may_be_below_one_leaves_no_green_verdict():
     assert warned.level == "yellow"
     assert "At 1 of the points warnings say" in warned.text
     assert sweep_verdict(sweep(axes, safe, at_1={"codes": ["isothermal-film"]})).level == "green"
+
+
+@pytest.mark.parametrize(("error", "level"), [(0.06, "green"), (0.3, "yellow")])
+def test_films_of_the_atlas_are_as_sure_as_their_results_state(error, level):
+    stated = {"contacts": "atlas", "film_error": error}
+    found = sweep_verdict(sweep({SPEED: (100.0, 200.0)}, [1.28, 2.0], at_0=stated, at_1=stated))
+    assert found.level == level
+    assert ("At 1 of the points the margin is within the 30 %" in found.text) == (level == "yellow")
 
 
 def test_contacts_have_their_own_margin():

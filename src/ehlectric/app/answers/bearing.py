@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any
 
 from ehlectric.app.answers.line import Line
 from ehlectric.app.answers.told import Told
+from ehlectric.cases.bearings.ways import Contacts
 
 # Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin
 # in the verdict and beside the margin.
 PENDING = "…"
-FOLLOWS = "Margin by formula; its range follows."
+FOLLOWS = "Margin at once; its range follows."
 RANGE_FOLLOWS = "its range within the stated ranges follows"
 
 
@@ -124,12 +125,13 @@ class Figure:
 
 @dataclass(frozen=True)
 class Difference:
-    """Difference of a solved number from that by formula, as texts."""
+    """Difference of a solved number from the quick one, as texts; ``way`` is "atlas" or "formula"."""
 
     name: str
-    formula: str
+    quick: str
     solved: str
     change: str
+    way: str
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,7 @@ class BearingAnswer:
     title : str
         Title of the case.
     contacts : str
-        "formula" or "solved".
+        "atlas", "formula" or "solved".
     whole : bool
         Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
     converged : bool
@@ -168,7 +170,7 @@ class BearingAnswer:
         "load" and "film"; with a whole answer "breakdown" and "capacitance" over the speed. Empty where the
         films are not converged.
     differences : tuple of Difference
-        Differences of a solved answer from that by formula.
+        Differences of a solved answer from the quick one.
     effects : Table or None
         Margins if one input changes; None unless ``whole``, and without a margin.
     warnings : tuple of Told
@@ -178,7 +180,7 @@ class BearingAnswer:
     """
 
     title: str
-    contacts: Literal["solved", "formula"]
+    contacts: Contacts
     whole: bool
     converged: bool
     level: str

@@ -17,8 +17,8 @@ from ehlectric.app.answers.sweep import SweepChoices, SweepPlan, SweepPoint, Swe
 FIELD_HELP: Call[dict[str, str]] = Call("descriptions.field_help")
 
 # A bearing.
-BEARING_BY_FORMULA: Call[BearingAnswer] = Call("bearing.answer_by_formula")
-BEARING_WHOLE: Call[BearingAnswer] = Call("bearing.whole_answer_by_formula")
+BEARING_QUICK: Call[BearingAnswer] = Call("bearing.quick_answer")
+BEARING_WHOLE: Call[BearingAnswer] = Call("bearing.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing.solve_contacts")
 
 # A contact.

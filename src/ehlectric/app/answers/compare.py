@@ -96,7 +96,7 @@ class Side:
     title : str
         Title of the case.
     level, text : str
-        Level of the verdict and its sentences, by formula.
+        Level of the verdict and its sentences, without solving.
     results : tuple of Result
         Results in their order.
     warnings : tuple of Told

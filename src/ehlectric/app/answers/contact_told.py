@@ -69,6 +69,9 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "steps-halved": (),
         # Bearings
         "formula-contacts": (),
+        "atlas-contacts": (),
+        "atlas-left": (),
+        "atlas-left-light": (),
         "isothermal-film": _BREAKDOWN,
         "temperature-unused": _FILM,
         "viscosity-of-base": _FILM,

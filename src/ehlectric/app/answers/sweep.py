@@ -174,8 +174,8 @@ class SweepView:
         Cells of each point.
     values : mapping of str to str
         Names of all numbers that some point has, by dotted key.
-    formula_error : str
-        Error of films where contacts are computed by formula, such as "30 %"; empty where they are solved.
+    accuracy : str
+        Sentence about the error of films where contacts are not solved; empty where they are.
     level, text : str
         Verdict; empty where no point has a margin.
     warnings : tuple of Told
@@ -188,7 +188,7 @@ class SweepView:
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     values: Mapping[str, str]
-    formula_error: str = ""
+    accuracy: str = ""
     level: str = ""
     text: str = ""
     warnings: tuple[Told, ...] = field(default=())

@@ -110,6 +110,9 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "steps-halved": (),
         # Bearings
         "formula-contacts": ("capacitance", *_FILM),
+        "atlas-contacts": ("capacitance", *_FILM),
+        "atlas-left": ("capacitance", *_FILM),
+        "atlas-left-light": (),
         "isothermal-film": _FILM,
         "temperature-unused": _FILM,
         "viscosity-of-base": _FILM,

@@ -1,4 +1,4 @@
-"""Answers about a bearing: at once by formula, whole a moment later, and with solved contacts."""
+"""Answers about a bearing: at once from the atlas, whole a moment later, and with solved contacts."""
 
 from __future__ import annotations
 
@@ -23,13 +23,14 @@ from ehlectric.app.figures.bearing_speeds import (
     capacitance_figure,
     speed_rows,
 )
-from ehlectric.bearing.by_formula import formula_error
+from ehlectric.bearing.accuracy import error_text
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import capacitance_is_bound
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.speeds import over_speed
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import HOW, quick_way
 from ehlectric.cases.row import amount
 from ehlectric.errors import InputError
 from ehlectric.runs.by_kind import run_bearing
@@ -50,7 +51,7 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
     table : mapping
         Nested tables of a bearing file.
     contacts : str
-        "formula" or "solved" in place of that of the tables.
+        "atlas", "formula" or "solved" in place of that of the tables.
     session : Path, optional
         Folder of the session, in which files that the case names lie; without it, the case may name none.
 
@@ -65,8 +66,10 @@ def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | N
     return case.replace({"contacts": contacts}) if contacts else case
 
 
-def answer_by_formula(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
-    """Answer about a bearing with contacts by formula, without what depends on other inputs.
+def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing without solving its contacts, and without what depends on other inputs.
+
+    Contacts are by formula where the tables say so, and otherwise from the atlas of films.
 
     Parameters
     ----------
@@ -78,14 +81,14 @@ def answer_by_formula(table: Mapping[str, Any], session: Path | None = None) -> 
     Raises
     ------
     InputError
-        If the tables are no valid case, or no formula describes its films.
+        If the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
-    return answer_of(_by_formula(table, session), whole=False)
+    return answer_of(_quick(table, session), whole=False)
 
 
-def whole_answer_by_formula(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
-    """Answer about a bearing with contacts by formula, with critical speeds and effects of the inputs."""
-    return answer_of(_by_formula(table, session), whole=True)
+def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing as ``quick_answer`` has it, with critical speeds and effects of the inputs."""
+    return answer_of(_quick(table, session), whole=True)
 
 
 def solve_contacts(
@@ -124,22 +127,23 @@ def solve_contacts(
 
 
 def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, ...]:
-    """Differences from the numbers by formula; none where no formula describes the films."""
+    """Differences from the quick numbers; none where neither the atlas nor a formula describes the films."""
     if not solved["converged"]:
         return ()
     try:
-        formula = summary_of(_solved_by_formula(case).solution)
+        quick = summary_of(solved_quickly(case).solution)
     except InputError:
         return ()
-    return differences(formula, solved)
+    return differences(quick, solved)
 
 
-def _by_formula(table: Mapping[str, Any], session: Path | None) -> BearingResult:
-    return _solved_by_formula(bearing_case(table, session=session))
+def _quick(table: Mapping[str, Any], session: Path | None) -> BearingResult:
+    return solved_quickly(bearing_case(table, session=session))
 
 
-def _solved_by_formula(case: BearingCase) -> BearingResult:
-    return solve_bearing(case.replace({"contacts": "formula"}), workers=1)
+def solved_quickly(case: BearingCase) -> BearingResult:
+    """Bearing with contacts by formula where its case says so, and otherwise from the atlas of films."""
+    return solve_bearing(case.replace({"contacts": quick_way(case.contacts)}), workers=1)
 
 
 def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, ...] = ()) -> BearingAnswer:
@@ -182,8 +186,8 @@ def _how(result: BearingResult) -> str:
     """Sentence about the contacts: how they were computed, and how far off they may be."""
     if result.case.contacts == "solved":
         return "Contacts solved: film, pressure and field of each contact are computed."
-    off = formula_error(result.case.bearing.kind)
-    return f"Contacts by formula: films may be {off} off. Solving computes film and field."
+    how, off = HOW[result.case.contacts], error_text(result.solution)
+    return f"Contacts {how}: films may be {off} off. Solving computes film and field."
 
 
 def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Figure]:
@@ -252,7 +256,7 @@ def _around(result: BearingResult) -> dict[str, Around]:
 def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
     """Figures over the speed; voltages only where there is a breakdown or a shaft voltage at any speed."""
     how = ", scaled to the solved contacts" if _is_solved(over) else ""
-    caption = f"Bearing over its speed, contacts by formula{how}"
+    caption = f"Bearing over its speed, {over.contacts}{how}"
     table = Table(caption, SPEED_HEADS, tuple(speed_rows(over)))
     drawn = {
         name: key
@@ -269,14 +273,14 @@ def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
             breakdown_figure(over),
             table,
             ("Breakdown voltages are upper bounds, with" if breaks else "With")
-            + f" contacts by formula{_scaled(over, drawn)}.",
+            + f" {over.contacts}{_scaled(over, drawn)}.",
         )
     found["capacitance"] = Figure(
         "Capacitance over speed",
         "Capacitance over the speed of the inner ring, with its range from air to oil around the films",
         capacitance_figure(over),
         table,
-        f"{'An upper bound, with' if bound else 'With'} contacts by formula"
+        f"{'An upper bound, with' if bound else 'With'} {over.contacts}"
         f"{_scaled(over, {'capacitance': 'capacitance'})}.",
     )
     return found
@@ -287,7 +291,7 @@ def _is_solved(over: OverSpeed) -> bool:
 
 
 def _scaled(over: OverSpeed, keys: Mapping[str, str]) -> str:
-    """End of a sentence: the factors by which curves by formula are scaled to solved contacts, by name."""
+    """End of a sentence: the factors by which quick curves are scaled to solved contacts, by name."""
     if not _is_solved(over):
         return ""
     factors = [f"{over.curves.scaled[key]:.3g} ({name})" for name, key in keys.items()]

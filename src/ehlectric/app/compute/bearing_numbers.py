@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.app.answers.bearing import PENDING, RANGE_FOLLOWS, Difference, Number, Table
 from ehlectric.app.answers.told import Told, beside
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import Row, amount
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.tables.bearing import total_rows
@@ -248,9 +249,9 @@ def _cell(value: float | None, factor: float, digits: str) -> str:
     return "none" if value is None else f"{value * factor:{digits}}"
 
 
-def differences(formula: Mapping[str, Any], solved: Mapping[str, Any]) -> tuple[Difference, ...]:
-    """Differences of the numbers of a solved bearing from those by formula, from their summaries."""
-    found = []
+def differences(quick: Mapping[str, Any], solved: Mapping[str, Any]) -> tuple[Difference, ...]:
+    """Differences of the numbers of a solved bearing from the quick ones, from their summaries."""
+    found, way = [], quick["bearing"]["contacts"]
     coated = solved["bearing"]["coating_capacitance"] is not None
     first = (FIRST_ON_SHAFT if coated else FIRST).lower()
     for name, key, unit in (
@@ -260,18 +261,18 @@ def differences(formula: Mapping[str, Any], solved: Mapping[str, Any]) -> tuple[
         ("margin", "margin", ""),
         ("minimum film", "lambda_ratio", "m"),
     ):
-        values = [summary["bearing"][key] for summary in (formula, solved)]
+        values = [summary["bearing"][key] for summary in (quick, solved)]
         if unit == "m":
             values = [value * solved["inputs"]["bearing"]["composite_rq"] for value in values]
         one, two = values
         if one is None and two is None:
             continue
         if one is None or two is None:
-            change = "only by formula" if two is None else "only solved"
+            change = f"only {HOW[way]}" if two is None else "only solved"
         else:
             change = f"{100.0 * (two / one - 1.0):+.1f} %"
-        by_formula, own = (_difference_text(value, unit) for value in values)
-        found.append(Difference(name, by_formula, own, change))
+        before, own = (_difference_text(value, unit) for value in values)
+        found.append(Difference(name, before, own, change, way))
     return tuple(found)
 
 

@@ -1,4 +1,4 @@
-"""Answers about cases that are compared: their results by formula, as the command ``check`` has them."""
+"""Answers about cases that are compared: their results without solving, as the command ``check`` has them."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers.compare import Film, Result, Side
+from ehlectric.app.compute.bearing import solved_quickly
 from ehlectric.app.compute.bearing_numbers import film_is_bound, speed_bound
 from ehlectric.app.compute.bearing_verdict import quick_verdict
 from ehlectric.app.compute.cases import case_of
 from ehlectric.app.compute.contact import verdict_by_formula
 from ehlectric.app.compute.warnings import told_of
-from ehlectric.bearing.by_formula import formula_error
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.accuracy import error_text
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
 from ehlectric.runs.meaning import check
@@ -61,7 +62,7 @@ def side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
     Raises
     ------
     InputError
-        If the tables are no valid case, or no formula describes its films.
+        If the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
     case = case_of(table, folder)
     return _bearing(case, whole=False) if isinstance(case, BearingCase) else _contact(case)
@@ -74,7 +75,7 @@ def whole_side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
 
 
 def _bearing(case: BearingCase, *, whole: bool) -> Side:
-    result = solve_bearing(case.replace({"contacts": "formula"}), workers=1)
+    result = solved_quickly(case)
     verdict = result.verdict if whole else quick_verdict(result.solution)
     summary = result.summary() if whole else summary_of(result.solution)
     codes = {warning.code for warning in result.warnings}
@@ -86,7 +87,7 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
         results=tuple(_results([*_films(summary), *outcome_rows(summary)], _bounds_of(summary, codes))),
         warnings=told_of(result.warnings, verdict.level),
         films=tuple(_over_position(summary)),
-        method=f"contacts by formula: films may be {formula_error(case.bearing.kind)} off",
+        method=f"{OF_CONTACTS[result.case.contacts]}: films may be {error_text(result.solution)} off",
     )
 
 
@@ -119,8 +120,9 @@ def _films(summary: Mapping[str, Any]) -> Iterator[Row]:
         loaded = [row for row in summary["contacts"] if row["ring"] == ring and row["max_pressure"]]
         if loaded:
             yield Row(f"Hertz pressure, {ring} ring", max(row["max_pressure"] for row in loaded), "GPa")
+            how = HOW[summary["bearing"]["contacts"]]
             thinnest = min(row["minimum_thickness"] for row in loaded)
-            yield Row(f"minimum film, {ring} ring", thinnest, "µm", ", by formula")
+            yield Row(f"minimum film, {ring} ring", thinnest, "µm", f", {how}")
 
 
 def _bounds_of(summary: Mapping[str, Any], codes: set[str]) -> Callable[[Row], str]:

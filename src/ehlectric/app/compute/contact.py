@@ -33,6 +33,7 @@ from ehlectric.tables.contact import result_rows
 
 # Largest number of nodes of a smooth line contact that is solved in a fraction of a second.
 _QUICK = 3201
+_QUICK_ERROR = 1e-3
 
 # Part by which a film of a formula may be off, as the command says.
 _FORMULA = 0.4
@@ -100,8 +101,9 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
 
 
 def _is_quick(case: Case) -> bool:
-    smooth = not case.roughness and case.motion is None and case.grid.refine is None
-    return smooth and case.contact.geometry == "line" and case.grid.nodes <= _QUICK
+    smooth, grid = not case.roughness and case.motion is None, case.grid
+    quick = grid.nodes_along <= _QUICK and (grid.target is None or grid.target >= _QUICK_ERROR)
+    return smooth and quick and case.contact.geometry == "line"
 
 
 def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:

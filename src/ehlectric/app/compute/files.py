@@ -176,7 +176,7 @@ def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progr
     table : mapping
         Inputs of the page.
     contacts : str
-        "formula" or "solved" for a bearing; empty where the case decides.
+        "atlas", "formula" or "solved" for a bearing; empty where the case decides.
     folder : Path
         Folder of the session.
     progress : callable

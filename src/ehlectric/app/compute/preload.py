@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from importlib import import_module
 
-from ehlectric.app.compute.bearing import answer_by_formula
+from ehlectric.app.compute.bearing import quick_answer
 from ehlectric.runs.example_files import example_text
 
 # Functions of the other pages; each takes less than a tenth of a second.
@@ -13,4 +13,4 @@ for name in ("descriptions", "contact", "motion", "surface", "sweep", "sweep_vie
     import_module(f"ehlectric.app.compute.{name}")
 
 # Units, files of the library and modules that are imported where they are used are read once, here.
-answer_by_formula(tomllib.loads(example_text("bearing_6208")))
+quick_answer(tomllib.loads(example_text("bearing_6208")))

@@ -15,6 +15,7 @@ from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.amounts import in_unit, split
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.ranges import number_of_text
+from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.cases.any_case import AnyCase, case_of_dict
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
@@ -206,7 +207,7 @@ def _in_si(value: float, key: str) -> tuple[float, str]:
 
 
 def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
-    """Size of a sweep, refused corners of its ranges, and its time where the contacts are by formula.
+    """Size of a sweep, refused corners of its ranges, and its time where the contacts are not solved.
 
     The time is that of one of the corners, which is solved here.
 
@@ -220,14 +221,14 @@ def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
     corners = planned_points(Sweep.from_dict({"case": sweep.case, "vary": ends}))
     refused = [point.refused for point in corners if point.key is None]
     seconds = None
-    if isinstance(sweep.case, BearingCase) and sweep.case.contacts == "formula":
+    if is_quick(sweep.case):
         inputs = next(point.inputs for point in corners if point.key is not None)
         seconds = _seconds(sweep.case.replace(inputs)) * sweep.size / workers
     return SweepPlan(sweep.size, seconds, workers, len(refused), len(corners), next(iter(refused), ""))
 
 
 def _seconds(case: AnyCase) -> float:
-    """Time of a point by formula [s]: the shortest of a few, as the first one in a process takes longer."""
+    """Time of a point that is not solved [s]: the shortest of a few, as the first one takes longer."""
     table = case.to_dict()
     found = [solve_point(table).seconds]
     while len(found) < _TRIES and sum(found) < _LONGEST_TRIES:

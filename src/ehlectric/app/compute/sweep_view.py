@@ -15,11 +15,12 @@ from ehlectric.app.answers.told import Told
 from ehlectric.app.compute.sweep import is_stored, named
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.sweep import figure_of
-from ehlectric.bearing.by_formula import formula_error
-from ehlectric.cases.any_case import AnyCase
+from ehlectric.bearing.accuracy import percent
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.result_key import key_of
+from ehlectric.cases.row import value_at
 from ehlectric.errors import CODES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
@@ -85,7 +86,7 @@ def view_of(results: SweepResults, shown: str) -> SweepView:
             _row(results, point, drawn) for point, drawn in zip(results.points, chart.points, strict=True)
         ),
         values=_values(results),
-        formula_error=_formula_error(results.case),
+        accuracy=_accuracy(results),
         level="" if verdict is None else verdict.level,
         text="" if verdict is None else verdict.text,
         warnings=tuple(map(_without_code, told_of(sweep_warnings(results)))),
@@ -100,11 +101,15 @@ def _without_code(told: Told) -> Told:
 _CODE = re.compile(rf"\b(warning|note) (?:{'|'.join(CODES)}): ")
 
 
-def _formula_error(case: AnyCase) -> str:
-    """Error of films from formulas; empty where contacts are solved."""
-    if isinstance(case, BearingCase) and case.contacts == "formula":
-        return formula_error(case.bearing.kind)
-    return ""
+def _accuracy(results: SweepResults) -> str:
+    """Sentence about the error of films that are not solved; empty without them."""
+    case = results.case
+    if not isinstance(case, BearingCase) or case.contacts == "solved":
+        return ""
+    how = f"Contacts are {HOW[case.contacts]}"
+    errors = [value_at(point.summary or {}, "bearing.film_error") for point in results.points]
+    known = [float(error) for error in errors if error is not None]
+    return f"{how}, films may be {percent(max(known))} off." if known else f"{how}."
 
 
 def _values(results: SweepResults) -> dict[str, str]:

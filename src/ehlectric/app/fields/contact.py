@@ -192,11 +192,30 @@ _SIDE = Field(
 )
 
 
-def _grid(label: str, ends: tuple[float, float], *more: Field) -> Group:
+def _refined(inputs: Inputs) -> bool:
+    return inputs.value("grid.nodes") is None and inputs.value("motion") is None
+
+
+def _grid(label: str, ends: tuple[float, float], nodes: int, *more: Field) -> Group:
+    ways = (
+        Way(label, {"grid.nodes": nodes}, "grid.nodes"),
+        Way("Error of the film", {"grid.nodes": None}),
+    )
     return Group(
         "Grid",
         (
-            Field("grid.nodes", label, "", *ends, log=True, kind="count"),
+            Field("grid.way_nodes", "Grid given by", kind="ways", ways=ways),
+            Field("grid.nodes", label, "", *ends, log=True, kind="count", when=_no),
+            Field(
+                "grid.error",
+                "Error of the film",
+                "%",
+                0.1,
+                5.0,
+                log=True,
+                note="the grid is refined until its estimate is below this",
+                when=_refined,
+            ),
             Field("grid.inlet", "Start of the domain", "", -10.0, -2.0, note=_IN_WIDTHS),
             Field("grid.outlet", "End of the domain", "", 1.2, 4.0, note=_IN_WIDTHS),
             *more,
@@ -206,8 +225,8 @@ def _grid(label: str, ends: tuple[float, float], *more: Field) -> Group:
 
 
 _GROUPS: Mapping[str, tuple[Group, ...]] = {
-    "line": (_LINE, _OIL, _FIELD, _MATERIALS, _grid("Nodes", (201.0, 12801.0))),
-    "point": (_POINT, _OIL, _FIELD, _MATERIALS, _grid("Nodes along each side", (65.0, 513.0), _SIDE)),
+    "line": (_LINE, _OIL, _FIELD, _MATERIALS, _grid("Nodes", (201.0, 12801.0), 3201)),
+    "point": (_POINT, _OIL, _FIELD, _MATERIALS, _grid("Nodes along each side", (65.0, 513.0), 257, _SIDE)),
 }
 
 # Tables and keys that line and point contacts share, which a change from one to the other keeps.

@@ -33,6 +33,8 @@ def default_of(inputs: Inputs, key: str) -> Any:
     >>> default_of(Inputs({"bearing": {"base": "6208"}}), "bearing.bore")
     '40 mm'
     """
+    if key == "grid.error":
+        return "2 %" if inputs.value("contact.geometry") == "point" else "1 %"
     if key in _NOT_WITH_SHEET and inputs.value("lubricant.temperature") is not None:
         return None
     estimated = inputs.value("lubricant.temperature.base_oil") is not None

@@ -39,6 +39,8 @@ ALTERNATIVES: tuple[Rows, ...] = (
     ),
     (("meter.fill",), ("meter.oil_radius",)),
     (("motion.passes",), ("motion.duration",)),
+    (("grid.error",), ("grid.nodes", "grid.nodes_y", "grid.refine")),
+    (("grid.error", "grid.refine"), ("motion",)),
     _SPEEDS,
     (("contact.entrainment_speed",), ("contact.speed_1", "contact.speed_2")),
     (("contact.load", "contact.load_per_length"), ("contact.max_hertz_pressure",)),

@@ -13,6 +13,7 @@ from ehlectric.app.figures.bearing_look import speed_layout
 from ehlectric.app.figures.look import BLUE, GREEN, GREY, ORANGE, RED, Plot, plot, values
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.cases.bearings.ways import OF_CONTACTS
 from ehlectric.cases.units import rpm_text
 from ehlectric.figures.bearing.curves import (
     RPM,
@@ -54,6 +55,11 @@ class OverSpeed:
     def of(cls, points: Speeds, own: Speed, *, level: str = "") -> OverSpeed:
         """Curves through points, scaled to the bearing itself."""
         return cls(points, own, curves_of(points, own), level)
+
+    @property
+    def contacts(self) -> str:
+        """Contacts of the points, in words."""
+        return OF_CONTACTS[self.points[0][1]["bearing"]["contacts"]]
 
 
 def breakdown_figure(over: OverSpeed) -> Plot:
@@ -134,12 +140,12 @@ def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
     return rows
 
 
-def _state(lambda_ratio: float, formula: str) -> str:
-    """State of lubrication at a scaled lambda ratio; ``formula`` is that of the ratio by formula."""
+def _state(lambda_ratio: float, quick: str) -> str:
+    """State of lubrication at a scaled lambda ratio; ``quick`` is that of the quick ratio."""
     if not math.isfinite(lambda_ratio):
-        return formula
+        return quick
     if lambda_ratio < CONDUCTING:
-        return "touching" if formula == "touching" else "conducting"
+        return "touching" if quick == "touching" else "conducting"
     return "partial film" if lambda_ratio < PARTIAL else "full film"
 
 

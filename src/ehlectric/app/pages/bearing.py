@@ -9,7 +9,7 @@ from fastapi import Request
 from nicegui import ui
 
 from ehlectric.app.answers.bearing import BearingAnswer
-from ehlectric.app.answers.calls import BEARING_BY_FORMULA, BEARING_WHOLE
+from ehlectric.app.answers.calls import BEARING_QUICK, BEARING_WHOLE
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.following import Following
 from ehlectric.app.inputs import Inputs
@@ -59,7 +59,7 @@ class BearingPage:
         self.session = session
         work = session.work
         self._following: Following[Inputs, BearingAnswer] = Following(
-            lambda inputs: work.quick(BEARING_BY_FORMULA, dict(inputs.table), session.made_folder),
+            lambda inputs: work.quick(BEARING_QUICK, dict(inputs.table), session.made_folder),
             lambda inputs: work.quick(BEARING_WHOLE, dict(inputs.table), session.made_folder),
             show=self._show,
             passing=lambda _, answer: self._put(answer),
@@ -126,7 +126,7 @@ class BearingPage:
         self._following.drop()
 
     def _ask(self) -> asyncio.Future[None]:
-        """Show the solved answer where there is one, or ask for that by formula; the one before is dimmed."""
+        """Show the solved answer where there is one, or ask for the quick one; the one before is dimmed."""
         solved = self.solving.answer()
         if solved is None:
             self._dim(dimmed=True)

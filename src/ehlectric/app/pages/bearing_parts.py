@@ -10,6 +10,7 @@ from nicegui import ui
 from ehlectric.app.answers.bearing import Difference, Figure, Judged, Number, Table
 from ehlectric.app.answers.told import Told, counts
 from ehlectric.app.pages import parts
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.errors import SEVERITY_WORDS
 
 
@@ -147,12 +148,14 @@ def effects_html(effects: Table | None) -> str:
 
 
 def differences_html(differences: Iterable[Difference]) -> str:
-    """Table of the differences of a solved result from that by formula; empty without any."""
-    rows = tuple((one.name, one.formula, one.solved, one.change) for one in differences)
+    """Table of the differences of a solved result from the quick one; empty without any."""
+    rows = tuple(differences)
     if not rows:
         return ""
-    heads = ("", "by formula", "solved", "solved differs by")
-    return table_html(Table("Solved contacts compared with the formula", heads, rows))
+    way = rows[0].way
+    heads = ("", HOW[way], "solved", "solved differs by")
+    cells = tuple((one.name, one.quick, one.solved, one.change) for one in rows)
+    return table_html(Table(f"Solved contacts compared with the {way}", heads, cells))
 
 
 def _list(texts: Iterable[str], kept: Iterable[str] = ()) -> str:

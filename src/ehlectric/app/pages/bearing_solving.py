@@ -17,7 +17,7 @@ from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.errors import LostError
 
-# What an error allows where only a formula lacks what is asked for.
+# What an error allows where only a quick answer lacks what is asked for.
 _BEYOND = "or solved contacts"
 
 # Solved answers that a tab keeps.
@@ -51,7 +51,7 @@ class Solving:
     ) -> None:
         self._session, self._changed, self._back = session, changed, back
         self._solved: dict[str, _Solved] = {}
-        self._formula = False
+        self._quick = False
         self._running: tuple[Inputs, Path] | None = None
         self._runs = 0
         with ui.element("div").classes("solving"):
@@ -68,21 +68,21 @@ class Solving:
         self.show(None)
 
     def answer(self) -> BearingAnswer | None:
-        """Solved answer to the present inputs; None without one, or where that by formula is wanted."""
+        """Solved answer to the present inputs; None without one, or where the quick one is wanted."""
         found = self._found()
         return None if found is None else found.answer
 
     def folder(self) -> Path | None:
-        """Folder of the result whose answer is shown; None where it is that by formula."""
+        """Folder of the result whose answer is shown; None where it is the quick one."""
         found = self._found()
         return None if found is None else found.folder
 
     def _found(self) -> _Solved | None:
-        return None if self._formula else self._solved.get(self._session.inputs.toml())
+        return None if self._quick else self._solved.get(self._session.inputs.toml())
 
     def forget(self) -> None:
         """Forget what was wanted for earlier inputs."""
-        self._formula = False
+        self._quick = False
         self._message.set_visibility(False)
 
     def show(self, answer: BearingAnswer | None, error: Exception | None = None) -> None:
@@ -93,14 +93,14 @@ class Solving:
         answer : BearingAnswer or None
             Answer that is shown; None for inputs that have none.
         error : Exception, optional
-            Why they have none. Some have no formula, and can be solved all the same.
+            Why they have none. Some have no quick answer, and can be solved all the same.
         """
         solved = self._session.inputs.toml() in self._solved
         self.how.text = "" if answer is None else answer.how
         self._solve.set_visibility(not solved and self._running is None)
         self._solve.set_enabled(answer is not None or _BEYOND in str(error))
         self._other.set_visibility(solved)
-        self._other.text = "Show the solved contacts" if self._formula else "Show the formula's answer"
+        self._other.text = "Show the solved contacts" if self._quick else "Show the quick answer"
         self._return.set_visibility(bool(self._solved) and not solved)
         if self._solved and not solved and answer is not None:
             self.how.text += " The solved result is of earlier inputs."
@@ -150,7 +150,7 @@ class Solving:
         self._message.set_visibility(True)
 
     def _switch(self) -> None:
-        self._formula = not self._formula
+        self._quick = not self._quick
         self._changed()
 
     def _go_back(self) -> None:

@@ -43,7 +43,7 @@ _FIRST = 1.0
 # Number of answers that are kept.
 _KEPT = 20
 
-_LATE = "contacts by formula; the critical speeds took too long and are left out"
+_LATE = "contacts not solved; the critical speeds took too long and are left out"
 _EARLIER = "A case has no answer: the effects below, if any, are those of earlier inputs."
 _NOTHING = "<p>The effects stand here when both cases have an answer.</p>"
 
@@ -193,7 +193,7 @@ class ComparePage:
         self.refresh()
 
     def refresh(self) -> asyncio.Task[None]:
-        """Answer both cases at once by formula, and then with their critical speeds.
+        """Answer both cases at once, and then with their critical speeds.
 
         Returns
         -------

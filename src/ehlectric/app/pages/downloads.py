@@ -15,6 +15,7 @@ from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.parts import JobBox, card
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
+from ehlectric.cases.bearings.ways import quick_way
 from ehlectric.errors import InputError, LostError
 
 # What is downloaded from a folder of results: data-testid, words, and kind.
@@ -54,8 +55,8 @@ class Downloads:
 
     Notes
     -----
-    The files of a bearing come from contacts by formula, as its page shows them, unless the page has a
-    folder with solved contacts.
+    The contacts of a bearing's files are not solved, as its page shows them, unless the page has a folder
+    with solved contacts.
     """
 
     def __init__(
@@ -102,6 +103,11 @@ class Downloads:
         inputs = self.session.inputs
         return file_title(inputs.value("title") or inputs.value("case.title"))
 
+    @property
+    def _quick(self) -> str:
+        """Way to the contacts of a bearing of the present inputs without solving them."""
+        return quick_way(self.session.inputs.value("contacts"))
+
     def toml(self) -> None:
         """Download the inputs."""
         ui.download.content(self.session.inputs.toml(), f"{self.title}.toml", "application/toml")
@@ -112,7 +118,7 @@ class Downloads:
             return
         options = ""
         if self._kind == "bearing":
-            options = f" --contacts {'formula' if self._folder() is None else 'solved'}"
+            options = f" --contacts {self._quick if self._folder() is None else 'solved'}"
         self._command.clear()
         with self._command:
             ui.label(f"ehlectric {_COMMANDS[self._kind]} {self.title}.toml{options}")
@@ -138,7 +144,7 @@ class Downloads:
         # The folder of earlier files is written anew.
         self._made = None
         self._then, self._asked = then, self.session.inputs
-        contacts = "formula" if self._kind == "bearing" else ""
+        contacts = self._quick if self._kind == "bearing" else ""
         self._start(FILES_WRITTEN, dict(self.session.inputs.table), contacts, self.session.folder)
 
     def _start(self, *call: Any) -> None:

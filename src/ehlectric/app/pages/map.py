@@ -252,6 +252,4 @@ def _told(view: SweepView) -> str:
 
 
 def _basis(view: SweepView) -> str:
-    if not view.formula_error:
-        return ""
-    return f" Contacts are computed by formula, films may be {view.formula_error} off."
+    return f" {view.accuracy}" if view.accuracy else ""

@@ -20,7 +20,7 @@ from ehlectric.errors import InputError
 
 Change = Callable[[Inputs], Awaitable[None]]
 
-# Examples that may be the base case. Their films are solved or computed by formula as they say.
+# Examples that may be the base case. Their films are computed as they say.
 EXAMPLES = {
     "bearing_6208": "Ball bearing 6208 in a drive",
     "discharge": "Line contact with breakdown",
@@ -169,7 +169,11 @@ class RangesForm:
         chosen.props("outlined dense data-testid=base-example").classes("full")
         self._link = Box("or paste a link of a page", "", "base-link", self._take_over)
         with ui.element("div") as self._kind:
-            kinds = {"formula": "by formula: half a second each", "solved": "solved: a minute or more each"}
+            kinds = {
+                "atlas": "from the atlas: half a second each",
+                "formula": "by formula: half a second each",
+                "solved": "solved: ten seconds or more each",
+            }
             self._select("case.contacts", "Contacts of the bearing", kinds, self._contacts)
         self._page = ui.link("Open the base case on its page", "/", new_tab=True)
         self._values = ui.expansion("Inputs of the base case").props('data-testid="base-inputs"')
@@ -196,7 +200,7 @@ class RangesForm:
 
     async def _example(self, event: Any) -> None:
         table = dict(start(str(event.value)).table)
-        await self._change(Inputs({"case": table | ({"contacts": "formula"} if "bearing" in table else {})}))
+        await self._change(Inputs({"case": table | ({"contacts": "atlas"} if "bearing" in table else {})}))
 
     async def _take_over(self, link: str) -> None:
         found = case_of_link(link)

@@ -21,21 +21,21 @@ BEARING = start("bearing_6208")
 # Strength of the first answers, that of the bearing: an assumption.
 _STRENGTH = {"discharge.dielectric_strength": "15 V/um"}
 
-# Grid of the point contact. It is larger than that of the example, so that the film has no warning about it,
-# also with the oil and the speed of the line contact with which the page begins.
-_POINT_GRID = {"grid.nodes": 385, "grid.inlet": -6.0, "grid.side": 5.0}
+# Domain of the point contact, larger than that of the example, so that the film has no warning about it, also
+# with the oil and the speed of the line contact with which the page begins.
+_POINT_DOMAIN = {"grid.inlet": -6.0, "grid.side": 5.0}
 
 
 def contact_start(geometry: str) -> Inputs:
     """Inputs with which the page of a line contact or of a point contact begins, with an assumed strength."""
     if geometry == "point":
-        return start("ball_contact").changed({**_STRENGTH, **_POINT_GRID})
+        return start("ball_contact").changed({**_STRENGTH, **_POINT_DOMAIN})
     return start("line_contact").changed(_STRENGTH)
 
 
 SWEEP = Inputs(
     {
-        "case": dict(BEARING.changed({"contacts": "formula"}).table),
+        "case": dict(BEARING.changed({"contacts": "atlas"}).table),
         "vary": {
             "bearing": {
                 "inner_speed": {"from": "300 rpm", "to": "6000 rpm", "count": 8, "spacing": "log"},

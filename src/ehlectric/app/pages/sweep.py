@@ -372,11 +372,9 @@ def _in_words(plan: SweepPlan) -> str:
     where = f"on {plan.workers} core{'s' if plan.workers > 1 else ''}"
     text = f"{plan.points} points {where}"
     if plan.seconds is None:
-        text += (
-            ": each takes as long as one solution, seconds for a contact and a minute or more for a bearing."
-        )
+        text += ": each takes as long as one solution, a second for a contact and ten or more for a bearing."
     else:
-        text += f", by formula: about {duration(plan.seconds)}."
+        text += f", without solving contacts: about {duration(plan.seconds)}."
     if plan.refused:
         text += f" {plan.refused} of {plan.corners} corners of the ranges are no valid case: {plan.reason}."
     return text

@@ -7,7 +7,7 @@ from typing import Any
 
 from ehlectric.bearing.breakdown import breakdown_of
 from ehlectric.bearing.margin.critical_speed import SpeedRange, speed_range
-from ehlectric.bearing.margin.formula_margins import FormulaMargins
+from ehlectric.bearing.margin.quick_margins import QuickMargins
 from ehlectric.bearing.margin.sensitivity import Effect, effects_of
 from ehlectric.bearing.margin.uncertainty import margin_range
 from ehlectric.bearing.shaft_voltage import margin as margin_of
@@ -66,7 +66,7 @@ class MarginAnalysis:
 def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
     """Analyse the margin of a solved bearing.
 
-    The analysis solves some twenty bearings with contacts by formula, which takes a few seconds at most.
+    The analysis solves some twenty bearings with contacts from the atlas, which takes a few seconds at most.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
     if margin is None or not solution.converged:
         return MarginAnalysis(margin)
     try:
-        margins = FormulaMargins.of(solution)
+        margins = QuickMargins.of(solution)
     except InputError as error:
         return MarginAnalysis(margin, left_out=(f"margins at other inputs: {error}",))
     effects, left_out = effects_of(margins, margin)

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import brentq
 
-from ehlectric.bearing.margin.formula_margins import FormulaMargins, FormulaPoint
+from ehlectric.bearing.margin.quick_margins import MarginPoint, QuickMargins
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
 from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError
@@ -86,12 +86,12 @@ class SpeedRange:
         return self.crossings[-1] if self.crossings and not self.above else None
 
 
-def speed_range(margins: FormulaMargins) -> SpeedRange:
+def speed_range(margins: QuickMargins) -> SpeedRange:
     """Find the speeds at which the margin of a bearing crosses 1.
 
     Parameters
     ----------
-    margins : FormulaMargins
+    margins : QuickMargins
         Margins of the bearing at changed inputs.
 
     Returns
@@ -108,7 +108,7 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
     known = {own: margins.own}
     left_out = []
 
-    def at(log: float) -> FormulaPoint:
+    def at(log: float) -> MarginPoint:
         if log not in known:
             known[log] = margins.at({"bearing.inner_speed": math.exp(log)})
         return known[log]
@@ -126,7 +126,7 @@ def speed_range(margins: FormulaMargins) -> SpeedRange:
     if touching is not None:
         # At the crossing itself the surfaces may touch by rounding.
         logs = [touching + _TOLERANCE, *(log for log in logs if log > touching + _TOLERANCE)]
-    # The surfaces may still touch by formula where the scaled lambda ratio is above 1.
+    # The surfaces may still touch with contacts from the atlas where the scaled lambda ratio is above 1.
     logs = [log for log in logs if at(log).margin > 0.0]
     crossings = _crossings(logs, lambda log: math.log(at(log).margin))
     return SpeedRange(

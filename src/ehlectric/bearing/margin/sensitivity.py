@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ehlectric.bearing.margin.formula_margins import FormulaMargins
+from ehlectric.bearing.margin.quick_margins import QuickMargins
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.input_keys import INPUT_NAMES
@@ -90,12 +90,12 @@ class _Change:
         return {key: factor * load for key, load in loads.items() if load}
 
 
-def effects_of(margins: FormulaMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
+def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     """Effects of strength, temperature, clearance, load and motor, and of all inputs that have a range.
 
     Parameters
     ----------
-    margins : FormulaMargins
+    margins : QuickMargins
         Margins of the bearing at changed inputs.
     margin : float
         Margin of the bearing, dimensionless.
@@ -124,7 +124,7 @@ def effects_of(margins: FormulaMargins, margin: float) -> tuple[tuple[Effect, ..
 
 
 def _margin(
-    margins: FormulaMargins, margin: float, table: Mapping[str, Any], change: _Change, end: float
+    margins: QuickMargins, margin: float, table: Mapping[str, Any], change: _Change, end: float
 ) -> float:
     """Margin with one changed input."""
     if change.key == OF_TABLE:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ehlectric.bearing.margin.formula_margins import FormulaMargins
+from ehlectric.bearing.margin.quick_margins import QuickMargins
 from ehlectric.bearing.margin.sensitivity import Effect
 from ehlectric.errors import InputError
 
 
 def margin_range(
-    margins: FormulaMargins, margin: float, effects: Iterable[Effect]
+    margins: QuickMargins, margin: float, effects: Iterable[Effect]
 ) -> tuple[float, float] | None:
     """Margin with all inputs of ``ranges`` at their unfavourable ends, and at their favourable ends.
 
     Parameters
     ----------
-    margins : FormulaMargins
+    margins : QuickMargins
         Margins of the bearing at changed inputs.
     margin : float
         Margin of the bearing, dimensionless.
@@ -32,13 +32,14 @@ def margin_range(
     Raises
     ------
     InputError
-        Where a range has no effect by formula, or one of the two cases cannot be computed.
+        Where a range has no effect on contacts from the atlas, or one of the two cases cannot be computed.
 
     Notes
     -----
-    The ends are found one input at a time, and then taken together: 2n + 2 bearings by formula for n ranges.
-    This is the range of the margin where every input acts in one direction over its range. It is wider than
-    an interval of confidence, because all inputs are seldom at their worst at once.
+    The ends are found one input at a time, and then taken together: 2n + 2 bearings with contacts from
+    the atlas for n ranges. This is the range of the margin where every input acts in one direction over
+    its range. It is wider than an interval of confidence, because all inputs are seldom at their worst at
+    once.
     """
     by_key = {effect.key: effect for effect in effects}
     ranges = margins.case.ranges or ()
@@ -49,7 +50,7 @@ def margin_range(
     for one in ranges:
         effect = by_key.get(one.key)
         if effect is None:
-            raise InputError.worded(f"ranges.{one.key}", "its ends have no margin by formula")
+            raise InputError.worded(f"ranges.{one.key}", "its ends have no margin without solved contacts")
         ends = {one.low: effect.low_margin, one.high: effect.high_margin}
         # The value of the case counts as well, as it may lie outside of its range or at the top of a curve.
         worst |= _chosen(one.key, min(ends, key=ends.__getitem__), ends, margin, lowest=True)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ehlectric.bearing.accuracy import error_text, film_error
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
-from ehlectric.bearing.by_formula import formula_error, formula_factor
 from ehlectric.bearing.discharges.leakage import leakage_warnings, shaft_leakage
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import Intervals, SpeedRange
 from ehlectric.bearing.meter.reading import film_share, shaft_path
+from ehlectric.bearing.quick.errors import formula_factor
+from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
 from ehlectric.bearing.warnings import bearing_warnings
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import amount
 from ehlectric.cases.units import rpm, rpm_text
 from ehlectric.discharge.verdict import (
@@ -55,7 +58,7 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
     Notes
     -----
     The margin may lie anywhere between its values at the ends of the stated ranges. Estimated errors of
-    solved films widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its
+    films widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its
     lower end is that at a probability of 5 %. Without a stated range of the strength, a margin that a change
     of the strength by 20 % takes across 1 is yellow, too.
     """
@@ -185,12 +188,6 @@ def _strength_is_open(solution: BearingSolution) -> bool:
     return not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
 
 
-def film_error(solution: BearingSolution) -> float:
-    """Largest estimated error of the films and of their interpolation over the load, relative, at most 1."""
-    errors = [contact.error or 0.0 for curve in solution.curves for contact in curve.solutions]
-    return min(1.0, max(errors) + max(curve.interpolation_error for curve in solution.curves))
-
-
 def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
     """Sentences for which the margin may be lower than it is computed to be."""
     if lubrication(solution) == "partial film":
@@ -217,11 +214,11 @@ def _widths(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
         level_of(*ends) != "yellow" and level_of(*_widened(solution, *ends)) == "yellow" for ends in intervals
     ):
         return
-    if solution.case.contacts == "formula":
-        off = formula_error(solution.case.bearing.kind)
-        yield f"Films by formula may be {off} off: solved contacts decide."
+    if is_quick(solution.case):
+        how = HOW[solution.case.contacts]
+        yield f"Films {how} may be {error_text(solution)} off: solved contacts decide."
     elif film_error(solution) > 0.0:
-        yield f"Films may be {100.0 * film_error(solution):.2g} % off."
+        yield f"Films may be {error_text(solution)} off."
 
 
 def _speeds(speeds: SpeedRange | None, level: Level) -> Iterator[str]:

@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.by_formula import formula_error, formula_factor
+from ehlectric.bearing.accuracy import percent
 from ehlectric.bearing.measured.forward import FilmState, OperatingPoint, check_films_measured
 from ehlectric.bearing.measured.inverse import NoFactorError, film_factor_of, slope_at
 from ehlectric.bearing.measured.ranges import background_effect, shared_effects
 from ehlectric.bearing.measured.solved import Correction, solved_correction
+from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import OF_CONTACTS
 from ehlectric.cases.measurements.average import mean_factor, slope_of
 from ehlectric.cases.measurements.factors import FilmFactors, fitted_columns
 from ehlectric.cases.measurements.meter import MeasuredCapacitance, capacitance_of
@@ -205,6 +207,7 @@ def _result(
     shared, left_out = shared_effects(case, used, factors[found], slopes[found], correction.of)
     if own_background:
         shared |= background_effect(case, targets[found], slopes[found])
+    error = _error(case, rows, factors) if is_quick(case) else None
     mean = trend = None
     if np.any(found):
         own = None if stated is None else stated[found]
@@ -220,7 +223,7 @@ def _result(
         "lambda_ratio": searched["lambda_ratio"],
     }
     warnings = (
-        *_film_warnings(case),
+        *_film_warnings(case, error),
         *temperature_warnings(measured, case.lubricant),
         *(
             ResultWarning("range-left-out", f"film factors leave out the range of {text}")
@@ -234,7 +237,7 @@ def _result(
         quantity="capacitance",
         contacts=case.contacts,
         solves=correction.solves,
-        formula_error=formula_factor(case.bearing.kind) - 1.0 if case.contacts == "formula" else None,
+        formula_error=error,
         background=background,
         columns=columns,
         reasons=reasons,
@@ -272,10 +275,21 @@ def _systematic(shared: Mapping[str, Array], factors: Array, found: Array) -> di
     return {"factor_systematic": column}
 
 
-def _film_warnings(case: BearingCase) -> tuple[ResultWarning, ...]:
-    """Warning of films by formula, whose error is not in the interval of a film factor."""
-    if case.contacts != "formula":
+def _error(case: BearingCase, rows: tuple[Mapping[str, Any], ...], factors: Array) -> float:
+    """Relative error of films that are not solved, of the rows with the smallest and the largest factor."""
+    places = np.flatnonzero(np.isfinite(factors))
+    if not places.size:
+        return OperatingPoint.of(case, rows[0]).film_error(1.0)
+    ends = {int(places[np.argmin(factors[places])]), int(places[np.argmax(factors[places])])}
+    return max(OperatingPoint.of(case, rows[k]).film_error(float(factors[k])) for k in ends)
+
+
+def _film_warnings(case: BearingCase, error: float | None) -> tuple[ResultWarning, ...]:
+    """Warning of films that are not solved, whose error is not in the interval of a film factor."""
+    if error is None:
         return ()
-    error = formula_error(case.bearing.kind)
-    text = f'contacts by formula: films may be {error} off, and so may film factors; contacts = "solved"'
-    return (ResultWarning("formula-contacts", f"{text} takes minutes and has no such error"),)
+    text = f"{OF_CONTACTS[case.contacts]}: films may be {percent(error)} off, and so may film factors"
+    if case.contacts == "atlas":
+        return (ResultWarning("atlas-contacts", text),)
+    solved = 'contacts = "solved" takes minutes and has no such error'
+    return (ResultWarning("formula-contacts", f"{text}; {solved}"),)

@@ -1,4 +1,4 @@
-"""Capacitance of a bearing over its film factor, at one speed and temperature, with contacts by formula."""
+"""Capacitance of a bearing over its film factor, at one speed and temperature, with quick contacts."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ehlectric.bearing.by_formula import formula_case
+from ehlectric.bearing.accuracy import film_error
 from ehlectric.bearing.meter.reading import meter_capacitance
 from ehlectric.bearing.preparation import PreparedBearing, prepare_bearing, with_film_factor
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solution import BearingSolution, lambda_ratio
 from ehlectric.bearing.solving.contacts_and_circuit import POSITIONS, solution_of_prepared
 from ehlectric.cases import library
@@ -60,7 +61,7 @@ class OperatingPoint:
     Attributes
     ----------
     case : BearingCase
-        Case at this speed and temperature, with contacts by formula.
+        Case at this speed and temperature, with contacts from the atlas or by formula.
     prepared : PreparedBearing
         Equilibria and contacts, with the film factor of the case.
     """
@@ -76,11 +77,11 @@ class OperatingPoint:
         Raises
         ------
         InputError
-            Where the changed case is not valid, or formulas do not describe its oil.
+            Where the changed case is not valid, or its oil is neither in the atlas nor described by formulas.
         """
         # What is in parallel is taken off the measured values.
         alone = {} if case.bearing.parallel_capacitance is None else {"bearing.parallel_capacitance": None}
-        changed, refused = formula_case(case.replace({**changes, **alone}), constant=True)
+        changed, refused = quick_case(case.replace({**changes, **alone}), constant=True)
         if changed is None:
             assert refused is not None
             raise refused
@@ -95,9 +96,15 @@ class OperatingPoint:
             Where the films are too thick for the bearing, or too thin to be computed.
         """
         if factor not in self._known:
-            solution = solution_of_prepared(self.case, with_film_factor(self.prepared, factor))
-            self._known[factor] = FilmState.of(solution)
+            self._known[factor] = FilmState.of(self._solution(factor))
         return self._known[factor]
+
+    def film_error(self, factor: float) -> float:
+        """Relative error of the films at a film factor."""
+        return film_error(self._solution(factor))
+
+    def _solution(self, factor: float) -> BearingSolution:
+        return solution_of_prepared(self.case, with_film_factor(self.prepared, factor))
 
 
 def check_films_measured(case: BearingCase) -> None:

@@ -43,7 +43,7 @@ def shared_effects(
     factors, slopes : ndarray, shape (n,)
         Film factor of each row, and its d ln(capacitance)/d ln(factor).
     corrected : callable
-        Correction of a state by formula, see ``Correction.of``.
+        Correction of a quick state, see ``Correction.of``.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Solved contacts in place of formulas: a table over the film factor that corrects the formulas."""
+"""Solved contacts in place of quick ones: a table over the film factor that corrects the quick ones."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ _SAME = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Correction:
-    """Ratio of solved numbers to those by formula, over the capacitance by formula.
+    """Ratio of solved numbers to quick ones, from the atlas or by formula, over the quick capacitance.
 
     Attributes
     ----------
     logs : ndarray, shape (k,)
-        Logarithm of the capacitance by formula [F], increasing; empty for contacts by formula alone.
+        Logarithm of the quick capacitance [F], increasing; empty for quick contacts alone.
     ratios : ndarray, shape (k, 2)
-        Logarithm of the ratio solved/formula of capacitance and of lambda ratio.
+        Logarithm of the ratio solved/quick of capacitance and of lambda ratio.
     solves : int
         Number of contacts that were solved.
     """
@@ -48,11 +48,11 @@ class Correction:
 
     @classmethod
     def none(cls) -> Correction:
-        """Correction that leaves numbers by formula as they are."""
+        """Correction that leaves quick numbers as they are."""
         return cls(np.zeros(0), np.zeros((0, 2)))
 
     def of(self, state: FilmState) -> FilmState:
-        """State with solved contacts from a state by formula; beyond the table its end counts."""
+        """State with solved contacts from a quick state; beyond the table its end counts."""
         if not self.logs.size:
             return state
         at = float(np.clip(math.log(state.capacitance), self.logs[0], self.logs[-1]))
@@ -62,7 +62,7 @@ class Correction:
         return FilmState(state.capacitance * float(capacity), state.lambda_ratio * float(ratio))
 
     def extended(self, formula: FilmState, solution: BearingSolution) -> Correction:
-        """Correction with one more solved bearing, whose state by formula is known."""
+        """Correction with one more solved bearing, whose quick state is known."""
         own = FilmState.of(solution)
         log = math.log(formula.capacitance)
         ratio = own.capacitance / formula.capacitance, own.lambda_ratio / formula.lambda_ratio
@@ -81,7 +81,7 @@ def solved_correction(
     progress: Progress,
     workers: int | None = None,
 ) -> Correction:
-    """Solve a bearing at a few measured rows, and compare it with formulas.
+    """Solve a bearing at a few measured rows, and compare it with quick contacts.
 
     Parameters
     ----------
@@ -104,15 +104,15 @@ def solved_correction(
     Raises
     ------
     InputError
-        Where the bearing cannot be solved, or formulas reach none of the capacitances.
+        Where the bearing cannot be solved, or quick contacts reach none of the capacitances.
     ConvergenceError
         Where a contact does not converge.
 
     Notes
     -----
-    Each bearing is solved at the speed of a row, with the film factor that explains it by formula and the
-    table so far. Between these rows the ratio solved/formula depends on the film, of which the capacitance is
-    the measure, and hardly on the speed.
+    Each bearing is solved at the speed of a row, with the film factor that explains it by quick contacts
+    and the table so far. Between these rows the ratio solved/quick depends on the film, of which the
+    capacitance is the measure, and hardly on the speed.
     """
     correction, places = Correction.none(), _spread(targets)
     for number, place in enumerate(places, 1):
@@ -134,7 +134,7 @@ def solved_correction(
             raise ConvergenceError(f"a contact of the bearing at film factor {factor:.3g}")
         correction = correction.extended(point.at(factor), solution)
     if not correction.logs.size:
-        raise InputError("measured", "has no capacitance that films by formula explain")
+        raise InputError("measured", "has no capacitance that films of the atlas or of a formula explain")
     return correction
 
 
@@ -150,7 +150,7 @@ def _capacitance(point: OperatingPoint, correction: Correction) -> Callable[[flo
 def _spread(targets: Array) -> list[int]:
     """Places of rows that are spread over the logarithm of their capacitance; a single one counts twice.
 
-    The second time its film factor is that of the corrected formula.
+    The second time its film factor is that of the corrected table.
     """
     values, first = np.unique(np.where(targets > 0.0, targets, np.nan), return_index=True)
     known = np.isfinite(values)

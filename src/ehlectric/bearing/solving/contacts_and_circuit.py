@@ -10,6 +10,7 @@ from ehlectric.bearing.contacts import ContactCurve, ContactSolution
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
+from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.progress import Progress, silent
@@ -85,7 +86,7 @@ def solution_of_prepared(
     """
     started = time.perf_counter()
     tasks = [_tasks(case, prepared, inner=inner) for inner in (True, False)]
-    processes = 1 if case.contacts == "formula" else workers or cores()
+    processes = 1 if is_quick(case) else workers or cores()
     solutions = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
     first = len(tasks[0])
     curves = ContactCurve(tuple(solutions[:first])), ContactCurve(tuple(solutions[first:]))
@@ -107,9 +108,10 @@ def _tasks(
     """Functions that solve the contacts with one ring, by increasing load."""
     ring = prepared.inner if inner else prepared.outer
     kind = kind_of(ring)
-    contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring)]
-    if case.contacts == "formula":
-        return [partial(kind.by_formula, contact) for contact in contacts]
+    quick = is_quick(case)
+    contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring, quick=quick)]
+    if quick:
+        return [partial(kind.quick[case.contacts], contact) for contact in contacts]
     return [partial(kind.solve, contact, case.solver) for contact in contacts]
 
 

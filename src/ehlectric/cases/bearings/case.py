@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Self, Unpack
 
 from pydantic import field_serializer, field_validator, model_validator
 
@@ -13,6 +13,7 @@ from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.coating import COATING_ALTERNATIVES
 from ehlectric.cases.bearings.discharge import BearingDischarge
 from ehlectric.cases.bearings.motor import Motor
+from ehlectric.cases.bearings.ways import Contacts
 from ehlectric.cases.changes import Groups, displace, flattened, nested, set_keys
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import STRENGTHS, TABLES
@@ -96,7 +97,7 @@ class BearingCase(Tabled, Table):
     title : str, optional
         Title of tables and figures.
     contacts : str, optional
-        "solved", or "formula" for contacts from film-thickness formulas.
+        "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
     discharge, motor, solver, ranges : mapping, optional
         Further tables, as in a bearing file.
 
@@ -124,7 +125,7 @@ class BearingCase(Tabled, Table):
     ADVICE: ClassVar = _ADVICE
 
     title: Title = ""
-    contacts: Literal["solved", "formula"] = "solved"
+    contacts: Contacts = "solved"
     bearing: Bearing
     lubricant: Lubricant
     discharge: BearingDischarge = BearingDischarge()
@@ -217,7 +218,7 @@ class BearingCase(Tabled, Table):
         *,
         lubricant: Lubricant | Keys | str,
         title: str = "",
-        contacts: Literal["solved", "formula"] = "solved",
+        contacts: Contacts = "solved",
         discharge: BearingDischarge | Keys | None = None,
         motor: Motor | Keys | None = None,
         solver: Solver | Keys | None = None,
@@ -233,7 +234,7 @@ class BearingCase(Tabled, Table):
         title : str, optional
             Title of tables and figures.
         contacts : str, optional
-            "solved", or "formula" for contacts from film-thickness formulas.
+            "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
         discharge, motor, solver, ranges : optional
             Further tables, as in a bearing file.
         **bearing

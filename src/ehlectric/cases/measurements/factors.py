@@ -66,11 +66,12 @@ class FilmFactors(Shown):
     quantity : str
         "capacitance" or "film": the measured quantity.
     contacts : str
-        "formula" or "solved": how the films of the case were computed.
+        "atlas", "formula" or "solved": how the films of the case were computed.
     solves : int
         Number of contacts that were solved.
     formula_error : float or None
-        Relative error that films by formula may have, which no interval contains; None for solved films.
+        Relative error that films by formula or from the atlas may have, which no interval contains; None for
+        solved films.
     background : float or None
         Capacitance [F] that was taken off every row; None for films.
     columns : mapping of str to ndarray, shape (n,)

@@ -74,4 +74,13 @@ class Lubricant(Properties):
         >>> round(oil.viscosity * 1e3, 2), round(oil.alpha * 1e9, 1)
         (12.46, 17.9)
         """
-        return oil_at(self, temperature, key)
+        latest = _latest[-1] if _latest else None
+        if latest is None or latest[0] is not self or latest[1] != temperature:
+            # Tables are frozen, so that the oil of the same table at the same temperature is the same.
+            latest = (self, temperature, oil_at(self, temperature, key))
+            _latest[:] = [latest]
+        return latest[2]
+
+
+# Oil that was made last, with its table and its temperature; a solution asks for its oil many times.
+_latest: list[tuple[Lubricant, float | None, Oil]] = []

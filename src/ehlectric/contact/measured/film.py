@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array
+from ehlectric.cases.bearings.ways import Contacts
 from ehlectric.cases.case import Case
 from ehlectric.cases.measurements.average import mean_factor, slope_of
 from ehlectric.cases.measurements.factors import FilmFactors, fitted_columns
@@ -19,9 +20,8 @@ from ehlectric.cases.measurements.reading import Measurement
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.film.atlas.contact import contact_film
 from ehlectric.runtime.progress import Progress, silent
-
-Contacts = Literal["solved", "formula"]
 
 # Formula of the central film by the geometry of the contact: those that hold in all regimes.
 FORMULA = {"line": "moes", "point": "nijenbanning_venner_moes"}
@@ -74,8 +74,9 @@ def contact_factors(
     measured : Measurement
         Rows with a film thickness.
     contacts : str
-        "solved" for films that are solved at three to seven speeds and interpolated between them, or
-        "formula" for the formulas of Nijenbanning, Venner and Moes (points) and of Moes (lines).
+        "solved" for films that are solved at three to seven speeds and interpolated between them, "atlas" for
+        films from the atlas, and by formula where it has none, or "formula" for the formulas of Nijenbanning,
+        Venner and Moes (points) and of Moes (lines).
     uncertainty : float, optional
         Relative standard uncertainty of the film, where the measurement states none.
     progress : callable, optional
@@ -109,8 +110,10 @@ def contact_factors(
     table = _Table(np.zeros(0), np.zeros(0))
     if contacts == "solved":
         table = _solved(smooth, rows, formula, progress)
-    computed = table.films(formula)
-    return _result(case, measured, (contacts, uncertainty), (rows, formula, computed), table)
+    computed, error = table.films(formula), _FORMULA_ERROR if contacts == "formula" else None
+    if contacts == "atlas":
+        computed, error = _atlas_films(smooth, rows, formula)
+    return _result(case, measured, (contacts, error, uncertainty), (rows, formula, computed), table)
 
 
 def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
@@ -155,6 +158,24 @@ def _formula_films(case: Case, rows: Sequence[Mapping[str, Any]], measured: Meas
     return np.array([known[tuple(row.values())] for row in rows])
 
 
+def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) -> tuple[Array, float]:
+    """Central film of each row from the atlas [m], shape (n,), or by formula, and the largest error."""
+    kind, known, worst = KINDS[case.contact.geometry], dict[tuple[Any, ...], float](), 0.0
+    for row, estimate in zip(rows, formula.tolist(), strict=True):
+        key = tuple(row.values())
+        if key in known:
+            continue
+        changed = case.replace(row)
+        oil = changed.lubricant.at(changed.contact.temperature)
+        try:
+            film = contact_film(kind.resolve(changed).contact, oil)
+        except InputError:
+            known[key], worst = estimate, max(worst, _FORMULA_ERROR)
+            continue
+        known[key], worst = film.central_thickness, max(worst, film.errors["central"])
+    return np.array([known[tuple(row.values())] for row in rows]), worst
+
+
 def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progress: Progress) -> _Table:
     """Films solved at rows that are spread over the film thickness."""
     logs, ratios = [], []
@@ -186,12 +207,12 @@ def _spread(formula: Array) -> list[int]:
 def _result(
     case: Case,
     measured: Measurement,
-    how: tuple[Contacts, float | None],
+    how: tuple[Contacts, float | None, float | None],
     films: tuple[Sequence[Mapping[str, Any]], Array, Array],
     table: _Table,
 ) -> FilmFactors:
     """Film factors with their mean and warnings."""
-    (contacts, relative), (rows, formula, computed) = how, films
+    (contacts, error, relative), (rows, formula, computed) = how, films
     film = measured.values["film"]
     uncertainty = measured.uncertainties.get("film", None if relative is None else relative * film)
     factors, stated = film / computed, None if uncertainty is None else uncertainty / film
@@ -213,23 +234,34 @@ def _result(
         quantity="film",
         contacts=contacts,
         solves=table.solves,
-        formula_error=_FORMULA_ERROR if contacts == "formula" else None,
+        formula_error=error,
         background=None,
         columns=columns,
         reasons=reasons,
         mean=mean,
         slope=trend,
         warnings=(
-            *(one for one in _film_warnings(case, contacts, table) if one.code != "temperature-unused"),
+            *(
+                one
+                for one in _film_warnings(case, (contacts, error), table)
+                if one.code != "temperature-unused"
+            ),
             *temperature_warnings(measured, case.lubricant),
             *measurement_warnings(measured, reasons, mean, trend, "entrainment speed"),
         ),
     )
 
 
-def _film_warnings(case: Case, contacts: Contacts, table: _Table) -> tuple[ResultWarning, ...]:
+def _film_warnings(
+    case: Case, how: tuple[Contacts, float | None], table: _Table
+) -> tuple[ResultWarning, ...]:
     """Warnings about the computed films."""
+    contacts, error = how
     if contacts == "solved":
         return table.warnings
+    if contacts == "atlas":
+        off = f"{100.0 * (error or 0.0):.2g} %"
+        text = f"films from the atlas may be {off} off, and so may film factors"
+        return (ResultWarning("atlas-contacts", text),)
     text = f"films by formula ({FORMULA[case.contact.geometry].replace('_', ' ')})"
     return (ResultWarning("formula-films", f"{text} may be 40 % off, and so may film factors; solve them"),)

@@ -81,8 +81,8 @@ class Curves:
 def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     """Curves through the values at several speeds, scaled to the values of the bearing itself.
 
-    Films by formula may be some per cent off. Their change with speed is more accurate, so each curve is
-    multiplied by the ratio of the value of the bearing itself to the curve at its speed.
+    Films that are not solved may be some per cent off. Their change with speed is more accurate, so each
+    curve is multiplied by the ratio of the value of the bearing itself to the curve at its speed.
 
     Parameters
     ----------

@@ -13,6 +13,7 @@ from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.meter.reading import shaft_capacitance
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lubrication
+from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
 from ehlectric.discharge.verdict import lead_of, ratio_text
 from ehlectric.figures.bearing.curves import (
     RPM,
@@ -160,7 +161,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     factor = solution.conditions.film_factor
     text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {factor:.3g}"
     text += f", minimum λ {lambda_ratio(solution):.2g}"
-    text += {"formula": ", contacts by formula", "solved": ", contacts solved"}[solution.case.contacts]
+    text += f", contacts {HOW[solution.case.contacts]}"
     if lubrication(solution) in _TOUCHING:
         return text + ": surfaces touch"
     return text + (": voltages are upper bounds" if voltages else "")
@@ -168,9 +169,9 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
 
 def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:
     """Line: how the curves over speed were computed, and how they were scaled to the bearing itself."""
-    names = {"solved": "solved contacts", "formula": "contacts by formula"}
-    text = f"curves: {' or '.join(sorted({names[summary['bearing']['contacts']] for _, summary in points}))}"
-    if own is None or own[1]["bearing"]["contacts"] == "formula":
+    contacts = sorted({OF_CONTACTS[summary["bearing"]["contacts"]] for _, summary in points})
+    text = f"curves: {' or '.join(contacts)}"
+    if own is None or own[1]["bearing"]["contacts"] != "solved":
         return text
     factors = [curves.scaled[key] for key in ("capacitance", "first_break") if curves.scaled[key] != 1.0]
     if not factors:

@@ -124,7 +124,7 @@ def figure(result: BearingResult, name: str) -> Figure:
         Result of the bearing.
     name : str
         Name of its file, such as "bearing_loads.png" or "capacitance_over_speed.png". For a figure over
-        speed, the bearing is solved by formula at other speeds.
+        speed, the bearing is computed with quick contacts at other speeds.
 
     Returns
     -------
@@ -255,7 +255,7 @@ def save_speed_figures(
 def save_over_speed(
     result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
 ) -> tuple[list[Path], list[ResultWarning]]:
-    """Solve a bearing by formula at speeds around its own, and draw it over speed as files.
+    """Compute a bearing with quick contacts at speeds around its own, and draw it over speed as files.
 
     Parameters
     ----------
@@ -269,7 +269,7 @@ def save_over_speed(
     Returns
     -------
     files : list of Path
-        Files written; none where the formulas take no speed.
+        Files written; none where its quick contacts have no speed.
     left_out : list of ResultWarning
         Speeds that are left out, and why.
     """

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.measurements.factors import FilmFactors, factor_text
 from ehlectric.cases.units import rpm
 from ehlectric.figures.axes import is_wide, scale_axis
@@ -110,7 +111,11 @@ def _title(factors: FilmFactors) -> list[str]:
     text = factor_text(factors.mean)
     what = "Capacitance" if factors.quantity == "capacitance" else "Central film"
     error = factors.formula_error
-    films = "solved contacts" if error is None else f"films by formula, up to {100.0 * error:.0f} % off"
+    films = (
+        "solved contacts"
+        if error is None
+        else f"films {HOW[factors.contacts]}, up to {100.0 * error:.2g} % off"
+    )
     found = int(factors.found.sum())
     rows = f"{found} of {len(factors.reasons)} rows of {Path(factors.source).name}"
     return [

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
+from ehlectric.cases.bearings.ways import HOW
 from ehlectric.figures.style import GREY, ORANGE, name_over
 from ehlectric.sweep.labels import CELSIUS, Label, Scale, label_of
 from ehlectric.sweep.results import SweepResults
@@ -177,7 +178,7 @@ def name_figure(ax: Axes, results: SweepResults, finding: str, more: str) -> Non
 
 # Texts of values that are words.
 _STATES = {
-    "contacts": {"formula": "contacts by formula", "solved": "contacts solved"},
+    "contacts": {contacts: f"contacts {how}" for contacts, how in HOW.items()},
     "bearing.film_factor": {"none": "isothermal, fully flooded film", "inlet-shear": "film with inlet shear"},
 }
 

@@ -23,7 +23,8 @@ from ehlectric.film.state import GridSolution
 
 # Distances of the patch's edges from the dry contact, in semi-axes along entrainment: ahead of it, behind it
 # and beside it; and the same in lengths sqrt(2 H) over which the pressure of a thick film builds up.
-_AHEAD, _BEHIND, _BESIDE = (0.7, 1.0), (0.3, 0.5), (0.5, 1.0)
+AHEAD, _AHEAD_THICK = 0.7, 1.0
+_BEHIND, _BESIDE = (0.3, 0.5), (0.5, 1.0)
 
 # Largest part of the domain that a patch may cover. A larger one saves too little.
 _LARGEST = 0.6
@@ -52,15 +53,20 @@ class Patch:
     lines: tuple[int, int]
 
     @classmethod
-    def around(cls, problem: FilmProblem, coarse: GridSolution) -> Patch | None:
-        """Patch where the film of a smooth point contact is decided; None where it would fill the domain."""
-        if problem.width is None or problem.added_gap is not None or coarse.status != "converged":
+    def around(cls, problem: FilmProblem, coarse: GridSolution, *, ahead: float = AHEAD) -> Patch | None:
+        """Patch where the film of a point contact is decided; None where it would fill the domain.
+
+        It reaches at least ``ahead`` semi-axes along entrainment ahead of the dry contact.
+        """
+        if problem.width is None or coarse.status != "converged":
             return None
         mesh = coarse.level.mesh
         length = np.sqrt(2.0 * max(at_centre(mesh, coarse.state.thickness), 0.0))
         ratio = 1.5 * problem.geometry.load / np.pi
-        ahead, behind, beside = (max(least, part * length) for least, part in (_AHEAD, _BEHIND, _BESIDE))
-        rows = _nearest(mesh.x, -1.0 - ahead), _nearest(mesh.x, 1.0 + behind)
+        before, behind, beside = (
+            max(least, part * length) for least, part in ((ahead, _AHEAD_THICK), _BEHIND, _BESIDE)
+        )
+        rows = _nearest(mesh.x, -1.0 - before), _nearest(mesh.x, 1.0 + behind)
         last = _nearest(mesh.y, ratio + beside * max(1.0, ratio))
         lines = 0 if mesh.symmetric else mesh.y.size - 1 - last, last
         part = (rows[1] - rows[0]) * (lines[1] - lines[0]) / ((mesh.x.size - 1) * (mesh.y.size - 1))
@@ -71,6 +77,11 @@ class Patch:
         """Ends of the patch X of inlet and outlet, and largest Y."""
         mesh = self.coarse.level.mesh
         return float(mesh.x[self.rows[0]]), float(mesh.x[self.rows[1]]), float(mesh.y[self.lines[1]])
+
+    @property
+    def nodes(self) -> tuple[slice, slice]:
+        """Nodes of the coarse mesh that the patch has, along x and across entrainment."""
+        return slice(self.rows[0], self.rows[1] + 1), slice(self.lines[0], self.lines[1] + 1)
 
     def times(self, fine: Mesh) -> int:
         """Whole number of spacings of a fine mesh in one of the coarse grid."""

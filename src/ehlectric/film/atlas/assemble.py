@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -14,20 +15,35 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.atlas.coefficient import REFERENCE, OilGroups, reference_laws
+from ehlectric.film.atlas.compute import rows_of
+from ehlectric.film.atlas.fill import extend, fill_between, fill_beyond
 from ehlectric.film.atlas.grids import LINES, POINTS, Axes
 from ehlectric.film.atlas.groups import TOLERANCE, Groups
 from ehlectric.film.atlas.measures import NAMES
 from ehlectric.version import __version__
 
-_CENTRAL, _MINIMUM, _MEAN, _PRESSURE = map(NAMES.index, ("central", "minimum", "mean", "pressure"))
+_CENTRAL, _MINIMUM, _MEAN, _PRESSURE, _ZONE = map(
+    NAMES.index, ("central", "minimum", "mean", "pressure", "zone")
+)
 _PLACES = NAMES.index("minimum_x")
 
-# Largest load group of points in the table. Beyond, 513 nodes do not resolve the side lobes, and the minimum
-# film is up to 20 % too thin on both grids.
-_MOST_LOAD = 5000.0
+# Largest difference of the logarithms of the minimum film on two grids with which a node is taken. Side lobes
+# that differ more are not resolved on either grid.
+_RESOLVED = 0.3
+
+# Least pressure in the middle that is stored, over the Hertz pressure: beside a spike the spline through the
+# nodes of a grid goes below zero, and the density does not depend on lower ones.
+_LEAST_PRESSURE = 0.03
+
+# Largest Hertz pressure over 1/alpha of nodes that are extrapolated from lower ones, so that contacts below
+# the largest that is solved lie in a cell.
+_NEAR = 165.0
+
+# Load group up to which nodes are not extrapolated: the spike of the pressure passes the centre.
+_LIGHT = 40.0
 
 # Least share of solved nodes of an outermost plane of the table that is kept.
-_LEAST_SHARE = 0.5
+_LEAST_SHARE = 0.05
 
 # Largest relative difference of two grids that is extrapolated to a vanishing node spacing.
 _SMALL = 0.2
@@ -36,13 +52,16 @@ _SMALL = 0.2
 def stored(groups: Groups, numbers: Array) -> Array:
     """Numbers of ``NAMES`` as the table stores them: logarithms of smooth ratios, and places.
 
-    The central film is stored as a thickness, because rho h has a spike where the pressure has one.
+    The central film is stored as a thickness, because rho h has a spike where the pressure has one. Where
+    the spike passes the centre, the central film has a kink. The minimum, the mean and the mean of
+    1/(rho h) do not, and are therefore stored without it.
     """
     logs = np.log(np.maximum(numbers[:_PLACES], 1e-12))
+    logs[_PRESSURE] = max(logs[_PRESSURE], np.log(_LEAST_PRESSURE))
     peak = numbers[_PRESSURE] * groups.hertz_number / OilGroups.of(*reference_laws()).alpha
+    logs[_ZONE] -= logs[_CENTRAL] - np.log(groups.formula)
     logs[_CENTRAL] -= float(np.log(reference_laws()[1](np.array([peak]))[0][0]))
-    logs[[_MINIMUM, _MEAN]] -= logs[_CENTRAL]
-    logs[_CENTRAL] -= np.log(groups.formula)
+    logs[[_CENTRAL, _MINIMUM, _MEAN]] -= np.log(groups.formula)
     return np.concatenate([logs, numbers[_PLACES:]])
 
 
@@ -52,51 +71,56 @@ def assembled(folder: Path, kind: str, axes: Axes) -> dict[str, Any]:
     errors = np.zeros_like(values)
     solved = np.zeros(axes.shape, dtype=bool)
     dates, seconds = [], 0.0
-    for file in sorted(folder.glob(f"{kind}-*.jsonl")):
-        for line in file.read_text(encoding="utf-8").splitlines():
-            row = json.loads(line)
-            dates.append(row["date"])
-            seconds += row["seconds"]
-            at = tuple(row["at"])
-            unresolved = axes.ratio is not None and axes.load[at[0]] > _MOST_LOAD
-            if row["status"] != "converged" or row["coarse"] is None or unresolved:
-                continue
-            fine, coarse = (stored(axes.groups(at), np.array(row[grid])) for grid in ("fine", "coarse"))
-            step = (fine - coarse) / 3.0
-            step[_PLACES:] = 0.0
-            values[at] = fine + np.where(np.abs(step) < _SMALL / 3.0, step, 0.0)
-            # The extrapolated value is better than either grid; half of its step bounds its error.
-            errors[at] = 0.5 * np.abs(step)
-            solved[at] = True
-    fill(values, solved)
-    made = {"computed": [min(dates), max(dates)] if dates else [], "seconds": round(seconds)}
+    for at, row in rows_of(folder, kind, axes):
+        dates.append(row["date"])
+        seconds += row["seconds"]
+        if row["status"] == "converged" and row["coarse"] is not None:
+            values[at], errors[at], solved[at] = _extrapolated(axes.groups(at), row)
+    values[~solved] = 0.0
+    number = int(solved.sum())
+    logs = [np.log(axis) for axis in axes.nodes]
+    fill_between(values, errors, solved, logs)
+    if axes.ratio is not None:
+        wanted = np.zeros(axes.shape, dtype=bool)
+        for at in np.ndindex(*axes.shape):
+            wanted[at] = axes.load[at[0]] > _LIGHT and axes.groups(at).hertz_number <= _NEAR
+        extend(values, errors, solved, wanted, logs)
+    made = {
+        "computed": [min(dates), max(dates)] if dates else [], "seconds": round(seconds), "solved": number,
+    }  # fmt: skip
     indices = [list(range(size)) for size in solved.shape]
     for axis in reversed(range(solved.ndim)):
         # The ratio first: narrow contacts may not be solved yet.
         indices[axis] = _kept(solved[np.ix_(*indices)], axis)
     kept = np.ix_(*indices)
     values, errors, solved = values[kept], errors[kept], solved[kept]
-    fill(values, solved)
     nodes = [axis[index.ravel()] for axis, index in zip(axes.nodes, kept, strict=True)]
+    fill_beyond(values, solved, [np.log(axis) for axis in nodes])
     return {"values": values, "errors": errors, "solved": solved, "made": made, "nodes": nodes}
 
 
+def _extrapolated(groups: Groups, row: dict[str, Any]) -> tuple[Array, Array, bool]:
+    """Stored numbers at vanishing spacing, their errors, and whether the grids resolve the film."""
+    grids = [row["fine"], row["coarse"]] + ([row["coarser"]] if row.get("coarser") else [])
+    films = [stored(groups, np.array(grid)) for grid in grids]
+    steps = [(finer - coarser) / 3.0 for finer, coarser in pairwise(films)]
+    for step in steps:
+        step[_PLACES:] = 0.0
+    used = np.where(np.abs(steps[0]) < _SMALL / 3.0, steps[0], 0.0)
+    # The extrapolated value is better than either grid; half of its step bounds its error. Where a third grid
+    # gives nearly the same extrapolated value, an eighth of the step remains at least.
+    error = 0.5 * np.abs(steps[0])
+    if len(steps) > 1:
+        change = 0.5 * np.abs(films[0] + steps[0] - films[1] - steps[1])
+        error = np.minimum(error, np.maximum(0.25 * error, change))
+    return films[0] + used, error, bool(3.0 * abs(steps[0][_MINIMUM]) < _RESOLVED)
+
+
 def _kept(solved: Mask, axis: int) -> list[int]:
-    """Indices along an axis without its ends where less than half of the nodes are solved."""
+    """Indices along an axis without its ends where too few nodes are solved."""
     share = solved.mean(axis=tuple(i for i in range(solved.ndim) if i != axis))
     good = np.flatnonzero(share >= _LEAST_SHARE)
     return list(range(int(good[0]), int(good[-1]) + 1))
-
-
-def fill(values: Array, solved: Mask) -> None:
-    """Fill nodes that were not solved from the nearest solved ones, so that splines have values there.
-
-    A table is not read in a cell with such a node; they only support its neighbours.
-    """
-    where = np.argwhere(solved)
-    for at in np.argwhere(~solved):
-        near = where[np.argmin(np.sum((where - at) ** 2, axis=1))]
-        values[tuple(at)] = values[tuple(near)]
 
 
 def main() -> None:
@@ -115,7 +139,7 @@ def main() -> None:
         arrays |= {f"{kind}_errors": made["errors"].astype(np.float32), f"{kind}_solved": made["solved"]}
         for name, nodes in zip(("load", "lubricant", "ratio"), made["nodes"], strict=False):
             arrays[f"{kind}_{name}"] = nodes
-        provenance[kind] = made["made"] | {"nodes": made["solved"].shape, "solved": int(made["solved"].sum())}
+        provenance[kind] = made["made"] | {"nodes": made["solved"].shape}
     np.savez_compressed(chosen.table, provenance=json.dumps(provenance), **arrays)
 
 

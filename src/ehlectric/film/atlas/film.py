@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.errors import InputError
 from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.film.atlas.grids import lubricant_coordinate
+from ehlectric.film.atlas.grids import MOST_HERTZ, lubricant_coordinate
 from ehlectric.film.atlas.groups import Groups
 from ehlectric.film.atlas.measures import NAMES
 from ehlectric.film.atlas.table import table
@@ -33,12 +34,15 @@ _OIL = {
 }
 
 # Spread between oils that 95 % of the fitted contacts keep: after the correction, and without it, for
-# contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread is twice as large: the spike
-# of the pressure passes the centre there.
-_SPREAD = {"central": 0.006, "minimum": 0.015, "mean": 0.016, "zone": 0.002, "inlet": 0.025, "outlet": 0.028}
+# contacts whose oil is not known. Below ``_LIGHT``, by M of a line, the spread and the error of the table are
+# twice as large, and that of the central film four times: the spike of the pressure passes the centre there.
+_SPREAD = {"central": 0.006, "minimum": 0.015, "mean": 0.016, "zone": 0.003, "inlet": 0.025, "outlet": 0.028}
 _WHOLE = {"central": 0.020, "minimum": 0.032, "mean": 0.021, "zone": 0.004, "inlet": 0.030, "outlet": 0.031}
 _OTHER = 0.01
 _LIGHT = 5.0
+
+# Largest change of the density for a change of the pressure by a factor of e, at pressures of light contacts.
+_DENSITY = 0.15
 
 
 @dataclass(frozen=True)
@@ -109,23 +113,33 @@ def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None =
     known = laws is not None
     laws = reference_laws() if laws is None else laws
     oil = OilGroups.of(*laws) if oil is None else oil
-    at = (groups.load_group, lubricant_coordinate(groups))
-    point = groups.ratio is not None
-    stored, errors = table("points" if point else "lines")(*at, *((groups.ratio,) if point else ()))
+    line = groups.ratio is None
+    films = table("lines" if line else "points")
+    at = (groups.load_group, lubricant_coordinate(groups), *(() if groups.ratio is None else (groups.ratio,)))
+    films.check_range(*at)
+    if not line and groups.hertz_number > MOST_HERTZ:
+        raise InputError(
+            "atlas",
+            got=f"alpha p_h = {groups.hertz_number:.4g}",
+            takes=f"at most {MOST_HERTZ:g}, the range of the atlas of points",
+        )
+    stored, errors = films(*at)
     logs = dict(zip(NAMES, stored.tolist(), strict=True))
     pressure, number = math.exp(logs["pressure"]), groups.hertz_number
     reference = reference_groups()
     of_reference = groups.formula * math.exp(logs["central"])
-    mass = of_reference * _ratio(reference_laws()[1], pressure * number / reference.alpha)
-    mass *= _factor("central", groups, oil)
+    mass_of_reference = of_reference * _ratio(reference_laws()[1], pressure * number / reference.alpha)
+    mass = mass_of_reference * _factor("central", groups, oil)
     central = mass / _ratio(laws[1], pressure * number / oil.alpha)
+    # The mean changes from oil to oil as the central film does.
+    mean = groups.formula * math.exp(logs["mean"]) * central / of_reference
     return AtlasFilm(
         central=central,
-        minimum=of_reference * math.exp(logs["minimum"]) * _factor("minimum", groups, oil),
-        mean=central * math.exp(logs["mean"]) * _factor("mean", groups, oil),
+        minimum=groups.formula * math.exp(logs["minimum"]) * _factor("minimum", groups, oil),
+        mean=mean * _factor("mean", groups, oil),
         mass=mass,
         central_pressure=pressure,
-        zone=math.exp(logs["zone"]),
+        zone=math.exp(logs["zone"]) * mass_of_reference / groups.formula,
         inlet=math.exp(logs["inlet"]) * _factor("inlet", groups, oil),
         outlet=math.exp(logs["outlet"]) * _factor("outlet", groups, oil),
         minimum_at=(logs["minimum_x"], logs["minimum_y"]),
@@ -143,12 +157,16 @@ def _errors(groups: Groups, errors: Array, spread: dict[str, float]) -> dict[str
     """Relative errors by name: of the table, and the spread between oils."""
     more = 2.0 if _line_load(groups) < _LIGHT else 1.0
     total = {
-        name: float(error) + more * spread.get(name, _OTHER)
+        name: more * (float(error) + spread.get(name, _OTHER))
         for name, error in zip(NAMES, errors, strict=True)
     }
-    # The minimum and the mean are stored over the central film.
-    for name in ("minimum", "mean"):
-        total[name] += float(errors[NAMES.index("central")])
+    central, pressure = (float(errors[NAMES.index(name)]) for name in ("central", "pressure"))
+    if more > 1.0:
+        # The kink of the central film where the spike passes the centre, and the density there.
+        total["central"] += more * central
+        total["zone"] += _DENSITY * min(pressure, 1.0)
+    # The mean of 1/(rho h) is stored without the central film.
+    total["zone"] += 2.0 * more * central if more > 1.0 else central
     return total
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline, make_interp_spline
 
 from ehlectric.arrays import Array
+from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.atlas.groups import Groups
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution
@@ -31,14 +32,37 @@ _RADII, _ANGLES = 48, 96
 _OUTSIDE = 241, 161
 
 
-def measured(groups: Groups, problem: FilmProblem, solution: GridSolution) -> Array:
-    """Numbers of a film on one grid, in the order of ``NAMES``."""
-    mesh, state = solution.level.mesh, solution.state
-    density = np.asarray(problem.fluid.density(np.maximum(state.pressure, 0.0))[0])
+def measured(
+    groups: Groups, problem: FilmProblem, solution: GridSolution, patch: Patch | None = None
+) -> Array:
+    """Numbers of a film on one grid, in the order of ``NAMES``.
+
+    Parameters
+    ----------
+    groups : Groups
+        Groups of the contact.
+    problem : FilmProblem
+        Problem of the film, for its fluid.
+    solution : GridSolution
+        Film over the whole domain, or inside a patch.
+    patch : Patch, optional
+        Patch that the film covers; its coarse film is outside.
+    """
+    mesh, maps = solution.level.mesh, _maps(problem, solution)
     if groups.ratio is None:
-        return _of_line(groups, mesh.x, state.pressure[:, 0], state.thickness[:, 0], density[:, 0])
-    maps = (state.pressure, state.thickness, density)
-    return _of_point(groups, mesh.x, mesh.whole_y, [mesh.mirrored(values) for values in maps])
+        return _of_line(groups, mesh.x, *(values[:, 0] for values in maps))
+    if patch is None:
+        return _of_point(groups, mesh.x, mesh.whole_y, [mesh.mirrored(values) for values in maps])
+    joined, coarse = patch.join(mesh), _maps(problem, patch.coarse)
+    whole = [joined(outer, inner) for outer, inner in zip(coarse, maps, strict=True)]
+    return _of_point(groups, joined.x, joined.y, whole)
+
+
+def _maps(problem: FilmProblem, solution: GridSolution) -> list[Array]:
+    """Pressure, film thickness and density of a film, shape (nx, ny)."""
+    pressure = solution.state.pressure
+    density = np.asarray(problem.fluid.density(np.maximum(pressure, 0.0))[0])
+    return [pressure, solution.state.thickness, density]
 
 
 def _of_line(groups: Groups, x: Array, pressure: Array, thickness: Array, density: Array) -> Array:

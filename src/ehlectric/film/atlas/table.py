@@ -13,10 +13,10 @@ from scipy.interpolate import NdBSpline, make_interp_spline
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError
+from ehlectric.film.atlas.fill import HALVED
 
-# The error of a spline through every node over that of a spline through every second one: a sixteenth for
-# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
-_HALVED = 1.0 / 5.0
+# Relative distance within which a coordinate is that of a node.
+_ALIKE = 1e-9
 
 # What a coordinate is that is not a group of Moes.
 _MEANING = {"moes_n": " in N, which is M times a function of k", "moes_y": " in Y, which is L N^(1/6)"}
@@ -67,7 +67,7 @@ class Table:
         coarse = tensor_spline(nodes, self.values[np.ix_(*every)])
         at = np.stack(np.meshgrid(*logs, indexing="ij"), axis=-1)
         missed = np.where(self.solved[..., np.newaxis], np.abs(coarse(at) - self.values), 0.0)
-        return _HALVED * _largest_near(missed)
+        return HALVED * _largest_near(missed)
 
     def __call__(self, *at: float) -> tuple[Array, Array]:
         """Stored numbers and their errors at a point, which must lie in the range of the table."""
@@ -75,16 +75,22 @@ class Table:
         logs = np.log(at)[np.newaxis]
         return self._spline(logs)[0], self._error(logs)[0]
 
-    def check(self, *at: float) -> None:
-        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+    def check_range(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table."""
         for name, axis, value in zip(self.names, self.axes, at, strict=True):
             if not axis[0] <= value <= axis[-1]:
                 said = f"{axis[0]:.4g} to {axis[-1]:.4g}, the range of the atlas{_MEANING.get(name, '')}"
                 raise InputError(name, got=f"{value:.4g}", takes=said)
+
+    def check(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+        self.check_range(*at)
         cell = []
         for axis, value in zip(self.axes, at, strict=True):
-            i = min(max(int(np.searchsorted(axis, value)) - 1, 0), axis.size - 2)
-            cell.append(slice(i, i + 2))
+            i = int(np.argmin(np.abs(axis - value)))
+            # On a node, as round contacts are, only the node itself decides.
+            j = i if abs(axis[i] - value) <= _ALIKE * value else i + 1 if value > axis[i] else i - 1
+            cell.append(slice(min(i, j), max(i, j) + 1))
         if not self.solved[tuple(cell)].all():
             where = ", ".join(f"{name} = {value:.4g}" for name, value in zip(self.names, at, strict=True))
             raise InputError(

@@ -9,7 +9,7 @@ import pytest
 from ehlectric.bearing.files import load, save
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import SpeedRange, speed_range
-from ehlectric.bearing.margin.formula_margins import FormulaMargins
+from ehlectric.bearing.margin.quick_margins import QuickMargins
 from ehlectric.bearing.margin.sensitivity import OF_TABLE, Effect
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.solver import solve_bearing
@@ -134,7 +134,7 @@ def said_of_speeds(rpm):
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
     changes = {"contacts": "formula", "bearing.inner_speed": f"{rpm} rpm"}
     result = solve_bearing(case.replace(changes), workers=1)
-    speeds = speed_range(FormulaMargins.of(result.solution))
+    speeds = speed_range(QuickMargins.of(result.solution))
     analysis = MarginAnalysis(result.breaks()["margin"], speeds)
     return result, speeds, bearing_verdict(result.solution, analysis).text
 
@@ -347,7 +347,7 @@ def test_a_narrow_range_leaves_the_margin():
 @pytest.mark.slow
 def test_a_range_that_formulas_cannot_follow_is_said(balls):
     """The shape of a Weibull law has no part in a formula; a rough end of a range leaves no film at all."""
-    margins = FormulaMargins.of(balls.solution)
+    margins = QuickMargins.of(balls.solution)
     with pytest.raises(InputError, match="has an effect that contacts by formula do not have"):
         margins.at({"discharge.weibull.shape": 5.0})
     result = solved(
@@ -394,11 +394,11 @@ def test_the_motor_divides_the_voltage(balls):
 
 def test_inputs_beside_the_films_solve_no_bearing_again(balls, monkeypatch):
     """A motor divides another voltage, and roughness another film: the margins are those of new solutions."""
-    margins = FormulaMargins.of(balls.solution)
+    margins = QuickMargins.of(balls.solution)
     changes = {"motor.rotor_frame_capacitance": 5e-10}, {"bearing.composite_rq": 6e-8}
     again = [margin_at(balls, **one) for one in changes]
     with monkeypatch.context() as patched:
-        patched.delattr("ehlectric.bearing.margin.formula_margins.solution_of")
+        patched.delattr("ehlectric.bearing.margin.quick_margins.solution_of")
         found = [margins.at(one) for one in changes]
     assert [one.margin for one in found] == pytest.approx(again, rel=1e-3)
     assert found[1].lambda_ratio == pytest.approx(0.5 * margins.own.lambda_ratio, rel=1e-12)

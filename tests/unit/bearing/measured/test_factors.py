@@ -215,14 +215,17 @@ def test_a_correction_multiplies_what_the_formulas_say():
     assert Correction.none().of(state) is state
 
 
-def test_solved_contacts_enter_by_their_ratio_to_the_formulas(case, exact, monkeypatch):
-    """Contacts "solved" by the formula, with films 5 % thicker than its own."""
+def test_solved_contacts_enter_by_their_ratio_to_the_atlas(case, monkeypatch):
+    """Contacts "solved" by the atlas, with films 5 % thicker than its own."""
+    quick = case.replace({"contacts": "atlas"})
+    points = [OperatingPoint.of(quick, {"bearing.inner_speed": n * RPM}) for n in SPEEDS]
+    exact = np.array([at.at(0.7).capacitance for at in points])
     solve = solved.solution_of_prepared
 
     def thicker(solved_case, prepared, **_):
         assert solved_case.contacts == "solved"
         factor = 1.05 * prepared.conditions.film_factor
-        return solve(solved_case.replace({"contacts": "formula"}), with_film_factor(prepared, factor))
+        return solve(solved_case.replace({"contacts": "atlas"}), with_film_factor(prepared, factor))
 
     monkeypatch.setattr(solved, "solution_of_prepared", thicker)
     found = ehlectric.film_factors(case, table(exact), contacts="solved", uncertainty="1 %")

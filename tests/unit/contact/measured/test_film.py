@@ -7,7 +7,8 @@ import pytest
 import ehlectric
 from ehlectric import Case
 from ehlectric.errors import InputError
-from ehlectric.formulas.film_point import nijenbanning_venner_moes
+from ehlectric.film.atlas.contact import contact_film
+from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
 
 BALL = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa", "load": "20 N"}
 SPEEDS = np.array([0.25, 0.5, 1.0, 2.0])
@@ -51,6 +52,23 @@ def test_solved_films_are_those_of_solve(case):
     assert found.columns["computed"][1:] == pytest.approx(films, rel=0.02)
     assert found.columns["computed"][-1] == pytest.approx(films[-1], rel=1e-9)
     assert found.contacts == "solved"
+
+
+def test_films_of_the_atlas_are_those_of_its_contacts(case):
+    """At 1 mm/s the film is outside the atlas, and that of the formula."""
+    speeds = np.array([0.001, 0.5, 1.0])
+    frame = pd.DataFrame({"entrainment speed [m/s]": speeds, "film [nm]": [10.0, 100.0, 100.0]})
+    found = ehlectric.film_factors(case, frame, contacts="atlas", uncertainty="4 %")
+    slow, *others = found.columns["computed"]
+    assert slow == pytest.approx(formula(case, 0.001))
+    oil = case.lubricant.at(None)
+    for speed, film in zip(speeds[1:].tolist(), others, strict=True):
+        ball = PointContact(10e-3, 10e-3, 226e9, 20.0, speed, oil.viscosity, 0.0)
+        assert film == pytest.approx(contact_film(ball, oil).central_thickness)
+    assert found.formula_error == 0.4
+    inside = ehlectric.film_factors(case, frame[1:], contacts="atlas", uncertainty="4 %")
+    assert inside.formula_error < 0.03
+    assert "atlas-contacts" in [warning.code for warning in inside.warnings]
 
 
 def test_starvation_over_the_speed_is_told(case):

@@ -11,11 +11,16 @@ from ehlectric.contact.conditions import line_conditions, point_conditions
 from ehlectric.contact.problems import geometry_of
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError
+from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.atlas.coefficient import OilGroups, film_coefficient, reference_laws
+from ehlectric.film.atlas.compute import record
 from ehlectric.film.atlas.contact import contact_film
 from ehlectric.film.atlas.film import atlas_film
 from ehlectric.film.atlas.groups import Groups, film_problem, groups_of
+from ehlectric.film.atlas.measures import NAMES, measured
 from ehlectric.film.atlas.table import Table, provenance, tensor_spline
+from ehlectric.film.nested import nested_iteration
+from ehlectric.film.solution import quiet_solution
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus
 
@@ -88,6 +93,50 @@ def test_line_contacts_of_library_oils(name, temperature, load, speed):
     assert found.errors["central"] < 0.03
 
 
+@pytest.mark.parametrize(
+    ("name", "temperature", "load", "lubricant", "ratio"),
+    [
+        ("fva-3", 343.15, 60.0, 30.0, 6.0),
+        ("iso-vg-32", 313.15, 8.5, 18.0, 1.3),
+        ("m100", 313.15, 160.0, 60.0, 8.0),
+    ],
+)
+def test_point_contacts_of_library_oils(name, temperature, load, lubricant, ratio):
+    oil = Lubricant.from_dict({"base": name}).at(temperature)
+    laws = (oil.log_viscosity, oil.density_ratio)
+    groups = groups_of(load, lubricant / load ** (1.0 / 6.0), ratio)
+    row = record(groups, laws, OilGroups.of(*laws).alpha)
+    solved = dict(zip(NAMES, (4.0 * np.array(row["fine"]) - np.array(row["coarse"])) / 3.0, strict=True))
+    found = atlas_film(groups, laws)
+    assert inside(found.mass, solved["central"], found.errors["central"])
+    assert inside(found.minimum, solved["minimum"], found.errors["minimum"])
+    assert inside(found.mean, solved["mean"], found.errors["mean"])
+    assert found.errors["minimum"] < 0.08
+
+
+def test_film_on_a_patch_is_that_on_the_whole_grid():
+    """A patch with half of the spacings gives the numbers of the whole domain on the finer grid."""
+    laws = reference_laws()
+    groups = groups_of(300.0, 8.0, 2.0)
+    problem = film_problem(groups, laws, OilGroups.of(*laws).alpha, 129)
+    with quiet_solution():
+        solutions = nested_iteration(problem, None)
+        patch = Patch.around(problem, solutions[-1])
+        inner = nested_iteration(patch.refined(2), None, solutions)[-1]
+        whole = nested_iteration(problem.doubled(), None, solutions)[-1]
+    numbers = measured(groups, problem, inner, patch)
+    expected = measured(groups, problem, whole)
+    coarse = measured(groups, problem, solutions[-1])
+    np.testing.assert_allclose(numbers[:5], expected[:5], rtol=1e-3)
+    np.testing.assert_allclose(numbers[5:7], expected[5:7], rtol=5e-3)
+    assert np.all(np.abs(coarse - expected)[:2] > 4.0 * np.abs(numbers - expected)[:2])
+
+
+def test_hertz_pressures_beyond_the_solved_ones_are_refused():
+    with pytest.raises(InputError, match="alpha p_h"):
+        atlas_film(groups_of(2000.0, 32.0, 6.0))
+
+
 def test_outside_the_atlas_the_range_is_named():
     with pytest.raises(InputError, match="the range of the atlas"):
         atlas_film(Groups(1e6, 10.0))
@@ -103,6 +152,9 @@ def test_a_cell_without_a_film_is_refused():
     assert made(1.5, 3.0)[0] == pytest.approx([1.0, 1.0])
     with pytest.raises(InputError, match="solve it"):
         made(3.0, 3.0)
+    assert made(2.0, 3.0)[0] == pytest.approx([1.0, 1.0])
+    with pytest.raises(InputError, match="solve it"):
+        made(4.0, 3.0)
 
 
 def test_stated_error_of_interpolation_holds_between_nodes():

@@ -1,4 +1,4 @@
-"""Margins of a bearing at changed inputs, by film formulas scaled to the margin of its solution."""
+"""Margins of a bearing at changed inputs, by quick contacts scaled to the margin of its solution."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ehlectric.bearing.breakdown import breakdown_of
-from ehlectric.bearing.by_formula import formula_case
+from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.shaft_voltage import margin, shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, insulating, lambda_ratio
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
@@ -27,12 +27,12 @@ _BESIDE_FILMS = (
     "bearing.coating",
 )
 
-# Inputs of strength laws that contacts by formula replace by a constant strength.
-_NOT_BY_FORMULA = ("discharge.weibull.shape", "discharge.weibull.reference_area")
+# Inputs of strength laws that contacts without a solved field replace by a constant strength.
+_NOT_QUICK = ("discharge.weibull.shape", "discharge.weibull.reference_area")
 
 
 @dataclass(frozen=True)
-class FormulaPoint:
+class MarginPoint:
     """Margin and lambda ratio of a bearing.
 
     Attributes
@@ -48,19 +48,19 @@ class FormulaPoint:
 
 
 @dataclass(frozen=True)
-class FormulaMargins:
+class QuickMargins:
     """Margins of one bearing at changed inputs.
 
     Attributes
     ----------
     case : BearingCase
         Case of the bearing.
-    own : FormulaPoint
+    own : MarginPoint
         Margin and lambda ratio of the solution.
     margin_factor, lambda_factor : float
-        Margin and lambda ratio of the solution divided by those by formula, dimensionless.
-    by_formula : BearingSolution
-        Solution by formula at the inputs of the case.
+        Margin and lambda ratio of the solution divided by those of quick contacts, dimensionless.
+    quick : BearingSolution
+        Solution with quick contacts at the inputs of the case.
 
     Notes
     -----
@@ -69,14 +69,14 @@ class FormulaMargins:
     """
 
     case: BearingCase
-    own: FormulaPoint
+    own: MarginPoint
     margin_factor: float
     lambda_factor: float
-    by_formula: BearingSolution = field(repr=False)
+    quick: BearingSolution = field(repr=False)
 
     @classmethod
-    def of(cls, solution: BearingSolution) -> FormulaMargins:
-        """Margins by formula, scaled to those of a solution.
+    def of(cls, solution: BearingSolution) -> QuickMargins:
+        """Margins by quick contacts, scaled to those of a solution.
 
         Raises
         ------
@@ -87,14 +87,15 @@ class FormulaMargins:
         solved = None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
         if solved is None:
             raise InputError.worded(None, "the bearing has no margin")
-        own, by_formula = FormulaPoint(solved, lambda_ratio(solution)), _solved(solution.case)
-        point = _point(by_formula)
+        own, quick = MarginPoint(solved, lambda_ratio(solution)), _solved(solution.case)
+        point = _point(quick)
         if point.margin == 0.0:
-            raise InputError.worded(None, "by film formulas the surfaces touch already in the case itself")
+            text = "without solved contacts the surfaces touch already in the case itself"
+            raise InputError.worded(None, text)
         ratios = own.margin / point.margin, own.lambda_ratio / point.lambda_ratio
-        return cls(solution.case, own, *ratios, by_formula)
+        return cls(solution.case, own, *ratios, quick)
 
-    def at(self, changes: Mapping[str, Any]) -> FormulaPoint:
+    def at(self, changes: Mapping[str, Any]) -> MarginPoint:
         """Margin and lambda ratio with changed inputs, scaled to the solution.
 
         Parameters
@@ -104,39 +105,39 @@ class FormulaMargins:
 
         Returns
         -------
-        FormulaPoint
+        MarginPoint
             Scaled values; the margin is 0 where the surfaces touch.
 
         Raises
         ------
         InputError
-            Where the changed inputs make no valid case, or one that formulas cannot compute.
+            Where the changed inputs make no valid case, or one that needs solved contacts.
         """
         for key in changes:
-            if key in _NOT_BY_FORMULA:
-                raise InputError.worded(key, "has an effect that contacts by formula do not have")
+            if key in _NOT_QUICK:
+                raise InputError.worded(key, "has an effect that only solved contacts have")
         case = self.case.replace(changes)
         beside = all(key.startswith(_BESIDE_FILMS) for key in changes)
-        point = _point(replace(self.by_formula, case=case) if beside else _solved(case))
+        point = _point(replace(self.quick, case=case) if beside else _solved(case))
         ratio = self.lambda_factor * point.lambda_ratio
-        return FormulaPoint(self.margin_factor * point.margin, ratio)
+        return MarginPoint(self.margin_factor * point.margin, ratio)
 
 
 def _solved(case: BearingCase) -> BearingSolution:
-    """Solution of a case with contacts by formula, with a constant strength where formulas need one."""
-    by_formula, refused = formula_case(case, constant=True)
-    if by_formula is None:
+    """Solution of a case with quick contacts, with a constant strength where they need one."""
+    quick, refused = quick_case(case, constant=True)
+    if quick is None:
         assert refused is not None
         raise refused
-    return solution_of(by_formula, positions=_POSITIONS)
+    return solution_of(quick, positions=_POSITIONS)
 
 
-def _point(solution: BearingSolution) -> FormulaPoint:
-    """Margin and lambda ratio of a solution by formula."""
+def _point(solution: BearingSolution) -> MarginPoint:
+    """Margin and lambda ratio of a solution with quick contacts."""
     ratio, breakdown = lambda_ratio(solution), breakdown_of(solution)
     if not insulating(solution):
-        return FormulaPoint(0.0, ratio)
+        return MarginPoint(0.0, ratio)
     value = None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
     if value is None:
         raise InputError.worded(None, "the bearing has no margin")
-    return FormulaPoint(value, ratio)
+    return MarginPoint(value, ratio)

@@ -1,0 +1,30 @@
+"""Ways to the contacts of a bearing: solved, from the atlas of films, or by film formulas."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+# Values of ``contacts`` of a bearing file.
+Contacts = Literal["solved", "atlas", "formula"]
+
+# Those that solve no film. The first one is taken where films are wanted at once.
+QUICK: tuple[Contacts, ...] = ("atlas", "formula")
+
+# How contacts and films are obtained, and such contacts, in words.
+HOW = {"solved": "solved", "atlas": "from the atlas", "formula": "by formula"}
+OF_CONTACTS = {
+    "solved": "solved contacts",
+    "atlas": "contacts from the atlas",
+    "formula": "contacts by formula",
+}
+
+
+def quick_way(contacts: object) -> str:
+    """Quick way of a bearing with contacts as its file has them: its own one, or the atlas.
+
+    Examples
+    --------
+    >>> quick_way("formula"), quick_way("solved"), quick_way(None)
+    ('formula', 'atlas', 'atlas')
+    """
+    return str(contacts) if contacts in QUICK else QUICK[0]

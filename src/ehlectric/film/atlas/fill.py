@@ -1,0 +1,159 @@
+"""Nodes of the atlas without a solved film, from their neighbours: between solved nodes, and beyond them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline, make_interp_spline
+
+from ehlectric.arrays import Array, Mask
+
+# The error of a spline through every node over that of a spline through every second one: a sixteenth for
+# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
+HALVED = 1.0 / 5.0
+
+# Share of solved nodes, over the largest of all planes, above which a plane serves to fill others.
+_FULL = 0.75
+
+
+def fill_between(values: Array, errors: Array, solved: Mask, logs: list[Array]) -> None:
+    """Fill nodes between solved ones of a line along an axis, and take them as solved.
+
+    Parameters
+    ----------
+    values, errors : ndarray, shape (..., n)
+        Stored numbers at the nodes and their errors; changed.
+    solved : ndarray of bool, shape (...)
+        Nodes with a film; changed.
+    logs : list of ndarray
+        Logarithms of the nodes along each axis.
+
+    Notes
+    -----
+    The second axis is filled first, then the third and the first one. The numbers are those of a cubic spline
+    through the solved nodes of the line. To the errors of the neighbours a fifth of the error is added that a
+    spline through every second solved node has.
+    """
+    _fill_lines(values, errors, solved, logs, 1)
+    if solved.ndim == 3:
+        _fill_planes(values, errors, solved, logs)
+        _fill_lines(values, errors, solved, logs, 2)
+    _fill_lines(values, errors, solved, logs, 0)
+
+
+def _fill_planes(values: Array, errors: Array, solved: Mask, logs: list[Array]) -> None:
+    """Fill planes of the third axis that are solved for few nodes of the first one.
+
+    A spline along the third axis through the other planes is off by little, and this changes slowly along the
+    first axis: the difference at the solved nodes is interpolated, and kept beyond the last of them, where it
+    is added to the error.
+    """
+    share = solved.mean(axis=(0, 1))
+    full = np.flatnonzero(share > _FULL * np.max(share))
+    for plane in np.setdiff1d(np.arange(full[0], full[-1]), full):
+        for j in range(solved.shape[1]):
+            line, x = (slice(None), j, plane), logs[2]
+            around = [np.intersect1d(full, np.flatnonzero(known)) for known in solved[:, j]]
+            inside = np.array([known.size > 1 and known[0] < plane < known[-1] for known in around])
+            guess = np.zeros_like(values[line])
+            for i in np.flatnonzero(inside):
+                guess[i] = _spline(x, around[i], values[i, j])(x[plane])
+            known = solved[line] & inside
+            if np.count_nonzero(known) < 3:
+                continue
+            off, doubt, filled = values[line] - guess, errors[line].copy(), known.copy()
+            _fill_line(logs[0], off, doubt, filled)
+            nodes = np.flatnonzero(filled)
+            for i in np.flatnonzero(inside & ~solved[line]):
+                near = nodes[np.argmin(np.abs(nodes - i))]
+                beyond = np.abs(off[near]) if near != i else 0.0
+                values[i, j, plane] = guess[i] + off[near]
+                errors[i, j, plane] = np.max(errors[i, j, around[i]], axis=0) + doubt[near] + beyond
+                solved[i, j, plane] = True
+
+
+def _fill_lines(values: Array, errors: Array, solved: Mask, logs: list[Array], axis: int) -> None:
+    """Fill the nodes between solved ones of all lines along an axis; the arrays are changed."""
+    on_lines, off_lines = np.moveaxis(values, axis, 0), np.moveaxis(errors, axis, 0)
+    mask = np.moveaxis(solved, axis, 0)
+    for at in np.ndindex(*mask.shape[1:]):
+        line = (slice(None), *at)
+        known = np.flatnonzero(mask[line])
+        # Two solved nodes serve for the one ratio of the semi-axes between them.
+        if known.size >= 3 or (axis == 2 and known.size == 2 and known[1] - known[0] == 2):
+            _fill_line(logs[axis], on_lines[line], off_lines[line], mask[line])
+
+
+def _fill_line(x: Array, values: Array, errors: Array, solved: Mask) -> None:
+    """Fill the nodes of one line between its solved ones; the arrays are changed."""
+    known = np.flatnonzero(solved)
+    between = np.setdiff1d(np.arange(known[0], known[-1]), known)
+    if not between.size:
+        return
+    every = np.unique(np.append(known[::2], known[-1]))
+    missed = np.abs(_spline(x, every, values)(x[known]) - values[known])
+    if known.size == 2:
+        missed += np.abs(values[known[1]] - values[known[0]])
+    # A node of the coarser spline has no difference of its own, but those of its neighbours.
+    wide = np.pad(missed, [(1, 1), (0, 0)], mode="edge")
+    missed = HALVED * np.maximum(np.maximum(wide[:-2], wide[1:-1]), wide[2:])
+    total = make_interp_spline(x[known], errors[known] + missed, 1)
+    filled = _spline(x, known, values)(x[between])
+    values[between], errors[between], solved[between] = filled, total(x[between]), True
+
+
+def _spline(x: Array, nodes: NDArray[np.intp], values: Array) -> BSpline:
+    return make_interp_spline(x[nodes], values[nodes], min(3, nodes.size - 1))
+
+
+def extend(values: Array, errors: Array, solved: Mask, wanted: Mask, logs: list[Array]) -> None:
+    """Fill wanted nodes at the upper end of a line along the second axis, and take them as solved.
+
+    Parameters
+    ----------
+    values, errors, solved, logs : as in ``fill_between``
+        Arrays of the table; changed.
+    wanted : ndarray of bool, shape (...)
+        Nodes to fill; those between or below solved ones stay.
+
+    Notes
+    -----
+    Beyond the largest Hertz pressure that is solved films follow powers. The numbers lie on the parabola
+    through the last three solved nodes of the line; twice its difference from the line through the last two
+    is added to the error of the last node.
+    """
+    x = logs[1]
+    for i, *rest in np.ndindex(solved.shape[0], *solved.shape[2:]):
+        line = (i, slice(None), *rest)
+        known = np.flatnonzero(solved[line])
+        beyond = np.flatnonzero(wanted[line] & ~solved[line])
+        beyond = beyond[beyond > known[-1]] if known.size >= 3 else beyond[:0]
+        if beyond.size:
+            last = known[-3:]
+            curve = make_interp_spline(x[last], values[line][last], 2)(x[beyond])
+            straight = make_interp_spline(x[last[1:]], values[line][last[1:]], 1)(x[beyond])
+            values[line][beyond] = curve
+            errors[line][beyond] = errors[line][last[-1]] + 2.0 * np.abs(curve - straight)
+            solved[line][beyond] = True
+
+
+def fill_beyond(values: Array, solved: Mask, logs: list[Array]) -> None:
+    """Fill all nodes that are left, so that splines have values there: by lines through two solved nodes.
+
+    A table is not read in a cell with such a node; they only support its neighbours.
+    """
+    known = solved.copy()
+    for axis in (1, 0, *range(solved.ndim - 1, 1, -1)):
+        lines, mask = np.moveaxis(values, axis, 0), np.moveaxis(known, axis, 0)
+        for at in np.ndindex(*mask.shape[1:]):
+            line, found = (slice(None), *at), np.flatnonzero(mask[(slice(None), *at)])
+            for i in range(mask.shape[0]) if found.size >= 2 else ():
+                if not mask[(i, *at)]:
+                    a, b = sorted(found, key=lambda node: abs(node - i))[:2]
+                    part = (logs[axis][i] - logs[axis][a]) / (logs[axis][b] - logs[axis][a])
+                    lines[line][i] = (1.0 - part) * lines[line][a] + part * lines[line][b]
+            if found.size >= 2:
+                mask[line] = True
+    where = np.argwhere(known)
+    for node in np.argwhere(~known):
+        values[tuple(node)] = values[tuple(where[np.argmin(np.sum((where - node) ** 2, axis=1))])]

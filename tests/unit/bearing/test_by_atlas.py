@@ -1,0 +1,186 @@
+"""Contacts from the atlas against solved contacts, gaps summed otherwise, and what lies outside it."""
+
+import numpy as np
+import pytest
+from scipy.constants import epsilon_0
+from scipy.integrate import quad
+
+from ehlectric.bearing.accuracy import counted, film_error
+from ehlectric.bearing.breakdown import breakdown_of
+from ehlectric.bearing.quick.by_atlas import _around_ball, _around_roller, _edge, _integral
+from ehlectric.bearing.quick.ways import quick_case
+from ehlectric.bearing.solution import capacitance
+from ehlectric.bearing.solving.contacts_and_circuit import solution_of
+from ehlectric.bearing.warnings import bearing_warnings
+from ehlectric.cases.bearings.ways import quick_way
+from ehlectric.errors import InputError
+from ehlectric.film.atlas.contact import contact_film
+from ehlectric.formulas.hertz_line import line_gap
+from ehlectric.formulas.hertz_point import dry_contact, point_deflection
+from tests.helpers.bearings import (
+    BALLS,
+    ROLLERS,
+    bearing_case,
+    contact_of,
+    quick_contact,
+    ring_of,
+    solve_contact,
+)
+
+SPEED = 4.5
+NUMBERS = ("minimum_thickness", "central_thickness", "inside", "outside_oil", "plate", "breakdown_voltage")
+
+
+def by_atlas(tables, load, *, speed=SPEED, **changes):
+    return quick_contact(ring_of(bearing_case(tables, **changes), speed=speed), load, "atlas")
+
+
+def beside_solved(tables, load):
+    """Differences from a solved contact by the name of the number, and the stated error of the film."""
+    case = bearing_case(tables)
+    ring = ring_of(case, speed=SPEED)
+    quick = quick_contact(ring, load, "atlas")
+    solved = solve_contact(ring, load, case.solver.model_dump())
+    names = (*NUMBERS, "hertz", "strength_per_volt")
+    ratios = {name: getattr(quick.values, name) / getattr(solved.values, name) - 1.0 for name in names}
+    return ratios, quick.error
+
+
+@pytest.mark.parametrize("load", [1500.0, 60.0])
+def test_a_roller_has_the_numbers_of_its_solution(load):
+    ratios, error = beside_solved(ROLLERS, load)
+    assert error < 0.06
+    for name in NUMBERS:
+        assert abs(ratios[name]) < max(0.02, error), name
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("load", [600.0, 60.0])
+def test_a_ball_has_the_numbers_of_its_solution(load):
+    """The light one has a domain that is wider than that of the atlas."""
+    ratios, error = beside_solved(BALLS, load)
+    assert error < 0.06
+    for name in NUMBERS:
+        assert abs(ratios[name]) < 0.03, name
+    assert abs(ratios["hertz"]) < 0.04
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed", ["500 rpm", "15000 rpm"])
+def test_a_bearing_has_the_capacitance_and_voltage_of_its_solution(speed):
+    case = bearing_case(BALLS, bearing__inner_speed=speed)
+    quick, solved = (solution_of(case.replace({"contacts": way})) for way in ("atlas", "solved"))
+    for fill in ("oil", "air"):
+        assert capacitance(quick, fill) == pytest.approx(capacitance(solved, fill), rel=0.02)
+    first = breakdown_of(solved).first_break
+    assert breakdown_of(quick).first_break == pytest.approx(first, rel=0.02)
+
+
+def test_the_capacitance_of_the_hertz_zone_is_that_of_the_film():
+    """For an oil that pressure does not compress, eps_r A/h(0) times the mean of h(0)/h."""
+    fixed = {"density_law": "incompressible", "permittivity_law": "constant"}
+    found = by_atlas(ROLLERS, 1500.0, **{f"lubricant__{key}": value for key, value in fixed.items()})
+    ring = ring_of(bearing_case(ROLLERS, **{f"lubricant__{k}": v for k, v in fixed.items()}), speed=SPEED)
+    contact = contact_of(ring, 1500.0)
+    film = contact_film(contact.conditions.contact, ring.oil)
+    area = 2.0 * contact.conditions.half_width * contact.length
+    plate = epsilon_0 * ring.oil.relative_permittivity * area / film.central_thickness
+    assert found.values.plate == pytest.approx(plate, rel=1e-12)
+    assert found.values.hertz == pytest.approx(film.film.zone * plate, rel=1e-3)
+
+
+@pytest.mark.parametrize("middle", [1e-3, 0.1])
+def test_the_gap_around_a_roller_is_that_of_quadrature(middle):
+    ends = ((-4.0, -1.0), (1.0, 2.0))
+    for part, end in zip(_around_roller(), ends, strict=True):
+        expected = quad(lambda x: 1.0 / (middle + float(line_gap(x))), *end, points=[], limit=400)[0]
+        assert _integral(part, middle) == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("ratio", [1.1, 30.0])
+def test_the_gap_around_a_ball_is_that_of_a_fine_grid(ratio):
+    """Cells of a four-hundredth of the domain; those that the ellipse cuts cost less than a per cent."""
+    dry, middle = dry_contact(1.0, 1.0, ratio, 1.0), 0.05
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    side = min(4.5, 1.6 + 1.4 * b / a)
+    for part, end in zip(_around_ball(ratio), (-4.5, 1.5), strict=True):
+        x = b * end * (np.arange(400) + 0.5)[:, None] / 400
+        y = a * side * (np.arange(400) + 0.5) / 400
+        bodies = 0.5 * (x**2 + y**2 / ratio) + point_deflection(x, y, dry, 1.0) - dry.approach
+        free = (x / b) ** 2 + (y / a) ** 2 > 1.0
+        density = np.where(free, 1.0 / (middle + np.maximum(0.0, bodies) / b**2), 0.0)
+        expected = 2.0 * abs(end) * side * a / b * float(density.mean())
+        assert _integral(part, middle) == pytest.approx(expected, rel=0.01)
+
+
+@pytest.mark.parametrize(("tables", "load", "off"), [(BALLS, 2.0, "30 %"), (ROLLERS, 0.2, "40 %")])
+def test_outside_the_atlas_the_film_is_by_formula_and_says_so(tables, load, off):
+    ring = ring_of(bearing_case(tables), speed=SPEED)
+    contact = contact_of(ring, load)
+    with pytest.raises(InputError, match="range of the atlas"):
+        contact_film(contact.conditions.contact, ring.oil)
+    found = quick_contact(ring, load, "atlas")
+    (warning,) = (one for one in found.warnings if one.code == "atlas-left")
+    assert f"may be {off} off" in str(warning)
+    assert f"{100.0 * found.error:.0f} %" == off
+
+
+@pytest.mark.parametrize("tables", [BALLS, ROLLERS])
+def test_numbers_have_no_step_at_the_edge_of_the_atlas(tables):
+    ring = ring_of(bearing_case(tables), speed=SPEED)
+    edge = _edge(contact_of(ring, 0.5))
+    inside, outside = (quick_contact(ring, edge.load * part, "atlas") for part in (1.001, 0.98))
+    codes = [[one.code for one in found.warnings] for found in (inside, outside)]
+    assert ["atlas-left" in found for found in codes] == [False, True]
+    for name in (*NUMBERS, "hertz"):
+        one, other = (getattr(found.values, name) for found in (inside, outside))
+        assert one == pytest.approx(other, rel=0.04), name
+
+
+def test_light_contacts_outside_the_atlas_are_a_note_and_do_not_count():
+    """At 3000 rpm balls without radial load are pressed outward by 3 N, against 900 N of the others."""
+    solution = solution_of(bearing_case(BALLS, contacts="atlas"))
+    warnings = {one.code: one for one in bearing_warnings(solution)}
+    assert "atlas-left" not in warnings
+    light = warnings["atlas-left-light"]
+    assert light.severity == "note"
+    assert "inner contacts at" in str(light)
+    assert "may be 30 % off" in str(light)
+    largest = max(contact.error for curve in solution.curves for contact in counted(curve).solutions)
+    assert largest <= film_error(solution) < 0.15
+    assert f"{100.0 * film_error(solution):.2g} %" in str(warnings["atlas-contacts"])
+
+
+def test_a_loaded_contact_outside_the_atlas_is_a_warning_and_counts():
+    """Thick oil at a high speed: hardly any pressure rises above that of rigid bodies."""
+    table = {"kinematic_viscosity_40": "460 mm^2/s", "kinematic_viscosity_100": "31 mm^2/s"}
+    changes = {f"lubricant__temperature__{key}": value for key, value in table.items()}
+    case = bearing_case(
+        BALLS, **changes, contacts="atlas", bearing__radial_load="25 N", bearing__axial_load="5 N"
+    )
+    solution = solution_of(case)
+    (left,) = (one for one in bearing_warnings(solution) if one.code == "atlas-left")
+    assert left.severity == "warning"
+    assert "may be 30 % off" in str(left)
+    assert film_error(solution) >= 0.3
+
+
+def test_the_quick_way_is_the_atlas_unless_the_case_is_by_formula():
+    assert [quick_way(way) for way in ("solved", "atlas", "formula", None)] == [
+        "atlas",
+        "atlas",
+        "formula",
+        "atlas",
+    ]
+    for way, quick in (("solved", "atlas"), ("formula", "formula")):
+        case, refused = quick_case(bearing_case(BALLS, contacts=way))
+        assert (case.contacts, refused) == (quick, None)
+
+
+@pytest.mark.parametrize("way", ["atlas", "formula"])
+def test_a_strength_that_needs_the_field_is_refused_by_the_name_of_the_way(way):
+    weibull = {"scale": "15 V/um", "shape": 8.0, "reference_area": "1 mm^2"}
+    case = bearing_case(BALLS, contacts=way, discharge__dielectric_strength=None, discharge__weibull=weibull)
+    words = {"atlas": "contacts from the atlas", "formula": "contacts by formula"}[way]
+    with pytest.raises(InputError, match=words):
+        solution_of(case)

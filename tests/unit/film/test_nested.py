@@ -1,0 +1,66 @@
+"""Nested iteration of line contacts: what direct solutions, kept grids and loose starts must not change."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import PchipInterpolator
+
+from ehlectric.contact.problems import film_problem
+from ehlectric.contact.resolve import resolve
+from ehlectric.film import nested, newton
+from ehlectric.film.line import solve_film
+
+
+def problem_of(paper_case, **changes):
+    case = paper_case.replace({"grid.nodes": 401, "grid.wedge": "third-order", **changes})
+    return film_problem(case, resolve(case))
+
+
+@pytest.mark.parametrize("nodes", [3, 4, 101])
+@pytest.mark.parametrize("rising", [False, True])
+def test_values_half_way_are_those_of_the_monotone_cubic(nodes, rising):
+    values = np.random.default_rng(nodes).standard_normal((nodes, 20))
+    if rising:
+        values = np.cumsum(np.maximum(values, 0.0), axis=0)
+    fine = np.linspace(-4.0, 2.0, 2 * nodes - 1)
+    expected = PchipInterpolator(fine[::2], values, axis=0)(fine)
+    np.testing.assert_allclose(nested.halved(values), expected, rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("speed", ["0.5 m/s", "4 m/s"])
+def test_direct_solutions_give_the_film_of_the_cycles(monkeypatch, paper_case, speed):
+    problem = problem_of(paper_case, **{"contact.entrainment_speed": speed})
+    direct = solve_film(problem)
+    monkeypatch.setattr(nested, "_DIRECT", 0)
+    monkeypatch.setattr(newton, "_KEPT", (0, 0))
+    cycled = solve_film(problem)
+    assert direct.converged
+    assert cycled.converged
+    # The residual is a pressure over p_h of 1e-9 at most.
+    np.testing.assert_allclose(direct.thickness, cycled.thickness, rtol=1e-6)
+    assert direct.discretisation_error == pytest.approx(cycled.discretisation_error, rel=1e-3)
+    # Fewer iterations: those with the own factors of a grid are one, with older factors a few.
+    assert sum(step.krylov_iterations for step in direct.steps) < sum(
+        step.krylov_iterations for step in cycled.steps
+    )
+
+
+def test_grids_that_are_kept_do_not_change(paper_case):
+    """A film is the same to the last bit before and after another contact on the same grids."""
+    first, other = (problem_of(paper_case, **{"contact.entrainment_speed": u}) for u in ("4 m/s", "1 m/s"))
+    before = solve_film(first)
+    assert not np.array_equal(solve_film(other).pressure, before.pressure)
+    after = solve_film(first)
+    assert np.array_equal(before.pressure, after.pressure)
+    assert before.discretisation_error == after.discretisation_error
+    kept, again = (nested._levels(problem, roughness=1.0) for problem in (first, other))
+    assert all(one is two for one, two in zip(kept, again, strict=True))
+
+
+def test_other_domains_and_wedges_have_other_grids(paper_case):
+    problem = problem_of(paper_case)
+    kept = nested._levels(problem, roughness=1.0)[0]
+    for changes in ({"grid.inlet": -5.0}, {"grid.wedge": "first-order"}, {"grid.nodes": 403}):
+        level = nested._levels(problem_of(paper_case, **changes), roughness=1.0)[0]
+        assert level is not kept
+        same = level.mesh.shape == kept.mesh.shape and np.array_equal(level.mesh.x, kept.mesh.x)
+        assert not (same and np.array_equal(level.wedge.coefficients, kept.wedge.coefficients))
