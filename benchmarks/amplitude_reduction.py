@@ -25,9 +25,9 @@ from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.solution import quiet_solution
 from ehlectric.film.state import GridSolution
 from ehlectric.film.unsteady import UnsteadyFilm
+from ehlectric.runtime.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "docs/data/amplitude_reduction.csv"

@@ -13,11 +13,11 @@ import numpy as np
 
 from benchmarks import cases
 from benchmarks.measure import processor
+from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import quiet_solution
-from ehlectric.film.unsteady import Effort, UnsteadyFilm
+from ehlectric.film.unsteady import Effort
+from ehlectric.runtime.threads import quiet_solution
 
 # Problem, number of nodes, and number of time steps.
 CONTACTS = (
@@ -25,6 +25,11 @@ CONTACTS = (
     ("ball contact", lambda nodes: cases.point_film_problem("ball_contact", nodes, "second-order"), 129, 60),
     ("ball contact", lambda nodes: cases.point_film_problem("ball_contact", nodes, "second-order"), 257, 20),
 )
+
+
+def no_gap(_: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Gap without roughness."""
+    return np.zeros((x.size, y.size))
 
 
 def resident() -> float:
@@ -39,7 +44,7 @@ def measured(problem: FilmProblem, steps: int) -> tuple[str, ...]:
     A transverse ridge of half the film moves at the mean speed from the inlet on, a spacing in a step.
     """
     with quiet_solution():
-        steady = nested_iteration(problem, None)[-1]
+        steady = MovingFilm(problem, no_gap).steady
         mesh = steady.level.mesh
         height = 0.5 * at_centre(mesh, steady.state.thickness)
 
@@ -47,8 +52,8 @@ def measured(problem: FilmProblem, steps: int) -> tuple[str, ...]:
             bell = -height * np.exp(-(((x + 1.5 - moment) / 0.2) ** 2))
             return bell[:, np.newaxis] + np.zeros_like(y)
 
-        film, effort = UnsteadyFilm(problem, gap), Effort()
-        history = film.start(steady, mesh.dx)
+        moving, effort = MovingFilm(problem, gap), Effort()
+        film, history = moving.film, moving.start(mesh.dx)
         wall, cpu = time.perf_counter(), time.process_time()
         for k in range(steps):
             history = film.advance(history, mesh.dx)

@@ -9,8 +9,9 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import refined_solution
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import FilmSolution, quiet_solution, stationary_film
+from ehlectric.film.solution import FilmSolution, stationary_film
 from ehlectric.film.state import COLLAPSED, Progress
+from ehlectric.runtime.threads import quiet_solution
 
 
 @dataclass(frozen=True, eq=False, repr=False)

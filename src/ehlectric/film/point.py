@@ -11,8 +11,9 @@ from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import refined_solution
 from ehlectric.film.estimates import side_deficit
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import FilmSolution, quiet_solution, stationary_film
+from ehlectric.film.solution import FilmSolution, stationary_film
 from ehlectric.film.state import COLLAPSED, Progress
+from ehlectric.runtime.threads import quiet_solution
 
 # Points of the quadrature over the Hertz ellipse, along its radius and around its circumference.
 _RADII, _ANGLES = 64, 256

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +16,6 @@ from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
-from ehlectric.runtime.threads import one_blas_thread
 from ehlectric.runtime.values import Values
 
 
@@ -101,16 +99,6 @@ class FilmSolution(Values):
     def max_pressure(self) -> float:
         """Largest pressure at the nodes [Pa]."""
         return float(np.max(self.pressure))
-
-
-@contextmanager
-def quiet_solution() -> Iterator[None]:
-    """Context manager for a solution: one BLAS thread, and no floating-point warnings.
-
-    The warnings are off because intermediate iterates may overflow.
-    """
-    with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        yield
 
 
 # Function that brings nodal values (nx, ny) into their shape in the film: (nx,), or a whole map.

@@ -15,9 +15,9 @@ from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.estimates import lowest
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import quiet_solution
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.contact import TransientContact
+from ehlectric.runtime.threads import quiet_solution
 
 # Number of steps of the run in a step of the companion.
 STRIDE = 2

@@ -18,10 +18,11 @@ from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
-from ehlectric.film.solution import FilmSolution, pressure_of, quiet_solution
+from ehlectric.film.solution import FilmSolution, pressure_of
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
+from ehlectric.runtime.threads import quiet_solution
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
+import numpy as np
 from threadpoolctl import ThreadpoolController
 
 _turn = threading.RLock()
@@ -43,3 +44,13 @@ def one_blas_thread() -> Iterator[None]:
         else:
             with _controller().limit(limits=1, user_api="blas"):
                 yield
+
+
+@contextmanager
+def quiet_solution() -> Iterator[None]:
+    """Context manager for a solution: one BLAS thread, and no floating-point warnings.
+
+    The warnings are off because intermediate iterates may overflow.
+    """
+    with one_blas_thread(), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        yield

@@ -7,9 +7,9 @@ from ehlectric import Case
 from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.gap import Gap
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.solution import quiet_solution
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.contact import TransientContact
+from ehlectric.runtime.threads import quiet_solution
 
 WAVE = {"generator": "sinusoid", "amplitude": "50 nm", "wavelength": "60 um", "orientation": "20 deg"}
 PEAK = {"generator": "asperity", "height": "100 nm", "width": "50 um"}

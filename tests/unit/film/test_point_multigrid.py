@@ -13,7 +13,7 @@ from ehlectric.film.flow import flow
 from ehlectric.film.levels import hierarchy
 from ehlectric.film.mesh import Width
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.solution import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.places import EXAMPLES
 from tests.unit.cases.test_point_case import point
 

@@ -18,9 +18,9 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import quiet_solution
 from ehlectric.film.state import GridSolution, State
 from ehlectric.film.unsteady import History, Instant, MovingGap, UnsteadyFilm
+from ehlectric.runtime.threads import quiet_solution
 
 # Distance of the patch's edge ahead of the dry contact, in semi-axes along entrainment. It is twice that of a
 # stationary patch: with 0.7 the central film of four moving rough contacts was off by up to 0.27 %, with 1.4

@@ -21,8 +21,8 @@ from ehlectric.film.atlas.measures import measured
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import quiet_solution
 from ehlectric.film.state import GridSolution
+from ehlectric.runtime.threads import quiet_solution
 from ehlectric.version import __version__
 
 # Nodes along and across a point contact, by the smallest film H = h R/b^2 down to which they serve.

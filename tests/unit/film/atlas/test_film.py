@@ -20,9 +20,9 @@ from ehlectric.film.atlas.groups import Groups, film_problem, groups_of
 from ehlectric.film.atlas.measures import NAMES, measured
 from ehlectric.film.atlas.table import Table, provenance, tensor_spline
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.solution import quiet_solution
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus
+from ehlectric.runtime.threads import quiet_solution
 
 PAPER = Lubricant.from_dict({"base": "paper"}).at(None)
 
