@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.preparation import LOADS, least_load
+from ehlectric.bearing.kinds import KINDS
+from ehlectric.bearing.preparation import least_load
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.bearing.solving.contacts_and_circuit import POSITIONS
@@ -22,17 +23,17 @@ def rollers():
 
 
 def test_solved_loads_hold_those_of_all_elements(rollers):
-    """Six of each ring, evenly in their logarithm up to the largest, and light ones below."""
+    """Ten of each ring, evenly in their logarithm up to the largest, and light ones below."""
     for name, race, curve in (
         ("inner", rollers.inner, rollers.inner_curve),
         ("outer", rollers.outer, rollers.outer_curve),
     ):
         loads = np.array([solution.load for solution in curve.solutions])
-        steps = np.diff(np.log(loads))
-        np.testing.assert_allclose(steps[1 - LOADS :], steps[-1], rtol=1e-9)
+        steps, evenly = np.diff(np.log(loads)), KINDS["cylindrical roller"].loads - 1
+        np.testing.assert_allclose(steps[-evenly:], steps[-1], rtol=1e-9)
         # No decade is left empty: from the light end on, each step is longer than the one before.
         assert np.all(loads[1:] < 3.0 * loads[:-1])
-        assert np.all(np.diff(steps[: -LOADS + 1]) > 0.0)
+        assert np.all(np.diff(steps[:-evenly]) > 0.0)
         of_elements = np.concatenate([getattr(p.equilibrium, f"{name}_load") for p in rollers.positions])
         assert loads[-1] == pytest.approx(np.max(of_elements), rel=1e-9, abs=0.0)
         # What is below a five hundredth of the largest, or has a film that no domain holds, is not reached.
