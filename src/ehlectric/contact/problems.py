@@ -15,6 +15,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.memory import FIELD_BYTES, POINT_FIELD_BYTES
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import InputError
+from ehlectric.field.columns import columns_within, thinned
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
@@ -43,9 +44,6 @@ _MOST_PARTS = 32
 
 # Memory up to which the degree of a field may be raised beyond ``grid.field_degree`` [bytes].
 _FIELD_MEMORY = 1e9
-
-# Largest distance, in node spacings, at which a film node counts as an end of the field range.
-_SAME_NODE = 1e-6
 
 # Order of the wedge term and flow through the faces of the film, by ``grid.wedge``. The first two have the
 # flow of the paper.
@@ -146,6 +144,10 @@ def point_field_problem(
     x = columns_within(film.x, [conditions.semi_axis_x * end for end in grid.field_range], grid.field_nodes)
     reach = conditions.semi_axis_y * min(grid.field_side, conditions.side)
     y = columns_within(film.y, [-reach, reach], grid.field_nodes_y)
+    if not np.any(roughness):
+        thinnest = film.minimum_position
+        x = x if grid.field_nodes is not None else thinned(x, [thinnest[0]])
+        y = y if grid.field_nodes_y is not None else thinned(y, [-thinnest[1], thinnest[1]])
     if halves_alike(film, roughness) and y.size % 2 == 1:
         y = y[y.size // 2 :]
         y[0] = 0.0
@@ -352,19 +354,6 @@ def _columns(setup: Case | Setup, conditions: Conditions, film: Film, *, refine:
     fractions = np.arange(parts) / parts
     parted = (nodes[:-1, np.newaxis] + np.diff(nodes)[:, np.newaxis] * fractions).ravel()
     return np.append(parted, nodes[-1])
-
-
-def columns_within(nodes: Array, ends: Sequence[float], number: int | None) -> Array:
-    """Positions of the columns of the field between two ends [m].
-
-    They are the film nodes between the ends and both ends, or ``number`` equidistant positions.
-    """
-    start, stop = ends
-    if number is not None:
-        return np.linspace(start, stop, number)
-    spacing = nodes[1] - nodes[0]
-    inside = nodes[(nodes > start + _SAME_NODE * spacing) & (nodes < stop - _SAME_NODE * spacing)]
-    return np.concatenate([[start], inside, [stop]])
 
 
 def resampled(x: Array, values: Array, at: Array, *, axis: int = 0) -> Array:
