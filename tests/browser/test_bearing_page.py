@@ -161,7 +161,7 @@ def test_solved_contacts_replace_the_formula_and_say_by_how_much(open_page, app_
     row = told.locator("tr", has_text="apacitance").first
     row.wait_for()
     change = 100.0 * (solved["bearing"]["capacitance"] / formula["bearing"]["capacitance"] - 1.0)
-    assert f"{abs(change):.2g}" in row.inner_text()
+    assert f"{abs(change):.1f} %" in row.inner_text()
     page.get_by_test_id("other-contacts").click()
     wait_for_command(page, formula)
     assert page.get_by_test_id("answer").get_attribute("data-contacts") == "atlas"

@@ -48,9 +48,9 @@ def run_errors(run: MotionRun) -> RunErrors | None:
 
     Runs of earlier versions have no companion.
     """
-    if "coarse_lowest_thickness" not in run.dataset:
-        return None
     names = ("lowest_thickness", "coarse_lowest_thickness", "central_thickness", "coarse_central_thickness")
+    if any(name not in run.dataset for name in names):
+        return None
     lowest, coarse_lowest, central, coarse_central = (run.values(name)[::2] for name in names)
     if lowest.size < 2 or not np.all(np.isfinite(coarse_lowest)):
         return None

@@ -348,7 +348,7 @@ def test_a_narrow_range_leaves_the_margin():
 def test_a_range_that_formulas_cannot_follow_is_said(balls):
     """The shape of a Weibull law has no part in a formula; a rough end of a range leaves no film at all."""
     margins = QuickMargins.of(balls.solution)
-    with pytest.raises(InputError, match="has an effect that contacts by formula do not have"):
+    with pytest.raises(InputError, match="has an effect that only solved contacts have"):
         margins.at({"discharge.weibull.shape": 5.0})
     result = solved(
         discharge__dielectric_strength="100 V/um", ranges={"bearing.composite_rq": ["0.02 um", "50 um"]}

@@ -56,6 +56,7 @@ def test_a_contact_on_the_line_breaks_down_at_the_applied_voltage():
         "lubricant": {"base": "paper"},
         "electric": {"potential_1": 0.0, "potential_2": 8.0},
         "discharge": {"dielectric_strength": "15 V/um"},
+        "grid": {"nodes": 3201},
     }
     case = Case.from_dict(table)
 
