@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ehlectric.bearing.contacts import ContactCurve, ContactSolution
+from ehlectric.bearing.contacts import LIGHT, ContactCurve, ContactSolution
 from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.errors import ResultWarning
-
-# Part of the largest load of a ring below which the error of a contact from the atlas does not count: such a
-# film is thick, and hardly changes the circuit of the bearing.
-_COUNTED = 0.02
 
 
 def film_error(solution: BearingSolution) -> float:
@@ -56,7 +52,7 @@ def percent(error: float) -> str:
 
 def counted(curve: ContactCurve) -> ContactCurve:
     """Contacts of a ring whose films decide about the circuit: those that are not light."""
-    least = _COUNTED * curve.solutions[-1].load
+    least = LIGHT * curve.solutions[-1].load
     return ContactCurve(tuple(contact for contact in curve.solutions if contact.load >= least))
 
 

@@ -220,9 +220,9 @@ def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ..
     return tuple(warning for warning in warnings if warning.code not in left_out)
 
 
-# Least load over the largest for which the interpolation of the breakdown voltage counts. The films of
-# lighter contacts are thicker: they never break down first.
-_BREAKS_FIRST = 0.02
+# Part of the largest load of a ring below which a contact is light: its film is thick, so that it never
+# breaks down first and hardly changes the circuit of the bearing.
+LIGHT = 0.02
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -267,7 +267,7 @@ class ContactCurve(Values):
         worst, loads, stack = 0.0, self.loads, self.stack()
         values = np.stack([stack.inside, stack.breakdown_voltage], axis=-1)
         for k in range(1, loads.size - 1):
-            known = np.isfinite(values[k]) & [True, loads[k] >= _BREAKS_FIRST * loads[-1]]
+            known = np.isfinite(values[k]) & [True, loads[k] >= LIGHT * loads[-1]]
             others = np.delete(values[:, known], k, axis=0)
             left = _Interpolation.of(np.delete(loads, k), others)(loads[k : k + 1])
             worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])

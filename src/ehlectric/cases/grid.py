@@ -52,7 +52,7 @@ _FIRST = {False: 400, True: 128}
 _DEFAULT_LENGTH = 6.0
 
 # Error of the film to which a grid without ``nodes`` is refined: of a line and of a point contact.
-_ERROR = {False: 0.01, True: 0.02}
+DEFAULT_ERROR = {False: 0.01, True: 0.02}
 
 # Keys that only the grid of a point contact has.
 POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")
@@ -138,7 +138,7 @@ class Grid(Table):
         """Relative error of the film to which the grid is refined; None if it has given nodes only."""
         if self.refine is not None or self.error is not None:
             return self.refine if self.error is None else self.error
-        return None if self._given else _ERROR[self.of_point]
+        return None if self._given else DEFAULT_ERROR[self.of_point]
 
     @property
     def _given(self) -> bool:

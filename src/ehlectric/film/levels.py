@@ -198,8 +198,8 @@ def hierarchy(
         Ends of the domain along x, in half-widths.
     geometry : Geometry
         Deflection kernel, dry gap and load of the contact.
-    second_order : bool
-        Whether the wedge term is of second order; otherwise it is of first order.
+    wedge_order : int
+        Order of the wedge term: 1, 2 or 3.
     width : Width, optional
         Domain across entrainment, for a point contact.
     source : callable, optional

@@ -137,7 +137,7 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
         wedge_order=3,
         tolerance=NESTED_TOLERANCE,
     )
-    levels = _levels(posed, roughness=1.0)
+    levels = levels_of(posed, roughness=1.0)
     return _solve_grid(posed, levels, start, None, spike=True)
 
 
@@ -149,19 +149,19 @@ def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
     preconditioner may have half the intervals along one axis only.
     """
     least = FIRST_GRID if problem.width is None else _FIRST_GRID_POINT
-    grids = [_levels(problem, roughness=1.0)]
+    grids = [levels_of(problem, roughness=1.0)]
     while (len(grids) < 2 and not solved) or problem.nodes // 2 + 1 >= max(least, solved + 1):
         width = None if problem.width is None else problem.width.coarser()
         problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
         coarser = grids[-1][1:]
         shape = Mesh.over(problem.nodes, problem.inlet, problem.outlet, width).shape
         known = len(coarser) > 0 and coarser[0].mesh.shape == shape
-        grids.append(coarser if known else _levels(problem, roughness=1.0))
+        grids.append(coarser if known else levels_of(problem, roughness=1.0))
     return grids
 
 
-def _levels(problem: FilmProblem, *, roughness: float) -> list[Level]:
-    """Grids of the problem with its roughness multiplied by a factor ``roughness``."""
+def levels_of(problem: FilmProblem, *, roughness: float = 1.0) -> list[Level]:
+    """Grids of a problem, from the finest on, with its roughness multiplied by a factor ``roughness``."""
     added, geometry = problem.added_gap, problem.geometry
     if added is not None:
         smooth = geometry.dry_gap
@@ -213,7 +213,7 @@ def _collapsed(problem: FilmProblem, coarse: GridSolution) -> GridSolution:
 
     The film is lifted until a thousandth of its central thickness is left where the surfaces would touch.
     """
-    level = _levels(problem, roughness=1.0)[0]
+    level = levels_of(problem, roughness=1.0)[0]
     state = _interpolated(level, coarse)
     centre, least = at_centre(level.mesh, state.thickness), float(state.thickness.min())
     # With a lift of d, least + d is a thousandth of centre + d.
@@ -250,7 +250,7 @@ def _raise_roughness(problem: FilmProblem, progress: Progress | None) -> _Raised
     best, reached, step = solutions[-1], 0.0, _FIRST_RISE
     while best.status == "converged" and reached < 1.0:
         part = min(1.0, reached + step)
-        levels = _levels(problem, roughness=part)
+        levels = levels_of(problem, roughness=part)
         start = State.of(levels[0], best.state.pressure, best.state.h00)
         start = start.lifted(0.3 * float(best.state.thickness.min()))
         solution = _solve_grid(

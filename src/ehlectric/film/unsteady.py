@@ -23,7 +23,8 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.characteristics import mass_after, stationary_mass, step_levels
-from ehlectric.film.levels import Level, hierarchy
+from ehlectric.film.levels import Level
+from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution, State
@@ -132,20 +133,7 @@ class UnsteadyFilm:
     def __init__(self, problem: FilmProblem, moving_gap: MovingGap) -> None:
         self.problem = problem
         self._moving_gap = moving_gap
-        dry = problem.geometry.dry_gap
-        standing = problem.added_gap
-        levels = hierarchy(
-            problem.nodes,
-            inlet=problem.inlet,
-            outlet=problem.outlet,
-            geometry=problem.geometry
-            if standing is None
-            else replace(problem.geometry, dry_gap=lambda x, y: dry(x, y) + standing(x, y)),
-            wedge_order=2,
-            width=problem.width,
-        )
-        edge_excess = problem.edge_excess(levels[0].mesh)
-        self._levels = [replace(levels[0], edge_excess=edge_excess), *levels[1:]]
+        self._levels = levels_of(replace(problem, wedge_order=2))
 
     @property
     def level(self) -> Level:

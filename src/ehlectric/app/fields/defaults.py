@@ -6,6 +6,7 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
 from ehlectric.app.inputs import Inputs
+from ehlectric.cases.grid import DEFAULT_ERROR
 
 _DEFAULTS = {
     "bearing.element_material": "steel",
@@ -34,7 +35,8 @@ def default_of(inputs: Inputs, key: str) -> Any:
     '40 mm'
     """
     if key == "grid.error":
-        return "2 %" if inputs.value("contact.geometry") == "point" else "1 %"
+        error = DEFAULT_ERROR[inputs.value("contact.geometry") == "point"]
+        return f"{100.0 * error:g} %"
     if key in _NOT_WITH_SHEET and inputs.value("lubricant.temperature") is not None:
         return None
     estimated = inputs.value("lubricant.temperature.base_oil") is not None

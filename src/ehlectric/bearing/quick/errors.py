@@ -17,8 +17,3 @@ def formula_factor(kind: str) -> float:
     (1.3, 1.4)
     """
     return FORMULA_OF_ROLLERS if kind == "cylindrical roller" else FORMULA_OF_BALLS
-
-
-def formula_error(kind: str) -> str:
-    """Text of the error of films from formulas, such as "30 %", by the kind of the bearing."""
-    return f"{100.0 * (formula_factor(kind) - 1.0):.0f} %"

@@ -167,8 +167,9 @@ def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) 
             continue
         changed = case.replace(row)
         oil = changed.lubricant.at(changed.contact.temperature)
+        contact = kind.resolve(changed).contact
         try:
-            film = contact_film(kind.resolve(changed).contact, oil)
+            film = contact_film(contact, oil)
         except InputError:
             known[key], worst = estimate, max(worst, _FORMULA_ERROR)
             continue
