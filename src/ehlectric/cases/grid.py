@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.accuracy import DEFAULT_ERROR
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
@@ -50,9 +51,6 @@ _POINT_GRID: dict[str, Any] = {"inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
 _FIXED = {False: 3201, True: 257}
 _FIRST = {False: 400, True: 128}
 _DEFAULT_LENGTH = 6.0
-
-# Error of the film to which a grid without ``nodes`` is refined: of a line and of a point contact.
-DEFAULT_ERROR = {False: 0.01, True: 0.02}
 
 # Keys that only the grid of a point contact has.
 POINT_GRID_KEYS = ("nodes_y", "side", "field_side", "field_nodes_y")

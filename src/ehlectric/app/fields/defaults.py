@@ -6,7 +6,7 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
 from ehlectric.app.inputs import Inputs
-from ehlectric.cases.grid import DEFAULT_ERROR
+from ehlectric.cases.accuracy import DEFAULT_ERROR
 
 _DEFAULTS = {
     "bearing.element_material": "steel",
