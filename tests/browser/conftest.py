@@ -35,7 +35,7 @@ _HARMLESS = re.compile("GPU stall|GL Driver Message|WebGL")
 _LATE = re.compile("Resize must be passed a displayed plot div element")
 
 # Time that a page has for what a test waits for, on a busy machine [ms].
-_PATIENCE = 40_000.0
+_PATIENCE = 20_000.0
 
 
 def _program():
