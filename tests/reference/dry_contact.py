@@ -82,7 +82,7 @@ def point_contact(x, y, added=0.0, *, ellipse_ratio=1.0, load=None, **options):
 def periodic_contact(gap, lengths, mean_pressure, *, modulus=1.0, **options):
     """Periodic contact of a gap (n,) or (nx, ny) with the periods ``lengths``; modulus E* = E'/2.
 
-    Any consistent units. A wave of the wavenumber q is deflected by 2 p/(E* q), with and without plane strain.
+    Any consistent units. A wave of the wavenumber q is deflected by 2 p/(E* q).
     """
     nodes = gap.shape
     waves = [fft.fftfreq(n, length / n) for n, length in zip(nodes[:-1], lengths[:-1], strict=True)]
@@ -158,56 +158,91 @@ def solve(
     if not 0.0 < total < hardness * gap.size:
         raise ValueError("the load must be above zero and below the hardness times the area")
     pressure = np.full(gap.shape, total / gap.size) if start is None else np.clip(start, 0.0, hardness)
-    _balance(pressure, total, hardness)
+    pressure = _balanced(pressure, total, hardness)
+    deflection = operator(pressure)
     direction, before, conjugate = np.zeros(gap.shape), 1.0, False
     for iteration in range(most):
-        deflection = operator(pressure)
         free = (pressure > 0.0) & (pressure < hardness)
         residual = gap + deflection
-        h00 = shift - float(np.mean(residual[free] if free.any() else residual[pressure > 0.0]))
+        h00 = shift - _level(residual, pressure, free)
         residual += h00 - shift
         enters = ((pressure == 0.0) & (residual < 0.0)) | ((pressure == hardness) & (residual > 0.0))
         violation = float(np.max(np.abs(residual), where=free | enters, initial=0.0))
         if violation <= tolerance * np.ptp(deflection):
-            break
+            overlap = np.where(pressure == hardness, np.maximum(-residual, 0.0), 0.0)
+            error = violation / max(float(np.ptp(deflection)), np.finfo(float).tiny)
+            gap = residual + shift + overlap
+            return DryContact(pressure, gap, deflection, overlap, h00, error, iteration)
+        if np.count_nonzero(free) < 2:
+            free |= enters
         square = float(np.sum(residual[free] ** 2))
-        free = free if free.any() else (pressure > 0.0) | enters
         direction = np.where(free, residual + (square / before if conjugate else 0.0) * direction, 0.0)
-        # The load is kept, also where nodes have left the set: this direction sees no constant of the kernel.
+        # The load is kept, also where nodes have left the set: a constant of the kernel has no part in it.
         direction[free] -= np.mean(direction[free])
-        changed = operator(direction)
-        step = float(np.vdot(residual, direction) / np.vdot(changed, direction))
-        pressure[free] -= step * direction[free]
-        pressure[enters & ~free] -= step * residual[enters & ~free]
-        np.clip(pressure, 0.0, hardness, out=pressure)
-        _balance(pressure, total, hardness)
+        step = float(np.vdot(residual, direction) / np.vdot(operator(direction), direction))
+        trial = pressure - step * np.where(enters & ~free, residual, direction)
+        trial = _balanced(np.clip(trial, 0.0, hardness), total, hardness)
+        opened = operator(trial)
         before, conjugate = square, not enters.any()
-    else:
-        raise RuntimeError(f"the dry contact does not converge: {violation / np.ptp(deflection):.1e}")
-    overlap = np.where(pressure == hardness, np.maximum(-residual, 0.0), 0.0)
-    error = violation / max(float(np.ptp(deflection)), np.finfo(float).tiny)
-    return DryContact(pressure, residual + shift + overlap, deflection, overlap, h00, error, iteration)
+        if _energy(trial, opened, gap) > _energy(pressure, deflection, gap) + 1e-12 * np.vdot(trial, opened):
+            trial, opened = _descent(operator, gap, pressure, deflection, (residual, free | enters), hardness)
+            conjugate = False
+        pressure, deflection = trial, opened
+    raise RuntimeError(f"the dry contact does not converge: {violation / np.ptp(deflection):.1e}")
 
 
-def _balance(pressure, total, hardness):
-    """Scale the pressures below the hardness to the load, in place; what exceeds the hardness is spread."""
+def _level(opened, pressure, free):
+    """Mean level of the free nodes, or a level between those at the hardness and those without pressure."""
+    if free.any():
+        return float(np.mean(opened[free]))
+    return 0.5 * float(np.max(opened[pressure > 0.0]) + np.min(opened[pressure == 0.0]))
+
+
+def _energy(pressure, deflection, gap):
+    """Energy that the solution minimises under its load."""
+    return float(np.vdot(pressure, gap + 0.5 * deflection))
+
+
+def _descent(operator, gap, pressure, deflection, moving, hardness):
+    """Projected step along the gradient that lowers the energy, and its deflection.
+
+    It takes the place of a step of conjugate gradients that would raise the energy, as it may where most of
+    the contact is at the hardness.
+    """
+    residual, free = moving
+    along = np.where(free, residual, 0.0)
+    along[free] -= np.mean(along[free])
+    step = float(np.vdot(along, along) / np.vdot(operator(along), along))
+    least, total = _energy(pressure, deflection, gap), float(np.sum(pressure))
+    for _ in range(60):
+        trial = _projected(pressure - step * residual, total, hardness)
+        opened = operator(trial)
+        if _energy(trial, opened, gap) < least:
+            return trial, opened
+        step *= 0.5
+    return pressure, deflection
+
+
+def _balanced(pressure, total, hardness):
+    """Pressures below the hardness scaled to the load."""
     for _ in range(100):
         below = pressure < hardness
         wanted = total - (hardness * np.count_nonzero(~below) if not below.all() else 0.0)
         present = float(np.sum(pressure[below]))
         if wanted > 2.0 * present or wanted <= 0.0:
             break
-        pressure[below] *= wanted / present
-        if not np.any(pressure > hardness):
-            return
-        np.clip(pressure, 0.0, hardness, out=pressure)
-    _project(pressure, total, hardness)
+        scaled = np.where(below, pressure * (wanted / present), pressure)
+        pressure = np.minimum(scaled, hardness)
+        if not np.any(scaled > hardness):
+            return pressure
+    return _projected(pressure, total, hardness)
 
 
-def _project(pressure, total, hardness):
-    """Shift all pressures between zero and the hardness to the load, in place, by bisection."""
-    trial, low, high = pressure.copy(), -min(hardness, total), min(hardness, total)
-    for _ in range(200):
-        shift = 0.5 * (low + high)
-        np.clip(trial + shift, 0.0, hardness, out=pressure)
-        low, high = (shift, high) if np.sum(pressure) < total else (low, shift)
+def _projected(pressure, total, hardness):
+    """Nearest pressures between zero and the hardness with the load: one shift of all, by bisection."""
+    low, high = -np.max(pressure), min(hardness, total) - np.min(pressure)
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        shifted = np.clip(pressure + middle, 0.0, hardness)
+        low, high = (middle, high) if np.sum(shifted) < total else (low, middle)
+    return shifted
