@@ -173,7 +173,7 @@ def solve(
             error = violation / max(float(np.ptp(deflection)), np.finfo(float).tiny)
             gap = residual + shift + overlap
             return DryContact(pressure, gap, deflection, overlap, h00, error, iteration)
-        if np.count_nonzero(free) < 2:
+        if not np.any(residual[free]):
             free |= enters
         square = float(np.sum(residual[free] ** 2))
         direction = np.where(free, residual + (square / before if conjugate else 0.0) * direction, 0.0)

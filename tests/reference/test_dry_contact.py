@@ -311,6 +311,20 @@ def test_load_of_whole_nodes_at_the_hardness():
     assert (found.gap > -1e-12).all()
 
 
+def test_initial_pressure_does_not_matter():
+    x = np.linspace(-2.0, 2.0, 301)
+    found = dry.line_contact(x, waves(x), hardness=5.0)
+    one_node = np.where(np.arange(301) == 90, 1.0, 0.0)
+    for start in (one_node, np.zeros(301), found.pressure):
+        again = dry.line_contact(x, waves(x), hardness=5.0, start=start)
+        np.testing.assert_allclose(again.pressure, found.pressure, atol=1e-7)
+    assert again.iterations == 0
+    # One node alone carries less than the hardness, and only others can move.
+    light = dry.line_contact(x, waves(x), load=0.01)
+    alone = dry.line_contact(x, waves(x), load=0.01, start=one_node)
+    np.testing.assert_allclose(alone.pressure, light.pressure, atol=1e-7)
+
+
 def test_impossible_loads_are_refused():
     x = np.linspace(-2.0, 2.0, 101)
     with pytest.raises(ValueError, match="hardness times the area"):
