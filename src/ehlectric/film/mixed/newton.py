@@ -1,0 +1,151 @@
+"""Newton-Krylov iteration for a film whose surfaces touch at some nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.film.flow import Fluid
+from ehlectric.film.levels import Level
+from ehlectric.film.mixed.jacobian import TouchingJacobian
+from ehlectric.film.mixed.touching import Touching, assess_touching, projected
+from ehlectric.film.newton import flexible_gmres, linear_tolerance
+from ehlectric.film.state import GridSolution, NewtonStep, Progress, Residual, State, Status
+
+# Largest change of Q in a Newton step.
+_PRESSURE_STEP = 0.5
+
+# Part of the gap above the boundary film that a step may close, beside half of the boundary film; and the
+# smallest part of a step.
+_CLOSING, _LEAST_STEP = 0.5, 0.05
+
+# Residual of the oil where surfaces touch, a pressure over p_h, that is small enough: it does not move the gap.
+_OIL_TOLERANCE = 1e-6
+
+# Largest number of GMRES iterations per Newton step.
+_KRYLOV_LIMIT = 100
+
+
+def mixed_newton(
+    fluid: Fluid,
+    levels: list[Level],
+    state: State,
+    *,
+    boundary_film: float,
+    tolerance: float,
+    max_iterations: int,
+    progress: Progress | None = None,
+) -> GridSolution:
+    """Solve the film equations on the first of ``levels`` where surfaces may touch.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    levels : list of Level
+        Grids from the one to solve on to the coarsest; the coarser ones serve the preconditioner.
+    state : State
+        Initial guess.
+    boundary_film : float
+        Thickness H_s of the boundary film, dimensionless, > 0.
+    tolerance : float
+        Residual at which to stop, a pressure over p_h.
+    max_iterations : int
+        Largest number of Newton steps.
+    progress : callable, optional
+        Function that is called with (nodes, Newton step, residual) before every step.
+
+    Returns
+    -------
+    GridSolution
+        Last iterate, with its status; its state has the contact pressure.
+    """
+    level = levels[0]
+    steps: list[NewtonStep] = []
+    now = assess_touching(fluid, level, state, boundary_film)
+    before = np.inf
+    while len(steps) < max_iterations and not _solved(now, tolerance):
+        if progress is not None:
+            progress(level.nodes, len(steps), now.norm)
+        state = projected(fluid, level, state, now.contact)
+        close = linear_tolerance(now.norm, before, 0.0)
+        jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now)
+        dq, dp, dh00, krylov = _direction(fluid, jacobian, state, now, close)
+        before = now.norm
+        length = _length(level, state, now, dq, dh00, boundary_film)
+        steps.append(NewtonStep(level.nodes, now.norm, krylov))
+        pressure = state.pressure + length * dq
+        oil = np.where(now.contact, state.oil_pressure + length * dp, pressure)
+        moved = State.of(level, np.maximum(pressure, 0.0), state.h00 + length * dh00)
+        moved = State(moved.pressure, moved.h00, moved.thickness, moved.pressure - oil)
+        candidate = projected(fluid, level, moved, now.contact)
+        assessed = assess_touching(fluid, level, candidate, boundary_film)
+        if not np.isfinite(assessed.norm):
+            return _solution(level, state, now, steps, "diverged")
+        state, now = candidate, assessed
+    status: Status = "converged" if _solved(now, tolerance) else "stalled"
+    return _solution(level, projected(fluid, level, state, now.contact), now, steps, status)
+
+
+def _solved(now: Touching, tolerance: float) -> bool:
+    return now.norm <= tolerance and now.oil_norm <= max(tolerance, _OIL_TOLERANCE)
+
+
+def _solution(
+    level: Level, state: State, now: Touching, steps: list[NewtonStep], status: Status
+) -> GridSolution:
+    """Solution on a grid, with the residual in the form of a film without contact."""
+    final = Residual(
+        flow=now.flow,
+        reynolds=now.reynolds,
+        diagonal=now.diagonal,
+        full_film=now.full_film | now.contact,
+        load=now.load,
+        norm=now.norm,
+    )
+    return GridSolution(level, state, final, tuple(steps), status)
+
+
+def _direction(
+    fluid: Fluid, jacobian: TouchingJacobian, state: State, now: Touching, tolerance: float
+) -> tuple[Array, Array, float, int]:
+    """Changes dQ, dP of the oil (nx, ny) and dH00 of a Newton step, and the number of GMRES iterations."""
+    finest = jacobian.finest
+    resting = fluid.ambient_pressure + finest.level.edge_excess
+    to_ambient = np.where(now.full_film, 0.0, resting - state.oil_pressure)
+    reach = np.where(now.contact, 0.0, to_ambient)
+    right, oil = jacobian.right_side(now, to_ambient)
+    load = now.load - finest.gap.load(reach)
+    cycles = 0
+
+    def precondition(image: Array) -> Array:
+        nonlocal cycles
+        cycles += 1
+        return jacobian.precondition(image)
+
+    solution = flexible_gmres(
+        jacobian.image,
+        precondition,
+        np.append(finest.scale * right, load),
+        tolerance=tolerance,
+        limit=_KRYLOV_LIMIT,
+    )
+    dh00 = float(solution[-1])
+    dq = solution[:-1].reshape(now.contact.shape)
+    dh, _ = finest.gap.change(dq + reach, dh00)
+    dp = jacobian.oil_of(oil, dq, dh)
+    dp = np.where(now.contact, np.where(now.full_film, dp, to_ambient), dq + reach)
+    return dq + reach, dp, dh00, cycles
+
+
+def _length(
+    level: Level, state: State, now: Touching, dq: Array, dh00: float, boundary_film: float
+) -> float:
+    """Part of a full Newton step that keeps the changes of Q and of the open gap within their limits."""
+    length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(dq))), 1e-300))
+    dh = level.deflection(dq) + dh00
+    closing = (dh < 0.0) & ~now.contact
+    if closing.any():
+        room = _CLOSING * (now.thickness - boundary_film) + 0.5 * boundary_film
+        length = min(length, float(np.min(room[closing] / -dh[closing])))
+    return max(length, _LEAST_STEP)
