@@ -1,0 +1,142 @@
+"""Load sharing of film and asperities: both lie in one gap and together carry the load."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.asperities.integrals import LOWEST_SEPARATION, separation_of_gap
+
+# Halvings of the interval of the share. Shares above 1e-20 then have all digits.
+_HALVINGS = 120
+
+
+@dataclass(frozen=True)
+class LoadSharing:
+    """Film and asperities that carry the load together.
+
+    Attributes
+    ----------
+    asperity_share : ndarray, shape (...)
+        Share phi of the load that asperities carry, dimensionless, 0 to 1.
+    gap : ndarray, shape (...)
+        Mean gap, which is the film thickness under (1 - phi) of the load [m].
+    separation : ndarray, shape (...)
+        Distance of the mean planes of the undeformed roughness [m].
+    """
+
+    asperity_share: Array
+    gap: Array
+    separation: Array
+
+
+def film_under_share(film: ArrayLike, exponent: float) -> Callable[[Array], Array]:
+    """Film thickness under a share of the load, h (1 - phi)^(-exponent), from a formula's power of the load.
+
+    Parameters
+    ----------
+    film : array_like, shape (...)
+        Film thickness of smooth surfaces under the whole load [m].
+    exponent : float
+        Positive exponent e of the formula h proportional to W^-e, such as 0.067 for the central film of
+        Hamrock and Dowson. After Johnson, Greenwood and Poon the pressure keeps its Hertzian shape, as
+        the asperities press on the bodies too: the film follows from the load (1 - phi) F between bodies of
+        the modulus (1 - phi) E'. For h/R proportional to U^a G^b the exponent is then a - b, 0.14
+        for that formula.
+
+    Returns
+    -------
+    callable
+        Function of the fluid's share 1 - phi, shape (...), > 0, that returns the film thickness [m].
+
+    Examples
+    --------
+    >>> round(float(film_under_share(100e-9, 0.14)(np.array(0.5))) * 1e9, 1)
+    110.2
+    """
+    whole = np.asarray(film, dtype=float)
+
+    def thickness(fluid_share: Array) -> Array:
+        found: Array = whole * fluid_share**-exponent
+        return found
+
+    return thickness
+
+
+def load_sharing(
+    film: Callable[[Array], Array],
+    asperity_pressure: Callable[[Array], Array],
+    nominal_pressure: ArrayLike,
+    *,
+    roughness: float,
+    displaced_plane: bool = True,
+) -> LoadSharing:
+    """Share of the load on the asperities, where film and asperities have the same gap.
+
+    Solves asperity_pressure(separation(film(1 - phi))) = phi nominal_pressure for phi by bisection. The left
+    side falls with phi as the relieved film grows, so that there is one solution.
+
+    Parameters
+    ----------
+    film : callable
+        Film thickness [m] as a function of the fluid's share of the load, array of shape (...);
+        ``film_under_share`` makes it from a formula.
+    asperity_pressure : callable
+        Asperity load per nominal area [Pa] as a function of the separation of the mean planes of the
+        surfaces [m]; it must fall with the separation. For a model in terms of the summits,
+        ``summit_separation`` comes first.
+    nominal_pressure : array_like, shape (...)
+        Load over nominal contact area, of a Hertz contact the mean pressure [Pa], > 0.
+    roughness : float
+        Composite roughness sqrt(Rq1^2 + Rq2^2) [m], > 0.
+    displaced_plane : bool, optional
+        How the film thickness is taken. True: as the mean gap, the volume of the oil per area, with
+        overlapping peaks pressed flat (displaced mean plane). False: as the separation of the undeformed
+        mean planes. Both are the same above three times the roughness.
+
+    Returns
+    -------
+    LoadSharing
+        Share of the asperities, mean gap and separation. The share is 1 where the asperities carry more than
+        the whole load at every film: then the separation is that of the film under a share of 1e-15.
+
+    Notes
+    -----
+    K. L. Johnson, J. A. Greenwood and S. Y. Poon, Wear 19 (1972) 91-108. One film thickness and one
+    pressure stand for the whole contact; the flow factors of the roughness are left out.
+
+    Examples
+    --------
+    >>> from ehlectric.asperities.statistical import Summits, greenwood_tripp
+    >>> rough = Summits(density=2e11, radius=2e-6, height_deviation=100e-9)
+    >>> found = load_sharing(
+    ...     film_under_share([50e-9, 100e-9, 200e-9], 0.14),
+    ...     lambda distance: greenwood_tripp(distance, rough, 226e9).pressure,
+    ...     1e9,
+    ...     roughness=100e-9,
+    ... )
+    >>> found.asperity_share.round(4).tolist()
+    [0.0827, 0.0193, 0.0011]
+    """
+    load = np.asarray(nominal_pressure, dtype=float)
+    shape = np.broadcast_shapes(load.shape, film(np.ones_like(load)).shape)
+    low, high = np.zeros(shape), np.ones(shape)
+
+    def state(share: Array) -> tuple[Array, Array]:
+        gap = film(np.maximum(1.0 - share, 1e-15))
+        if not displaced_plane:
+            return gap, np.maximum(gap, LOWEST_SEPARATION * roughness)
+        return gap, separation_of_gap(gap, roughness)
+
+    for _ in range(_HALVINGS):
+        share = 0.5 * (low + high)
+        more = asperity_pressure(state(share)[1]) > share * load
+        low, high = np.where(more, share, low), np.where(more, high, share)
+        if np.all(high - low <= 1e-15 * high):
+            break
+    gap, separation = state(high)
+    return LoadSharing(asperity_share=high, gap=gap, separation=separation)
