@@ -101,7 +101,7 @@ def load_sharing(
     Returns
     -------
     LoadSharing
-        Share of the asperities, mean gap and separation. The share is 1 where the asperities carry more than
+        Share of the asperities, mean gap and separation. The share is 0 where nothing touches. It is 1 where the asperities carry more than
         the whole load at every film: then the separation is that of the film under a share of 1e-15.
 
     Notes
@@ -138,5 +138,7 @@ def load_sharing(
         low, high = np.where(more, share, low), np.where(more, high, share)
         if np.all(high - low <= 1e-15 * high):
             break
+    untouched = asperity_pressure(state(np.zeros(shape))[1]) == 0.0
+    high = np.where(untouched, 0.0, high)
     gap, separation = state(high)
     return LoadSharing(asperity_share=high, gap=gap, separation=separation)

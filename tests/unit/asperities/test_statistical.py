@@ -1,5 +1,7 @@
 """Models of Greenwood: factors by Hertz contacts of drawn summits, limits, and dependence on separation."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -104,6 +106,14 @@ def test_pressure_over_area_hardly_depends_on_separation():
     real = found.pressure / found.area_fraction
     assert found.pressure[0] / found.pressure[1] > 100.0
     assert real[0] / real[1] < 1.4
+
+
+@pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
+def test_nothing_touches_above_the_highest_summit(model):
+    worn = replace(ROUGH, highest=2.0)
+    above, below = (parts(model(level * ROUGH.height_deviation, worn, MODULUS)) for level in (2.01, 1.0))
+    assert np.all(above == 0.0)
+    assert np.all((below > 0.0) & (below <= parts(model(ROUGH.height_deviation, ROUGH, MODULUS))))
 
 
 def test_summits_lie_above_the_mean_plane():
