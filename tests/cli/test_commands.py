@@ -1,5 +1,6 @@
 """The commands as a user types them: output, files and exit status."""
 
+import itertools
 import json
 import os
 import subprocess
@@ -190,6 +191,20 @@ def test_surface_shows_every_step(ehlectric, tmp_path):
     for text in ("form: parabola", "cutoff_long: 80", "trim: 40", "truncate: 50", "9600", "0.156245"):
         assert text in done.stdout
     assert (tmp_path / "profile.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_surface_shows_its_summits(ehlectric):
+    words = ["surface", EXAMPLES / "surfaces" / "dektak-1.csv", "--form", "parabola"]
+    done = ehlectric(*words)
+    assert done.returncode == 0, done.stderr
+    assert "spectral moments and summits" in done.stdout
+    assert "belong to the sampling interval" in done.stdout
+    summits = json.loads(ehlectric(*words, "--json").stdout)["summits"]
+    assert [round(row["interval"] / 0.156245e-6, 3) for row in summits] == [1, 2, 4, 8, 16]
+    assert all(row["m4"] > after["m4"] for row, after in itertools.pairwise(summits))
+    assert summits[0]["bandwidth"] == pytest.approx(
+        summits[0]["m0"] * summits[0]["m4"] / summits[0]["m2"] ** 2
+    )
 
 
 @pytest.mark.parametrize(

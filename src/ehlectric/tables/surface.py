@@ -1,8 +1,8 @@
-"""Table of a rough surface: its statistics after every processing step."""
+"""Tables of a rough surface: its statistics after every processing step, and its summits."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.table import Table
@@ -29,6 +29,26 @@ _MAP_COLUMNS = (
     ("max.\nslope", "largest_slope", ".2g"),
 )
 
+# Columns of the summits: head, key, factor to the shown unit, and format.
+_SUMMIT_COLUMNS = (
+    ("interval\n[µm]", "interval", 1e6, ".3g"),
+    ("m0\n[nm²]", "m0", 1e18, ".3g"),
+    ("m2\n[1e-6]", "m2", 1e6, ".3g"),
+    ("m4\n[1/mm²]", "m4", 1e-6, ".3g"),
+    ("band-\nwidth", "bandwidth", 1.0, ".3g"),
+    ("summits\n[1/mm²]", "summit_density", 1e-6, ".3g"),
+    ("radius\n[µm]", "summit_radius", 1e6, ".3g"),
+    ("height dev.\n[nm]", "summit_deviation", 1e9, ".3g"),
+    ("slope\nx/y", "slope_ratio", 1.0, ".2f"),
+)
+
+# Sentences below the table of the summits.
+SUMMITS_NOTE = (
+    "Bandwidth, density and radius belong to the sampling interval: name it with the numbers. They hold for "
+    "Gaussian heights (skewness 0, kurtosis 3). A dash stands where no isotropic Gaussian surface has the "
+    "bandwidth, below 1.5."
+)
+
 
 def surface_table(surface: dict[str, Any]) -> Table:
     """Table of a profile or map: its source and size, and its statistics after every processing step."""
@@ -41,6 +61,24 @@ def surface_table(surface: dict[str, Any]) -> Table:
         table.add_column(Text(name), justify="right", no_wrap=True)
     for row in rows:
         table.add_row(*row)
+    return table
+
+
+def summits_table(summits: Sequence[Mapping[str, float | None]]) -> Table:
+    """Table of spectral moments and summits, a row for each sampling interval; a dash for no summits."""
+    title = "spectral moments and summits after the last step"
+    table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0))
+    columns = [column for column in _SUMMIT_COLUMNS if column[1] in summits[0]]
+    for head, *_ in columns:
+        table.add_column(Text(head), justify="right", no_wrap=True)
+    for row in summits:
+        values = [(row[key], factor, how) for _, key, factor, how in columns]
+        table.add_row(
+            *(
+                "\N{EN DASH}" if value is None else format(value * factor, how)
+                for value, factor, how in values
+            )
+        )
     return table
 
 
