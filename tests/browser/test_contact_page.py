@@ -226,10 +226,9 @@ def test_a_movie_is_computed_and_its_slider_goes_through_time(open_page, app_ser
     path.write_text(Inputs(small).toml(), encoding="utf-8")
     summary = summary_by_command("run", path, tmp_path)
     page.get_by_test_id("motion-numbers").click()
-    shown_numbers = page.get_by_test_id("motion-numbers").inner_text()
     assert summary["converged"]
     least = 1e6 * summary["film"]["minimum_thickness"]
-    assert f"{least:.4g}" in shown_numbers
+    assert wait_until(lambda: f"{least:.4g}" in page.get_by_test_id("motion-numbers").inner_text())
 
 
 @pytest.mark.slow
