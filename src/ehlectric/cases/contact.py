@@ -27,6 +27,12 @@ class Body(Table):
     radius_y: _SignedRadius | None = None
 
 
+# Thickness of the boundary film where a case gives none [m]: one layer of molecules of oil.
+BOUNDARY_FILM = 1e-9
+
+# Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
+_ATOM = 5e-11
+
 # Alternative inputs by geometry: a case gives all keys of exactly one row of each group. In a line contact
 # the tables of both bodies form a row. In a point contact radii and elastic constants are in two groups.
 Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
@@ -101,6 +107,15 @@ class Contact(Table):
     ) = None
     speed_1: _Speed | None = None
     speed_2: _Speed | None = None
+    boundary_film: (
+        Annotated[float, Quantity("m", least=0.0, most=20e-9, reason="a film that adheres to the surfaces")]
+        | None
+    ) = None
+
+    @property
+    def touching_gap(self) -> float:
+        """Gap [m] at which the surfaces touch: the boundary film, or a thinner one than an atom for none."""
+        return max(BOUNDARY_FILM if self.boundary_film is None else self.boundary_film, _ATOM)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

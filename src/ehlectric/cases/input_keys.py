@@ -41,6 +41,7 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "contact.speed_2": ("speed of surface 2", "$u_2$"),
     "contact.temperature": ("temperature", "$T$"),
     "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
+    "contact.boundary_film": ("boundary film", r"$h_\mathrm{s}$"),
     "contact.load": ("load", "$F$"),
     "contact.load_per_length": ("load per length", "$w$"),
     "contact.max_hertz_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),

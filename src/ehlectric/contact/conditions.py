@@ -41,6 +41,8 @@ class Conditions:
         Half-width b [m] and Hertz pressure p_h [Pa] of the dry contact.
     curvature_share, compliance_share : float
         Surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only the reduced values are known.
+    boundary_film : float
+        Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -58,6 +60,7 @@ class Conditions:
     max_pressure: float
     curvature_share: float = 0.5
     compliance_share: float = 0.5
+    boundary_film: float = 0.0
     film_factor: float = 1.0
 
     @property
@@ -194,6 +197,8 @@ class PointConditions:
         Half of the domain's width across entrainment, in semi-axes across.
     compliance_share : float
         Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
+    boundary_film : float
+        Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -213,6 +218,7 @@ class PointConditions:
     max_pressure: float
     side: float
     compliance_share: float = 0.5
+    boundary_film: float = 0.0
     film_factor: float = 1.0
 
     @property

@@ -82,6 +82,7 @@ def on_nodes(*grid: str) -> Variables:
             "1",
         ),
         "cavitated": ("cavitated", grid, "pressure held at ambient", "1"),
+        "contact_pressure": ("contact_pressure", grid, "part of the pressure that asperities carry", "Pa"),
     }
 
 
@@ -200,6 +201,9 @@ _NUMBERS: Mapping[str, Callable[[Any], bool]] = {
     "thin_gap_capacitance": _is_positive,
 }
 
+# Variables that only some solutions have.
+_NOT_ALWAYS = ("contact_pressure",)
+
 
 def variables(
     layout: Layout, film: Any, field: Any, roughness: Array, smooth: Mapping[str, Array] | None
@@ -211,6 +215,8 @@ def variables(
     named: dict[str, Any] = {}
     for part, table in ((film, layout.film), (field, layout.field)):
         for name, (attribute, dimensions, long_name, unit) in table.items():
+            if getattr(part, attribute) is None:
+                continue
             values = np.asarray(getattr(part, attribute))
             values = values.astype(np.int8) if values.dtype == bool else values
             named[name] = (dimensions, values, {"long_name": long_name, "units": unit})
@@ -308,7 +314,12 @@ def attributes(layout: Layout, film: Any, field: Any) -> dict[str, str]:
 def rules(layout: Layout, *, smooth: bool) -> dict[str, Rule]:
     """Rules for the variables of a dataset, which has the films of smooth surfaces too or not."""
     found = {
-        name: Rule(dims, "increasing" if name in layout.coordinates else _VALUES.get(name, "finite"), unit)
+        name: Rule(
+            dims,
+            "increasing" if name in layout.coordinates else _VALUES.get(name, "finite"),
+            unit,
+            needed=name not in _NOT_ALWAYS,
+        )
         for table in (layout.film, layout.field)
         for name, (_, dims, _, unit) in table.items()
     }
@@ -373,4 +384,5 @@ def field_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
 
 def _arrays(dataset: xr.Dataset, table: Variables) -> Iterator[tuple[str, Any]]:
     for name, (attribute, *_) in table.items():
-        yield attribute, dataset[name].values
+        if name in dataset:
+            yield attribute, dataset[name].values

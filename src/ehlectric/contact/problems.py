@@ -272,6 +272,7 @@ def smooth_problem(
         tolerance=setup.solver.tolerance,
         max_iterations=setup.solver.max_iterations,
         scales=scales_of(setup, conditions),
+        boundary_film=conditions.boundary_film / conditions.thickness_scale,
     )
 
 

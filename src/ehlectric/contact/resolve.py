@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Contact
 from ehlectric.contact.bodies import modulus_of, speeds_of
@@ -54,7 +56,7 @@ def resolve(case: Case) -> Conditions:
     if load is None:
         assert contact.max_hertz_pressure is not None
         load = hertz.line_load(contact.max_hertz_pressure, radius, modulus)
-    return line_conditions(
+    conditions = line_conditions(
         case.oil,
         reduced_radius=radius,
         reduced_modulus=modulus,
@@ -65,6 +67,7 @@ def resolve(case: Case) -> Conditions:
         curvature_share=curvature_share,
         compliance_share=compliance_share,
     )
+    return replace(conditions, boundary_film=contact.touching_gap)
 
 
 def _line_radius(contact: Contact) -> tuple[float, float]:
@@ -144,7 +147,7 @@ def resolve_point(case: Case) -> PointConditions:
         case.grid.check_across(conditions.side)
     except InputError as error:
         raise error.under("grid") from None
-    return conditions
+    return replace(conditions, boundary_film=contact.touching_gap)
 
 
 def _bodies(contact: Contact, key: str) -> list[float]:

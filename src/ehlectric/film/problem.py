@@ -77,6 +77,9 @@ class FilmProblem:
         estimate is as small. By default the film is solved on ``nodes`` only.
     most_nodes : int
         Largest number of nodes along x of a refined grid.
+    boundary_film : float
+        Thickness H_s of the boundary film at which the surfaces touch, dimensionless. With zero they cannot
+        touch: a film that would be pierced does not converge.
     """
 
     fluid: Fluid
@@ -95,6 +98,7 @@ class FilmProblem:
     edge_pressure: Callable[[Array, Array], Array] | None = None
     target_error: float | None = None
     most_nodes: int = 10_000_001
+    boundary_film: float = 0.0
 
     @property
     def order(self) -> int:

@@ -146,6 +146,11 @@ class GridSolution:
     steps: tuple[NewtonStep, ...]
     status: Status
 
+    @property
+    def touches(self) -> bool:
+        """Whether asperities carry a part of the load at some node."""
+        return bool(np.any(np.asarray(self.state.contact_pressure) > 0.0))
+
 
 def film_touches(mesh: Mesh, thickness: Array) -> bool:
     """Whether a film (nx, ny) in any unit is thinner somewhere than 1 % of its central thickness."""

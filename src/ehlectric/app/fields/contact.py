@@ -239,6 +239,7 @@ _SHARED_CONTACT = (
     "speed_2",
     "temperature",
     "max_hertz_pressure",
+    "boundary_film",
     *(f"body_{k}.{key}" for k in (1, 2) for key in (_MODULUS, _RATIO)),
 )
 

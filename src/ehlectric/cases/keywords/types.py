@@ -47,6 +47,8 @@ class LineKeys(TypedDict, total=False):
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
     temperature : float, str or quantity
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
+    boundary_film : float, str or quantity
+        Gap at which the surfaces touch [m].
     """
 
     reduced_radius: Value
@@ -62,6 +64,7 @@ class LineKeys(TypedDict, total=False):
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value
+    boundary_film: Value
 
 
 class PointKeys(TypedDict, total=False):
@@ -82,6 +85,8 @@ class PointKeys(TypedDict, total=False):
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
     temperature : float, str or quantity
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
+    boundary_film : float, str or quantity
+        Gap at which the surfaces touch [m].
     """
 
     radius_x: Value
@@ -96,6 +101,7 @@ class PointKeys(TypedDict, total=False):
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value
+    boundary_film: Value
 
 
 class BearingKeys(TypedDict, total=False):

@@ -51,10 +51,12 @@ class TouchingJacobian:
     factors: SuperLU | None
 
     @classmethod
-    def of(cls, fluid: Fluid, levels: list[Level], oil_pressure: Array, now: Touching) -> TouchingJacobian:
+    def of(
+        cls, fluid: Fluid, levels: list[Level], oil_pressure: Array, now: Touching, damping: float
+    ) -> TouchingJacobian:
         """Jacobian at a state with the residual ``now``; the coarser grids take its injection."""
         level, contact, full_film = levels[0], now.contact, now.full_film
-        by_p, by_h = linearise(now.flow, level.wedge, now.thickness, level.mesh)
+        by_p, by_h = _damped(level, now.flow, now.thickness, damping)
         oil_by_p, oil_by_h = by_p.on_rows(full_film), by_h.on_rows(full_film)
         oil = contact & full_film
         factors = splu(_matrix(oil_by_p, oil)) if oil.any() else None
@@ -65,7 +67,7 @@ class TouchingJacobian:
             full_film = coarse.inject(full_film.astype(float)) > 1.0 - 1e-9
             contact = coarse.inject(contact.astype(float)) > 1.0 - 1e-9
             at_faces = flow(fluid, pressure, thickness, coarse.mesh)
-            stencils = linearise(at_faces, coarse.wedge, thickness, coarse.mesh)
+            stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate)
             jacobians.append(_linearised(coarse, stencils, at_faces, thickness, full_film, contact))
         return cls(jacobians, oil_by_p, oil_by_h, now.contact, oil, factors)
 
@@ -118,6 +120,18 @@ class TouchingJacobian:
     def precondition(self, image: Array) -> Array:
         """Approximate change of Q and H00 from a scaled residual and load, by one V-cycle."""
         return cycled(self.levels, image)
+
+
+def _damped(level: Level, at_faces: Flow, thickness: Array, damping: float) -> tuple[Stencil, Stencil]:
+    """Derivatives of the Reynolds residual by P and by H, as in a time step of length 1/(damping rate).
+
+    The mass that a node gains in the step adds to the residual; at the state itself it adds nothing.
+    """
+    by_p, by_h = linearise(at_faces, level.wedge, thickness, level.mesh)
+    k, inner = at_faces.coefficients, level.mesh.inner
+    by_p.coefficients[2][inner] += damping * level.rate * (k.density_p * thickness)[inner]
+    by_h.coefficients[2][inner] += damping * level.rate * k.density[inner]
+    return by_p, by_h
 
 
 def _linearised(

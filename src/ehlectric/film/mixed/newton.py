@@ -25,6 +25,16 @@ _OIL_TOLERANCE = 1e-6
 # Largest number of GMRES iterations per Newton step.
 _KRYLOV_LIMIT = 100
 
+# Damping of a Newton step, the length dX over the way that oil goes in the time step that it stands for: at
+# first and at most, the least one when it is raised, and the factors by which it falls and rises. It falls after a
+# step of more than half its length that reduces the residual. Without it, nodes at the edges of spots come into
+# contact and leave it in turn.
+_FIRST_DAMPING, _MOST_DAMPING, _LEAST_RAISED = 1.0, 4.0, 0.1
+_FALL, _RISE, _LONG = 0.3, 2.0, 0.5
+
+# Residual below which there is no damping.
+_NEAR = 1e-3
+
 
 def mixed_newton(
     fluid: Fluid,
@@ -63,13 +73,13 @@ def mixed_newton(
     level = levels[0]
     steps: list[NewtonStep] = []
     now = assess_touching(fluid, level, state, boundary_film)
-    before = np.inf
+    before, damping = np.inf, _FIRST_DAMPING
     while len(steps) < max_iterations and not _solved(now, tolerance):
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
         state = projected(fluid, level, state, now.contact)
         close = linear_tolerance(now.norm, before, 0.0)
-        jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now)
+        jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
         dq, dp, dh00, krylov = _direction(fluid, jacobian, state, now, close)
         before = now.norm
         length = _length(level, state, now, dq, dh00, boundary_film)
@@ -82,6 +92,9 @@ def mixed_newton(
         assessed = assess_touching(fluid, level, candidate, boundary_film)
         if not np.isfinite(assessed.norm):
             return _solution(level, state, now, steps, "diverged")
+        better = assessed.norm < now.norm and length > _LONG
+        damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
+        damping = damping if assessed.norm > _NEAR else 0.0
         state, now = candidate, assessed
     status: Status = "converged" if _solved(now, tolerance) else "stalled"
     return _solution(level, projected(fluid, level, state, now.contact), now, steps, status)
@@ -138,9 +151,7 @@ def _direction(
     return dq + reach, dp, dh00, cycles
 
 
-def _length(
-    level: Level, state: State, now: Touching, dq: Array, dh00: float, boundary_film: float
-) -> float:
+def _length(level: Level, state: State, now: Touching, dq: Array, dh00: float, boundary_film: float) -> float:
     """Part of a full Newton step that keeps the changes of Q and of the open gap within their limits."""
     length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(dq))), 1e-300))
     dh = level.deflection(dq) + dh00
