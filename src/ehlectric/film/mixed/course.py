@@ -31,6 +31,9 @@ _FASTER, _LEAST_FASTER, _GROWTH, _FALL = 4.0, 0.02, 1.5, 0.5
 # Residual of the films of the continuation, and Newton steps of each.
 _LOOSE, _FEW_STEPS = 1e-4, 40
 
+# Damping of the first step from a state that is likely to be close.
+_NEAR_DAMPING = 0.1
+
 # Largest number of films of a continuation.
 _MOST_SPEEDS = 40
 
@@ -80,7 +83,7 @@ def mixed_film(
         Last iterate from each start. The iteration ends with the first that converges.
     """
 
-    def solved(start: State) -> GridSolution:
+    def solved(start: State, damping: float = 1.0) -> GridSolution:
         return mixed_newton(
             fluid,
             levels,
@@ -88,11 +91,12 @@ def mixed_film(
             boundary_film=boundary_film,
             tolerance=tolerance,
             max_iterations=max_iterations,
+            first_damping=damping,
             progress=progress,
         )
 
     if near is not None:
-        yield (found := solved(near))
+        yield (found := solved(near, _NEAR_DAMPING))
         if found.status == "converged" or not thorough:
             return
     ambient = fluid.ambient_pressure
