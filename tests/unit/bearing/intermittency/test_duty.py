@@ -155,7 +155,7 @@ def test_regimes_by_their_limits():
 
 
 def test_a_bearing_without_voltages_is_not_called_capacitive():
-    """Lambda just below 1, where the share of time is about 2 %, and with one loaded element less than 1 %."""
+    """Lambda just below 1: the share of time is a few per cent, and less where one element is loaded."""
     solution = solved(bearing__inner_speed="1000 rpm")
     scale = 0.999 / totals(solution)["lambda_ratio"]
     assert duty_of(solution, film_scale=scale).regime == "intermittent"
