@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ehlectric.bearing.intermittency.words import SELDOM, time_text
+from ehlectric.bearing.intermittency.words import OF_TIME, SELDOM, time_text
 from ehlectric.cases.row import Row
 from ehlectric.cases.units import rpm_text
 
@@ -28,9 +28,11 @@ def duty_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
         note = ", ceramic elements or a coating insulate"
     yield Row("electrical regime", totals["regime"], note=note, alarm=totals["regime"] != "capacitive")
     if touching >= SELDOM:
-        rings = (time_text(totals[f"{ring}_contact_time_share"]) for ring in ("inner", "outer"))
+        inner, outer = (time_text(totals[f"{ring}_contact_time_share"]) for ring in ("inner", "outer"))
         law = _LAWS[totals["contact_model"]]
-        yield Row("contact at the inner, outer ring", ", ".join(rings), note=f", by {law}")
+        yield Row(
+            "contact at the inner, outer ring", f"{inner.removesuffix(OF_TIME)}, {outer}", note=f", by {law}"
+        )
         if totals["contact_model"] != "clarke":
             yield Row("contacts short it by Clarke's fit", time_text(totals["clarke_time_share"]))
         yield Row("films carry a voltage", time_text(totals["insulating_time_share"]))

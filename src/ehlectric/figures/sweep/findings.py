@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.intermittency.words import time_text
+from ehlectric.bearing.intermittency.words import OF_TIME, time_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.sweep.paths import LinePath, joined, lines_of
 from ehlectric.figures.sweep.points import labelled, voltage_text
@@ -38,7 +38,7 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
 def _of_time(shares: Array) -> str:
     """Sentence: range of the shares of time in which contacts short bearings."""
     low, high = (time_text(float(of(shares))) for of in (np.min, np.max))
-    ends = high if low == high else f"{low.removesuffix(' of the time')} to {high}"
+    ends = high if low == high else f"{low.removesuffix(OF_TIME)} to {high}"
     return f"Contacts short the bearing {ends}"
 
 
