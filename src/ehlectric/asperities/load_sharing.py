@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 from ehlectric.arrays import Array
 from ehlectric.asperities.integrals import LOWEST_SEPARATION, separation_of_gap
 
-# Halvings of the interval of the share. Shares above 1e-20 then have all digits.
-_HALVINGS = 120
+# Largest number of steps to the share, and its relative tolerance. Ten steps are usual.
+_STEPS, _TOLERANCE = 100, 1e-14
 
 
 @dataclass(frozen=True)
@@ -77,8 +77,8 @@ def load_sharing(
 ) -> LoadSharing:
     """Share of the load on the asperities, where film and asperities have the same gap.
 
-    Solves asperity_pressure(separation(film(1 - phi))) = phi nominal_pressure for phi by bisection. The left
-    side falls with phi as the relieved film grows, so that there is one solution.
+    Solves asperity_pressure(separation(film(1 - phi))) = phi nominal_pressure for phi. The left side
+    falls with phi as the relieved film grows, so that there is one solution.
 
     Parameters
     ----------
@@ -101,8 +101,9 @@ def load_sharing(
     Returns
     -------
     LoadSharing
-        Share of the asperities, mean gap and separation. The share is 1 where the asperities carry more than
-        the whole load at every film: then the separation is that of the film under a share of 1e-15.
+        Share of the asperities, mean gap and separation. The share is 0 where nothing touches. It is 1 where
+        the asperities carry more than the whole load at every film: then the separation is that of the film
+        under a share of 1e-15.
 
     Notes
     -----
@@ -124,7 +125,6 @@ def load_sharing(
     """
     load = np.asarray(nominal_pressure, dtype=float)
     shape = np.broadcast_shapes(load.shape, film(np.ones_like(load)).shape)
-    low, high = np.zeros(shape), np.ones(shape)
 
     def state(share: Array) -> tuple[Array, Array]:
         gap = film(np.maximum(1.0 - share, 1e-15))
@@ -132,11 +132,47 @@ def load_sharing(
             return gap, np.maximum(gap, LOWEST_SEPARATION * roughness)
         return gap, separation_of_gap(gap, roughness)
 
-    for _ in range(_HALVINGS):
-        share = 0.5 * (low + high)
-        more = asperity_pressure(state(share)[1]) > share * load
-        low, high = np.where(more, share, low), np.where(more, high, share)
-        if np.all(high - low <= 1e-15 * high):
-            break
-    gap, separation = state(high)
-    return LoadSharing(asperity_share=high, gap=gap, separation=separation)
+    def carried(share: Array) -> Array:
+        least: Array = np.minimum(asperity_pressure(state(share)[1]) / load, 1.0)
+        return least
+
+    # The share that the asperities would carry in the gap of a larger share is a smaller one: both enclose
+    # the solution, closely where the asperities carry little.
+    high = carried(np.zeros(shape))
+    share = _root(lambda at: carried(at) - at, carried(high), high)
+    gap, separation = state(share)
+    return LoadSharing(asperity_share=share, gap=gap, separation=separation)
+
+
+def _root(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Roots between bounds, by the method of Chandrupatla (Adv. Eng. Softw. 28 (1997) 145-149).
+
+    ``function`` is at least 0 at ``low`` and at most 0 at ``high``, element by element.
+    """
+    a, b = high, low
+    value_a, value_b = function(a), function(b)
+    c, value_c = a, value_a
+    t = np.full(np.shape(a), 0.5)
+    best = np.where(np.abs(value_a) < np.abs(value_b), a, b)
+    for _ in range(_STEPS):
+        x = a + t * (b - a)
+        value = function(x)
+        same = np.sign(value) == np.sign(value_a)
+        c, value_c = np.where(same, a, b), np.where(same, value_a, value_b)
+        b, value_b = np.where(same, b, a), np.where(same, value_b, value_a)
+        a, value_a = x, value
+        best = np.where(np.abs(value_a) < np.abs(value_b), a, b)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            least = _TOLERANCE * best / np.abs(b - c)
+            if np.all(~(least < 0.5) | (value == 0.0)):
+                break
+            xi, phi = (a - b) / (c - b), (value_a - value_b) / (value_c - value_b)
+            quadratic = value_a / (value_b - value_a) * value_c / (value_b - value_c)
+            quadratic += (c - a) / (b - a) * value_a / (value_c - value_a) * value_b / (value_c - value_b)
+            usable = (phi**2 < xi) & ((1.0 - phi) ** 2 < 1.0 - xi) & np.isfinite(quadratic)
+            t = np.clip(
+                np.where(usable, quadratic, 0.5), np.minimum(least, 0.5), np.maximum(1.0 - least, 0.5)
+            )
+        t = np.where(np.isfinite(t), t, 0.5)
+    found: Array = best
+    return found

@@ -25,11 +25,17 @@ class Summits:
     height_deviation : float
         Standard deviation of the summit heights [m], > 0. Of two rough surfaces it is that of the sum of both
         heights, sqrt(sigma_s1^2 + sigma_s2^2).
+    highest : float, optional
+        Height above the mean of the summits, in standard deviations, to which all higher summits are worn
+        down; by default none is. Above this separation nothing touches. Run-in surfaces have lost their
+        highest peaks, and the number of spots of a thin film depends on them alone. Worn summits keep their
+        radius here, though they are blunt.
     """
 
     density: float
     radius: float
     height_deviation: float
+    highest: float = np.inf
 
     @property
     def roughness_parameter(self) -> float:
@@ -110,9 +116,9 @@ def greenwood_tripp(separation: ArrayLike, summits: Summits, reduced_modulus: fl
     roughness = summits.roughness_parameter**2
     stiffness = 16.0 * np.sqrt(2.0) * np.pi / 15.0 * roughness * np.sqrt(sigma / beta) * 0.5 * reduced_modulus
     return AsperityContact(
-        pressure=stiffness * greenwood_integral(2.5, level),
-        area_fraction=np.pi**2 * roughness * greenwood_integral(2.0, level),
-        spots_per_area=4.0 * np.pi * n**2 * beta * sigma * greenwood_integral(1.0, level),
+        pressure=stiffness * greenwood_integral(2.5, level, summits.highest),
+        area_fraction=np.pi**2 * roughness * greenwood_integral(2.0, level, summits.highest),
+        spots_per_area=4.0 * np.pi * n**2 * beta * sigma * greenwood_integral(1.0, level, summits.highest),
     )
 
 
@@ -159,9 +165,9 @@ def greenwood_williamson(separation: ArrayLike, summits: Summits, reduced_modulu
     n, beta, sigma = summits.density, summits.radius, summits.height_deviation
     stiffness = 4.0 / 3.0 * n * np.sqrt(beta) * sigma**1.5 * 0.5 * reduced_modulus
     return AsperityContact(
-        pressure=stiffness * greenwood_integral(1.5, level),
-        area_fraction=np.pi * summits.roughness_parameter * greenwood_integral(1.0, level),
-        spots_per_area=n * greenwood_integral(0.0, level),
+        pressure=stiffness * greenwood_integral(1.5, level, summits.highest),
+        area_fraction=np.pi * summits.roughness_parameter * greenwood_integral(1.0, level, summits.highest),
+        spots_per_area=n * greenwood_integral(0.0, level, summits.highest),
     )
 
 

@@ -82,3 +82,28 @@ def test_separation_gives_the_gap_back(gaps):
 
 def test_no_gap_is_a_thousandth_of_the_roughness():
     assert float(separation_of_gap(0.0, 1.0)) == float(separation_of_gap(1e-3, 1.0))
+
+
+@pytest.mark.parametrize("order", [0.0, 0.5, 1.0, 2.5])
+@pytest.mark.parametrize("highest", [-1.0, 0.5, 3.0])
+@pytest.mark.parametrize("below", [0.01, 1.0, 5.0])
+def test_worn_summits(order, highest, below):
+    """Heights that are cut to the highest one, at equal steps of their probability."""
+    level = highest - below
+    heights = np.minimum(special.ndtri((np.arange(2_000_000) + 0.5) / 2_000_000), highest)
+    sampled = np.mean(np.where(heights > level, np.maximum(heights - level, 1e-300) ** order, 0.0))
+    assert float(greenwood_integral(order, level, highest)) == pytest.approx(sampled, rel=2e-4)
+
+
+@pytest.mark.parametrize("order", [0.0, 1.5, 2.5])
+def test_limits_of_wear(order):
+    levels = np.array([-5.0, 0.0, 3.0, 4.0, 10.0])
+    np.testing.assert_allclose(
+        greenwood_integral(order, levels, 30.0), greenwood_integral(order, levels), rtol=1e-9
+    )
+    worn = greenwood_integral(order, levels, 4.0)
+    assert np.all(worn[:3] > 0.0)
+    assert worn[3:].tolist() == [0.0, 0.0]
+    assert np.all(worn <= greenwood_integral(order, levels))
+    with pytest.raises(ValueError, match="highest"):
+        greenwood_integral(order, 0.0, np.nan)

@@ -1,11 +1,14 @@
 """Models of Greenwood: factors by Hertz contacts of drawn summits, limits, and dependence on separation."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy import integrate, stats
+from scipy import integrate, ndimage, stats
 
+from ehlectric.asperities.spectrum import map_moments
 from ehlectric.asperities.statistical import (
     MODELS,
     Summits,
@@ -13,6 +16,7 @@ from ehlectric.asperities.statistical import (
     greenwood_williamson,
     summit_separation,
 )
+from ehlectric.surfaces import made_maps
 
 ROUGH = Summits(density=2e11, radius=2e-6, height_deviation=100e-9)
 MODULUS = 226e9
@@ -106,6 +110,30 @@ def test_pressure_over_area_hardly_depends_on_separation():
     assert real[0] / real[1] < 1.4
 
 
+@pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
+def test_nothing_touches_above_the_highest_summit(model):
+    worn = replace(ROUGH, highest=2.0)
+    above, below = (parts(model(level * ROUGH.height_deviation, worn, MODULUS)) for level in (2.01, 1.0))
+    assert np.all(above == 0.0)
+    assert np.all((below > 0.0) & (below <= parts(model(ROUGH.height_deviation, ROUGH, MODULUS))))
+
+
 def test_summits_lie_above_the_mean_plane():
     lifted = 5e-7 - summit_separation([5e-7, 5e-7], 1e-7, np.array([4.0 / np.pi * 4.0, 1e12]))
     np.testing.assert_allclose(lifted, [1e-7, 0.0], atol=1e-12)
+
+
+def test_spots_of_a_generated_map():
+    """Peaks of a map above a plane, in number those of Greenwood and Williamson; below they merge."""
+    made = made_maps.gaussian(rq=1e-7, correlation_length=1e-5, reach_x=8e-4, reach_y=8e-4, seed=2)
+    z, d = made.heights - made.heights.mean(), made.spacing_x
+    peaks = np.where(z == ndimage.maximum_filter(z, 3), z, -np.inf)[1:-1, 1:-1]
+    area = peaks.size * d**2
+    moments = map_moments(z, d, d).isotropic
+    for level, tolerance in ((1.0, 0.04), (2.0, 0.06), (2.5, 0.1), (3.0, 0.25)):
+        height = level * moments.rq
+        separation = summit_separation(height, moments.rq, moments.bandwidth)
+        expected = float(greenwood_williamson(separation, moments.summits(), MODULUS).spots_per_area) * area
+        assert np.sum(peaks > height) == pytest.approx(expected, rel=tolerance)
+        patches = ndimage.label(z > height)[1]
+        assert patches == pytest.approx(expected, rel=0.1) if level >= 2.0 else patches < 0.8 * expected
