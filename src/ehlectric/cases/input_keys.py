@@ -64,6 +64,7 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "bearing.summits.radius": ("radius of the summits", r"$\beta$"),
     "bearing.summits.height_deviation": ("deviation of the summit heights", r"$\sigma_\mathrm{s}$"),
     "bearing.summits.bandwidth": ("bandwidth of the roughness", r"$\alpha$"),
+    "bearing.summits.highest": ("height of worn summits", ""),
     "bearing.contact_resistance": ("resistance of a closed contact", ""),
     "bearing.radial_clearance": ("radial clearance", ""),
     "bearing.clearance_class": ("clearance class", ""),

@@ -277,6 +277,7 @@ SUMMITS = Group(
             optional=True,
         ),
         _number("bearing.summits.bandwidth", "Or their bandwidth", "", (1.5, 100.0), log=True, optional=True),
+        _number("bearing.summits.highest", "Worn to this height", "", (1.0, 6.0), optional=True),
     ),
     table="bearing.summits",
     start={"density": "2000 1/mm^2", "radius": "50 um"},

@@ -201,5 +201,6 @@ def _spots_per_area(solution: BearingSolution, film: Array) -> Array:
         # Of the moments only m0 and the bandwidth m0 m4/m2^2 count for the heights of the summits.
         deviation = SpectralMoments(rq**2, 1.0, given.bandwidth / rq**2).summits().height_deviation
         separation = summit_separation(separation, rq, given.bandwidth)
-    summits = Summits(density=given.density, radius=given.radius, height_deviation=deviation)
+    highest = np.inf if given.highest is None else given.highest
+    summits = Summits(density=given.density, radius=given.radius, height_deviation=deviation, highest=highest)
     return greenwood_williamson(separation, summits, solution.conditions.modulus).spots_per_area

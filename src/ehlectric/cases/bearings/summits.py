@@ -15,6 +15,7 @@ _Density = Annotated[
 ]
 _Radius = Annotated[float, Quantity("m", least=1e-9, most=1.0, reason="of the caps")]
 _Height = Annotated[float, Quantity("m", above=0.0, most=1e-4, reason="of the summit heights")]
+_Highest = Annotated[float, Quantity("", above=0.0, most=100.0, reason="in deviations of the heights")]
 _Bandwidth = Annotated[float, Quantity("", least=1.5, most=1e6, reason="Nayak's, of a Gaussian surface")]
 
 # Alternative keys of the summits: the deviation of their heights follows from the bandwidth, or is given.
@@ -28,6 +29,7 @@ class Summits(Table):
     radius: _Radius
     height_deviation: _Height | None = None
     bandwidth: _Bandwidth | None = None
+    highest: _Highest | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -133,6 +133,22 @@ def test_a_bandwidth_lifts_the_summits():
     assert spots[1] < spots[2] < spots[3]
 
 
+def test_worn_summits_touch_less():
+    """Worn to two deviations nothing touches beyond two; spots of thinner films stay."""
+    keys = SUMMITS["bearing__summits"] | {"highest": 2.0}
+    changes = {"bearing__composite_rq": "0.04 um"}
+    whole, worn = (
+        contact_rows(solved(bearing__summits=one, **changes)) for one in (SUMMITS["bearing__summits"], keys)
+    )
+    loaded = [(a, b) for a, b in zip(whole, worn, strict=True) if a["solved"]]
+    thin = [pair for pair in loaded if pair[0]["central_lambda_ratio"] < 1.9]
+    thick = [pair for pair in loaded if pair[0]["central_lambda_ratio"] > 2.1]
+    assert thin
+    assert thick
+    assert all(b["expected_spots"] == pytest.approx(a["expected_spots"], rel=1e-12) for a, b in thin)
+    assert all(b["expected_spots"] == 0.0 < a["expected_spots"] for a, b in thick)
+
+
 def test_ceramic_elements_and_coatings_insulate():
     coating = {"ring": "outer", "thickness": "200 um", "relative_permittivity": 9.0, "area": "45 cm^2"}
     rough = {"bearing__composite_rq": "0.3 um"}
