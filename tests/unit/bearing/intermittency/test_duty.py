@@ -192,3 +192,19 @@ def test_either_deviation_or_bandwidth():
     case = bearing_case(BALLS, bearing__summits=SUMMITS["bearing__summits"] | {"bandwidth": 5.0})
     changed = case.replace({"bearing.summits.height_deviation": 1e-7})
     assert changed.bearing.summits.bandwidth is None
+
+
+def test_summits_that_touch_a_full_film_leave_no_green_verdict():
+    """Above lambda 3 without a warning by lambda alone; the summits say that contacts short it at times."""
+    keys = {"bearing__inner_speed": "5500 rpm", "discharge__dielectric_strength": "100 V/um"}
+    dense = {"bearing__summits": {"density": "2e10 1/m^2", "radius": "10 um"}}
+    plain, touched = (
+        solve_bearing(bearing_case(BALLS, **(THIN | keys | more)), workers=1) for more in ({}, dense)
+    )
+    found = touched.summary()
+    assert found["bearing"]["lubrication"] == "full film"
+    assert found["bearing"]["regime"] != "capacitive"
+    assert "partial-film" in found["warning_codes"]
+    assert "partial-film" not in plain.summary()["warning_codes"]
+    assert (plain.verdict.level, touched.verdict.level) == ("green", "yellow")
+    assert "An element touches both rings" in touched.verdict.text
