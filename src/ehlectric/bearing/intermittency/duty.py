@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.asperities.integrals import separation_of_gap
+from ehlectric.asperities.integrals import LOWEST_SEPARATION, separation_of_gap
 from ehlectric.asperities.intermittency import bearing_time_share, contact_time_share, expected_spots
 from ehlectric.asperities.shares import LOAD_SHARE, contact_probability, johnson_end, load_shares
 from ehlectric.asperities.spectrum import SpectralMoments
@@ -203,4 +203,6 @@ def _spots_per_area(solution: BearingSolution, film: Array) -> Array:
         separation = summit_separation(separation, rq, given.bandwidth)
     highest = np.inf if given.highest is None else given.highest
     summits = Summits(density=given.density, radius=given.radius, height_deviation=deviation, highest=highest)
-    return greenwood_williamson(separation, summits, solution.conditions.modulus).spots_per_area
+    # Summits of nearly one height all touch from a separation on that is below the range of the integrals.
+    level = np.maximum(separation, LOWEST_SEPARATION * deviation)
+    return greenwood_williamson(level, summits, solution.conditions.modulus).spots_per_area

@@ -133,6 +133,15 @@ def test_a_bandwidth_lifts_the_summits():
     assert spots[1] < spots[2] < spots[3]
 
 
+def test_summits_of_one_height_all_touch():
+    keys = SUMMITS["bearing__summits"] | {"height_deviation": "0.1 nm"}
+    rows = contact_rows(solved(bearing__summits=keys, bearing__composite_rq="1 um"))
+    row = rows[0]
+    whole = 2e9 * math.pi * row["semi_axis_x"] * row["semi_axis_y"]
+    assert row["expected_spots"] == pytest.approx(whole, rel=1e-9, abs=0.0)
+    assert row["contact_time_share"] == 1.0
+
+
 def test_worn_summits_touch_less():
     """Worn to two deviations nothing touches beyond two; spots of thinner films stay."""
     keys = SUMMITS["bearing__summits"] | {"highest": 2.0}
