@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.errors import ConvergenceError
@@ -93,7 +94,17 @@ class MovingFilm:
         density = _composed(steady.final.coefficients.density, instant.density, inside)
         return Instant(
             time=instant.time,
-            state=replace(state, thickness=thickness),
+            state=replace(
+                state,
+                thickness=thickness,
+                contact_pressure=_composed(
+                    *(
+                        np.broadcast_to(s.contact_pressure, s.pressure.shape)
+                        for s in (steady.state, instant.state)
+                    ),
+                    inside,
+                ),
+            ),
             mass=_composed(density * thickness, instant.mass, inside),
             density=density,
             full_film=_composed(steady.final.full_film, instant.full_film, inside),

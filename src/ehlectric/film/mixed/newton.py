@@ -115,7 +115,7 @@ def _solution(
         flow=now.flow,
         reynolds=now.reynolds,
         diagonal=now.diagonal,
-        full_film=now.full_film | now.contact,
+        full_film=now.full_film,
         load=now.load,
         norm=now.norm,
     )

@@ -21,7 +21,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
-from ehlectric.film.levels import Level
+from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.state import State
 
@@ -119,8 +119,9 @@ def assess_touching(fluid: Fluid, level: Level, state: State, boundary_film: flo
     full_film = full_film_nodes(
         excess, r, poiseuille=poiseuille, rate=level.rate, thickness=thickness, inner=mesh.inner
     )
-    # A surplus of oil at the edge of a spot is carried through the whole spot at once.
-    full_film |= with_refilled_nodes(full_film, r) & contact
+    if level.distribution is DIPOLE:
+        # A surplus of oil at the edge of a spot is carried through the whole spot at once.
+        full_film |= with_refilled_nodes(full_film, r) & contact
     compliance = own_compliance(level)
     moving = np.where(contact, k.density_p * thickness, k.density * compliance)
     diagonal = poiseuille + moving * level.rate
