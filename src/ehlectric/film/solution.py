@@ -48,8 +48,8 @@ class FilmSolution(Values):
     load_residual : float
         abs(load carried/load applied - 1), dimensionless.
     contact_pressure : ndarray or None
-        Part of the pressure [Pa] that asperities carry where the surfaces touch, zero elsewhere. None where the
-        surfaces do not touch.
+        Part of the pressure [Pa] that asperities carry where the surfaces touch, zero elsewhere. None where
+        the surfaces do not touch.
     reynolds_residual : ndarray or None
         Residual of the Reynolds equation, scaled to a pressure over p_h. It is zero in the full film and not
         negative where the film is cavitated. None for an instant of a transient film.

@@ -237,7 +237,7 @@ class UnsteadyFilm:
             self.problem.fluid,
             levels,
             State.of(levels[0], last.pressure, last.h00, last.contact_pressure),
-            boundary_film=self.problem.boundary_film,
+            asperities=self.problem.asperities,
             tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
             max_iterations=_MANY_ITERATIONS,
             first_damping=0.0,

@@ -92,18 +92,16 @@ class MovingFilm:
         state = State.of(replace(level, dry_gap=gap), pressure, instant.state.h00)
         thickness = _composed(state.thickness, instant.state.thickness, inside)
         density = _composed(steady.final.coefficients.density, instant.density, inside)
+        touching = [
+            np.broadcast_to(each.contact_pressure, each.pressure.shape)
+            for each in (steady.state, instant.state)
+        ]
         return Instant(
             time=instant.time,
             state=replace(
                 state,
                 thickness=thickness,
-                contact_pressure=_composed(
-                    *(
-                        np.broadcast_to(s.contact_pressure, s.pressure.shape)
-                        for s in (steady.state, instant.state)
-                    ),
-                    inside,
-                ),
+                contact_pressure=_composed(touching[0], touching[1], inside),
             ),
             mass=_composed(density * thickness, instant.mass, inside),
             density=density,
