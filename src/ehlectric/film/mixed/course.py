@@ -37,7 +37,7 @@ _LOOSE, _FEW_STEPS = 1e-4, 40
 _NEAR_DAMPING = 0.1
 
 # Largest number of films of a continuation.
-_MOST_SPEEDS = 40
+_MOST_SPEEDS = 15
 
 
 def mixed_film(

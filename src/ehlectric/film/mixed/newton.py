@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.mixed.jacobian import TouchingJacobian
@@ -33,6 +33,10 @@ _KRYLOV_LIMIT = 100
 # at the edges of spots come into contact and leave it in turn.
 _MOST_DAMPING, _LEAST_RAISED = 4.0, 0.1
 _FALL, _RISE, _LONG = 0.3, 2.0, 0.5
+
+# Steps after which the iteration ends if they have not halved the smallest residual so far. Films that
+# converged took up to 60.
+_PATIENCE = 70
 
 # Residual below which there is no damping.
 _NEAR = 1e-3
@@ -81,33 +85,60 @@ def mixed_newton(
     steps: list[NewtonStep] = []
     now = assess_touching(fluid, level, state, asperities)
     before, damping = np.inf, first_damping
-    while len(steps) < max_iterations and not _solved(now, tolerance):
+    best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
+    while len(steps) < min(max_iterations, found + _PATIENCE) and not _solved(now, tolerance):
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
+        if now.norm < 0.5 * best:
+            best, found = now.norm, len(steps)
         state = projected(fluid, state, now.contact)
         close = linear_tolerance(now.norm, before, 0.0)
         jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
-        dq, dp, dh00, krylov = _direction(fluid, jacobian, state, now, close)
+        step = _direction(fluid, jacobian, state, now, close)
         before = now.norm
-        length = _length(level, now, dq, dh00, asperities.boundary_film)
-        steps.append(NewtonStep(level.nodes, now.norm, krylov))
-        pressure = state.pressure + length * dq
-        oil = np.where(now.contact, state.oil_pressure + length * dp, pressure)
-        moved = State.of(level, np.maximum(pressure, 0.0), state.h00 + length * dh00)
-        moved = State(moved.pressure, moved.h00, moved.thickness, moved.pressure - oil)
-        candidate = projected(fluid, moved, now.contact)
-        assessed = assess_touching(fluid, level, candidate, asperities)
+        length = _length(level, now, step, asperities.boundary_film)
+        steps.append(NewtonStep(level.nodes, now.norm, step.krylov))
+        state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
+        assessed = assess_touching(fluid, level, state, asperities)
         if not np.isfinite(assessed.norm):
-            return _solution(level, state, now, steps, "diverged")
+            return _solution(level, state, assessed, steps, "diverged")
         better = assessed.norm < now.norm and length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         damping = damping if assessed.norm > _NEAR else 0.0
-        state, now = candidate, assessed
+        now = assessed
     status: Status = "converged" if _solved(now, tolerance) else "stalled"
     state = projected(fluid, state, now.contact)
     # The gap of flattened asperities is that of the boundary film.
     flattened = replace(state, thickness=np.where(now.plastic, now.thickness, state.thickness))
     return _solution(level, flattened, now, steps, status)
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Full Newton step.
+
+    Attributes
+    ----------
+    pressure, oil : ndarray, shape (nx, ny)
+        Changes of Q, and of P where the surfaces touch.
+    h00 : float
+        Change of H00.
+    krylov : int
+        Number of GMRES iterations.
+    """
+
+    pressure: Array
+    oil: Array
+    h00: float
+    krylov: int
+
+
+def _moved(level: Level, state: State, contact: Mask, step: _Step, length: float) -> State:
+    """State after a part ``length`` of a Newton step."""
+    pressure = state.pressure + length * step.pressure
+    oil = np.where(contact, state.oil_pressure + length * step.oil, pressure)
+    pressure = np.maximum(pressure, 0.0)
+    return State.of(level, pressure, state.h00 + length * step.h00, pressure - oil)
 
 
 def _solved(now: Touching, tolerance: float) -> bool:
@@ -131,8 +162,8 @@ def _solution(
 
 def _direction(
     fluid: Fluid, jacobian: TouchingJacobian, state: State, now: Touching, tolerance: float
-) -> tuple[Array, Array, float, int]:
-    """Changes dQ, dP of the oil (nx, ny) and dH00 of a Newton step, and the number of GMRES iterations."""
+) -> _Step:
+    """Full Newton step at a state, from the linear system solved to a relative tolerance."""
     finest = jacobian.finest
     resting = fluid.ambient_pressure + finest.level.edge_excess
     to_ambient = np.where(now.full_film, 0.0, resting - state.oil_pressure)
@@ -156,15 +187,14 @@ def _direction(
     dh00 = float(solution[-1])
     dq = solution[:-1].reshape(now.contact.shape)
     dh, _ = finest.gap.change(dq + given, dh00)
-    dp = jacobian.oil_of(oil, dq, dh)
-    dp = np.where(now.contact, np.where(now.full_film, dp, to_ambient), dq + given)
-    return dq + given, dp, dh00, cycles
+    dp = np.where(now.full_film, jacobian.oil_of(oil, dq, dh), to_ambient)
+    return _Step(dq + given, dp, dh00, cycles)
 
 
-def _length(level: Level, now: Touching, dq: Array, dh00: float, boundary_film: float) -> float:
+def _length(level: Level, now: Touching, step: _Step, boundary_film: float) -> float:
     """Part of a full Newton step that keeps the changes of Q and of the open gap within their limits."""
-    length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(dq))), 1e-300))
-    dh = level.deflection(dq) + dh00
+    length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(step.pressure))), 1e-300))
+    dh = level.deflection(step.pressure) + step.h00
     closing = (dh < 0.0) & ~now.contact
     if closing.any():
         room = _CLOSING * (now.thickness - boundary_film) + 0.5 * boundary_film
