@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
@@ -44,8 +43,8 @@ class Conditions:
         Surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only the reduced values are known.
     boundary_film : float
         Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
-    hardness : float
-        Largest pressure where the surfaces touch [Pa]; infinite for elastic asperities.
+    hardness : float or None
+        Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -64,7 +63,7 @@ class Conditions:
     curvature_share: float = 0.5
     compliance_share: float = 0.5
     boundary_film: float = 0.0
-    hardness: float = math.inf
+    hardness: float | None = None
     film_factor: float = 1.0
 
     @property
@@ -123,7 +122,7 @@ def line_conditions(
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
     boundary_film: float = 0.0,
-    hardness: float = math.inf,
+    hardness: float | None = None,
 ) -> Conditions:
     """Compute the operating conditions of a line contact from numbers in SI units, without a case.
 
@@ -210,8 +209,8 @@ class PointConditions:
         Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
     boundary_film : float
         Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
-    hardness : float
-        Largest pressure where the surfaces touch [Pa]; infinite for elastic asperities.
+    hardness : float or None
+        Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -232,7 +231,7 @@ class PointConditions:
     side: float
     compliance_share: float = 0.5
     boundary_film: float = 0.0
-    hardness: float = math.inf
+    hardness: float | None = None
     film_factor: float = 1.0
 
     @property
@@ -302,7 +301,7 @@ def point_conditions(
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
     boundary_film: float = 0.0,
-    hardness: float = math.inf,
+    hardness: float | None = None,
 ) -> PointConditions:
     """Compute the operating conditions of a point contact from numbers in SI units, without a case.
 
