@@ -16,6 +16,7 @@ from ehlectric.formulas.film_line import regime as line_regime
 from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
 from ehlectric.formulas.film_point import regime as point_regime
 from ehlectric.lubricant.oil import Oil
+from ehlectric.tables.asperities import asperity_rows
 from ehlectric.tables.discharge import discharge_rows
 from ehlectric.tables.meter import meter_rows
 
@@ -167,7 +168,8 @@ def result_rows(result: Result | PointResult) -> list[Row]:
         Values in SI units.
     """
     rows = [*_status(result), *condition_rows(result.conditions, result.field.voltage, result.case.oil)]
-    rows += [*_dry_contact(result.conditions), *_film(result), *_roughness(result), *_field(result)]
+    rows += [*_dry_contact(result.conditions), *_film(result), *_roughness(result), *asperity_rows(result)]
+    rows += _field(result)
     return [*rows, *discharge_rows(result), *meter_rows(result), *_formulas(result)]
 
 
@@ -189,8 +191,10 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     nodes = " x ".join(str(count) for count in film.thickness.shape)
     target = result.case.grid.target
     asked = "" if target is None else f", {100.0 * target:g} % asked"
-    name, error = "discretisation error of the film", film.discretisation_error
+    name, error = "discretisation error of the film", result.film_error
     grid = f", {nodes} nodes{asked}"
+    if film.contact_pressure is not None:
+        grid = f"where surfaces touch{grid}"
     yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
     after = f"after {film.newton_iterations} {steps}"
