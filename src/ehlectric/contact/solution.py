@@ -16,6 +16,7 @@ from ehlectric.contact.meter.reading import Metered, MeterReading, meter_reading
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.spots.asperities import Asperities, Coarser, asperities
 from ehlectric.contact.spots.mechanics import hertz_weights, weighted_rms
+from ehlectric.contact.spots.verdict import spots_verdict
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.discharge.verdict import Verdict, contact_verdict
 from ehlectric.errors import ResultWarning
@@ -174,6 +175,9 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         inputs, discharge = self.case.discharge, self.discharge
         if inputs is None or discharge is None:
             return None
+        touching = self.asperities
+        if touching is not None and touching.spots.number:
+            return spots_verdict(touching, self.field.voltage, self.warnings)
         return contact_verdict(
             inputs,
             discharge.breakdown,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -31,7 +31,11 @@ from ehlectric.contact.spots.mechanics import hertz_weights, load_of, spots_of
 from ehlectric.contact.spots.warnings import spot_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.limits import field_warnings
-from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.field.line import Field
+from ehlectric.field.point import PointField
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 from ehlectric.film.state import Progress
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.own import Laws
@@ -284,11 +288,14 @@ def _solved(
             *film_warnings(case, film),
             *spot_warnings(conditions, film, coarser),
             *kind.result_warnings(case, film, field),
-            *discharge_warnings(case.discharge, film),
-            *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *meter_warnings(case, film),
-            *field_warnings(field.max_strength, "the potentials"),
-            *(accuracy_warnings(films.setup.grid, field, estimated=own) if film.converged else ()),
+            # Where surfaces touch, the largest field is that of the boundary film.
+            *(() if film.contact_pressure is not None else _of_field(contact, film, field)),
+            *(
+                accuracy_warnings(films.setup.grid, field, estimated=own)
+                if film.converged and film.contact_pressure is None
+                else ()
+            ),
         ),
         film_solver=solvers.name,
         field_solver=field_solvers.name,
@@ -297,6 +304,16 @@ def _solved(
         version=__version__,
         date=now(),
     )
+
+
+def _of_field(
+    contact: PreparedContact, film: Film | PointFilm, field: Field | PointField
+) -> Iterator[ResultWarning]:
+    """Warnings about the largest field of a film and its breakdown."""
+    discharge = contact.case.discharge
+    yield from discharge_warnings(discharge, film)
+    yield from margin_warnings(discharge, contact.conditions.semi_axes, film, field)
+    yield from field_warnings(field.max_strength, "the potentials")
 
 
 def _logged(progress: Progress | None) -> Progress:

@@ -52,6 +52,8 @@ def _mechanics(found: Asperities, *, line: bool) -> Iterator[Row]:
     yield Row(
         "boundary film", touching.boundary_film, "nm", ", gap at which the surfaces touch", digits=".3g"
     )
+    if touching.mean_film is None or touching.film_5 is None:
+        return
     yield Row("mean film outside of the spots", touching.mean_film, "nm", ", in the Hertz zone", digits=".3g")
     yield Row(
         "film outside of the spots", touching.film_5, "nm", ", 5 % of the Hertz zone is thinner", digits=".2g"

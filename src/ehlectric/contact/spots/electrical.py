@@ -32,8 +32,8 @@ PWM_FREQUENCY = 1e4
 # below which they do not matter: one carries ten times the current of the other.
 SHORTED = 10.0
 
-# Share of the time with at least one spot from which a contact conducts always: with N spots at one instant
-# and passages that are independent of each other it is 1 - exp(-N), above 0.95 from 3 spots on.
+# Share of the time with at least one spot from which a contact conducts always. Three small spots at one
+# instant give it, by the Poisson law.
 ALWAYS = 0.95
 
 # Shares of the area around the spots at which breakdown voltages are given.
@@ -53,8 +53,8 @@ class Electrical:
     behaviour : str
         "resistive", "mixed" or "capacitive"; see ``behaviour_of``.
     time_share : float
-        Share of the time with at least one spot, 1 - exp(-N) with the N spots of the film, if spots of moving
-        surfaces come and go independently of each other.
+        Share of the time with at least one spot, if spots of moving surfaces come and go independently of
+        each other; see ``time_share``.
     resistance : float or None
         Resistance of all spots with their tribofilm [ohm]; of a line contact an upper bound for ridges along
         the whole length. None without spots, or without the resistivity of the case or the length of a line
@@ -93,30 +93,58 @@ class Electrical:
     breakdown_probability: float | None
 
 
-def behaviour_of(spots: int, impedance_ratio: float | None) -> Behaviour:
+def time_share(spots: int, area_share: float) -> float:
+    """Share of the time with at least one spot, if spots of moving surfaces come and go independently.
+
+    The Hertz zone has N/f sites of the mean size of N spots that cover its part f. Each is touched with the
+    probability f, so that the time share is 1 - (1 - f)^(N/f). For small spots it is Poisson's 1 - exp(-N).
+
+    Parameters
+    ----------
+    spots : int
+        Number N of spots at one instant.
+    area_share : float
+        Part f of the Hertz zone that they cover, from 0 to 1.
+
+    Examples
+    --------
+    >>> [round(time_share(spots, share), 2) for spots, share in ((0, 0.0), (1, 1e-6), (3, 0.01), (1, 0.99))]
+    [0.0, 0.63, 0.95, 0.99]
+    """
+    if spots == 0 or area_share == 0.0:
+        return 0.0
+    if area_share >= 1.0:
+        return 1.0
+    return float(-np.expm1(spots / area_share * np.log1p(-area_share)))
+
+
+def behaviour_of(spots: int, always: float, impedance_ratio: float | None) -> Behaviour:
     """Electrical behaviour of a contact in one word.
 
     "capacitive": the contact has no spot, or the film takes ten times the current of its spots. "resistive":
-    the spots take ten times the current of the film and, by the Poisson law, at least one is there for 95 %
+    the spots take ten times the current of the film, and at least one is there for 95 %
     of the time. "mixed": all between, as a contact that conducts and insulates in turn.
 
     Parameters
     ----------
     spots : int
         Number of spots.
+    always : float
+        Share of the time with at least one spot.
     impedance_ratio : float or None
         Impedance of the film over that of the spots at 10 kHz. None if the resistance of the spots is
         unknown: they are taken as metal, which shorts any film at this frequency.
 
     Examples
     --------
-    >>> behaviour_of(0, None), behaviour_of(1, None), behaviour_of(5, 1e5), behaviour_of(5, 0.01)
+    >>> spots = ((0, 0.0, None), (1, 0.63, None), (5, 0.99, 1e5), (5, 0.99, 0.01))
+    >>> tuple(behaviour_of(*each) for each in spots)
     ('capacitive', 'mixed', 'resistive', 'capacitive')
     """
     ratio = np.inf if impedance_ratio is None else impedance_ratio
     if spots == 0 or ratio < 1.0 / SHORTED:
         return "capacitive"
-    if ratio > SHORTED and -np.expm1(-spots) >= ALWAYS:
+    if ratio > SHORTED and always >= ALWAYS:
         return "resistive"
     return "mixed"
 
@@ -212,11 +240,13 @@ def electrical(
     if resistance is not None and length is not None:
         corner = 1.0 / (2.0 * np.pi * resistance * capacitance * length)
         ratio = corner / PWM_FREQUENCY
-    thin = _thin_breakdown(film, hertz_weights(film, semi_axes), discharge)
+    zone = hertz_weights(film, semi_axes)
+    always = time_share(spots.number, float(np.sum(zone[film.contact]) / np.sum(zone)))
+    thin = _thin_breakdown(film, zone, discharge)
     weakest = _weakest(film, outside, electric.voltage, discharge)
     return Electrical(
-        behaviour=behaviour_of(spots.number, ratio),
-        time_share=float(-np.expm1(-spots.number)),
+        behaviour=behaviour_of(spots.number, always, ratio),
+        time_share=always,
         resistance=resistance,
         constriction_resistance=metal,
         tribofilm_resistance=layer,
@@ -235,9 +265,9 @@ def _thin_breakdown(
     film: Film | PointFilm, zone: Array, discharge: Discharge | None
 ) -> tuple[float, ...] | tuple[None, ...]:
     """Voltages at which shares of the Hertz zone outside of the spots reach the dielectric strength [V]."""
-    if discharge is None or not discharge.has_strength:
-        return (None,) * len(BREAKING_SHARES)
     inside = ~film.contact & (zone > 0.0)
+    if discharge is None or not discharge.has_strength or not np.any(inside):
+        return (None,) * len(BREAKING_SHARES)
     voltage = (film.thickness * dielectric_strength(discharge, film.pressure))[inside]
     return tuple(float(each) for each in weighted_percentiles(voltage, zone[inside], BREAKING_SHARES))
 

@@ -41,9 +41,9 @@ class Touching:
         Number of spots, and of those that are a single node and so are not resolved.
     mean_spot, largest_spot : float or None
         Mean and largest area of a spot; None without spots.
-    mean_film, least_film : float
-        Mean and least film thickness in the Hertz zone outside of the spots [m].
-    film_1, film_5, film_50 : float
+    mean_film, least_film : float or None
+        Mean and least film thickness in the Hertz zone outside of the spots [m]; None if they cover it.
+    film_1, film_5, film_50 : float or None
         Film thickness below which 1, 5 and 50 % of the area of the Hertz zone outside of the spots lie [m].
     rq_deformed : float or None
         Root mean square of the film thickness less that of smooth surfaces, about its mean over the Hertz
@@ -65,11 +65,11 @@ class Touching:
     spots_of_one_node: int
     mean_spot: float | None
     largest_spot: float | None
-    mean_film: float
-    least_film: float
-    film_1: float
-    film_5: float
-    film_50: float
+    mean_film: float | None
+    least_film: float | None
+    film_1: float | None
+    film_5: float | None
+    film_50: float | None
     rq_deformed: float | None
     lambda_undeformed: float | None
     lambda_deformed: float | None
@@ -128,9 +128,9 @@ def touching(
     """
     zone = hertz_weights(film, conditions.semi_axes)
     touched = film.contact
-    outside = np.where(touched, 0.0, zone)
-    open_nodes = outside > 0.0
-    thin = weighted_percentiles(film.thickness[open_nodes], outside[open_nodes], THIN_SHARES)
+    around = ~touched & (zone > 0.0)
+    thickness, weights = film.thickness[around], zone[around]
+    thin = weighted_percentiles(thickness, weights, THIN_SHARES) if thickness.size else None
     deformed = None if smooth is None else weighted_rms(film.thickness - smooth, zone)
     mean = float(np.vdot(zone, film.thickness) / np.sum(zone))
     load_share = float(np.sum(spots.loads)) / load_of(conditions)
@@ -144,11 +144,11 @@ def touching(
         spots_of_one_node=int(np.count_nonzero(spots.nodes == 1)),
         mean_spot=spots.area / spots.number if spots.number else None,
         largest_spot=float(np.max(spots.areas)) if spots.number else None,
-        mean_film=float(np.vdot(outside, film.thickness) / np.sum(outside)),
-        least_film=float(np.min(film.thickness[open_nodes])),
-        film_1=float(thin[0]),
-        film_5=float(thin[1]),
-        film_50=float(thin[2]),
+        mean_film=float(np.average(thickness, weights=weights)) if thickness.size else None,
+        least_film=float(np.min(thickness)) if thickness.size else None,
+        film_1=None if thin is None else float(thin[0]),
+        film_5=None if thin is None else float(thin[1]),
+        film_50=None if thin is None else float(thin[2]),
         rq_deformed=deformed,
         lambda_undeformed=mean / rq if rq >= FLAT else None,
         lambda_deformed=mean / deformed if deformed is not None and deformed >= FLAT else None,

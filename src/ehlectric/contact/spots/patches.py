@@ -61,7 +61,7 @@ class Spots:
         >>> touching = np.array([[1, 1, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0]], dtype=bool)
         >>> spots = Spots.of((np.arange(3.0), np.arange(4.0)), touching, 2.0 * touching)
         >>> spots.nodes.tolist(), spots.areas.tolist(), spots.edge
-        ([3, 1], [1.25, 0.5], 3.75)
+        ([3, 1], [1.25, 0.5], 2.5)
         """
         weights = areas(axes)
         labels, count = ndimage.label(contact)

@@ -37,10 +37,10 @@ def spot_warnings(
     spots = spots_of(film)
     share = float(np.sum(spots.loads)) / load_of(conditions)
     before = None if coarser is None else coarser.load_share
-    what = "spot" if spots.number == 1 else "spots"
+    what = "spot, which carries" if spots.number == 1 else "spots, which carry"
     yield ResultWarning(
         "asperities-touch",
-        f"the surfaces touch in {spots.number} {what}, which carry about {share_text(share, before)} % of "
+        f"the surfaces touch in {spots.number} {what} about {share_text(share, before)} % of "
         "the load: metal conducts there, and the minimum film, the maximum field, the capacitance and a "
         "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
     )
