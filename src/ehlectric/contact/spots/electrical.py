@@ -118,12 +118,15 @@ def time_share(spots: int, area_share: float) -> float:
     return float(-np.expm1(spots / area_share * np.log1p(-area_share)))
 
 
-def behaviour_of(spots: int, always: float, impedance_ratio: float | None) -> Behaviour:
+def behaviour_of(
+    spots: int, always: float, impedance_ratio: float | None, area_error: float | None = None
+) -> Behaviour:
     """Electrical behaviour of a contact in one word.
 
     "capacitive": the contact has no spot, or the film takes ten times the current of its spots. "resistive":
-    the spots take ten times the current of the film, and at least one is there for 95 %
-    of the time. "mixed": all between, as a contact that conducts and insulates in turn.
+    the spots take ten times the current of the film, and at least one is there for 95 % of the time. "mixed":
+    all between, as a contact that conducts and insulates in turn, and one whose spots a finer grid may not
+    have.
 
     Parameters
     ----------
@@ -134,17 +137,19 @@ def behaviour_of(spots: int, always: float, impedance_ratio: float | None) -> Be
     impedance_ratio : float or None
         Impedance of the film over that of the spots at 10 kHz. None if the resistance of the spots is
         unknown: they are taken as metal, which shorts any film at this frequency.
+    area_error : float, optional
+        Largest relative error of the real contact area by the grid; from 1 on there may be no spot at all.
 
     Examples
     --------
-    >>> spots = ((0, 0.0, None), (1, 0.63, None), (5, 0.99, 1e5), (5, 0.99, 0.01))
+    >>> spots = ((0, 0.0, None), (1, 0.63, None), (5, 0.99, 1e5), (5, 0.99, 0.01), (5, 0.99, 1e5, 1.2))
     >>> tuple(behaviour_of(*each) for each in spots)
-    ('capacitive', 'mixed', 'resistive', 'capacitive')
+    ('capacitive', 'mixed', 'resistive', 'capacitive', 'mixed')
     """
     ratio = np.inf if impedance_ratio is None else impedance_ratio
     if spots == 0 or ratio < 1.0 / SHORTED:
         return "capacitive"
-    if ratio > SHORTED and always >= ALWAYS:
+    if ratio > SHORTED and always >= ALWAYS and (area_error or 0.0) < 1.0:
         return "resistive"
     return "mixed"
 
@@ -245,7 +250,7 @@ def electrical(
     thin = _thin_breakdown(film, zone, discharge)
     weakest = _weakest(film, outside, electric.voltage, discharge)
     return Electrical(
-        behaviour=behaviour_of(spots.number, always, ratio),
+        behaviour=behaviour_of(spots.number, always, ratio, spots.relative_edge),
         time_share=always,
         resistance=resistance,
         constriction_resistance=metal,

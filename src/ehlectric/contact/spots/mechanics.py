@@ -139,7 +139,7 @@ def touching(
         load_share=load_share,
         contact_area=spots.area,
         contact_area_share=float(np.sum(np.where(touched, zone, 0.0)) / np.sum(zone)),
-        contact_area_error=spots.edge / spots.area if spots.number else None,
+        contact_area_error=spots.relative_edge,
         spots=spots.number,
         spots_of_one_node=int(np.count_nonzero(spots.nodes == 1)),
         mean_spot=spots.area / spots.number if spots.number else None,

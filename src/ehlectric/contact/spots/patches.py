@@ -88,6 +88,11 @@ class Spots:
         return float(np.sum(self.areas))
 
     @property
+    def relative_edge(self) -> float | None:
+        """Largest relative error of ``area``; None without spots."""
+        return self.edge / self.area if self.number else None
+
+    @property
     def radii(self) -> Array:
         """Radii of circles with the areas of the spots of a point contact [m], shape (n,)."""
         radii: Array = np.sqrt(self.areas / np.pi)

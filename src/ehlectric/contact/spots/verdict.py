@@ -36,7 +36,8 @@ def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWa
     if refused:
         return Verdict("grey", refused)
     answer, number = found.electrical, found.spots.number
-    text = f"The surfaces touch in {number} spot{'s' if number > 1 else ''} at an applied voltage of {voltage:.3g} V: "
+    spots = "1 spot" if number == 1 else f"{number} spots"
+    text = f"The surfaces touch in {spots} at an applied voltage of {voltage:.3g} V: "
     text += f"the contact is {answer.behaviour}, {_ANSWERS[answer.behaviour]}."
     if answer.breakdown_5 is not None:
         text += f" Around the spots 5 % of the Hertz zone would break down at {answer.breakdown_5:.2g} V."

@@ -10,9 +10,10 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.spots.warnings import share_text
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE
+from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE, SPOTS_FIGURE
 
 AnyContact = Result | PointResult
 
@@ -231,6 +232,16 @@ def meter_text(result: AnyContact) -> str:
     return f"The meter reads {with_unit(reading.capacitance, 'F', least=1.0)}: {parts}"
 
 
+def spots_text(result: AnyContact) -> str:
+    """Number of spots, the load that they carry, and the electrical behaviour."""
+    found = result.asperities
+    assert found is not None
+    before = None if found.coarser is None else found.coarser.load_share
+    share = share_text(found.touching.load_share, before)
+    number = "1 spot carries" if found.spots.number == 1 else f"{found.spots.number} spots carry"
+    return f"{number} about {share} % of the load on this grid: the contact is {found.electrical.behaviour}"
+
+
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     "film.png": film_text,
     "field_strength.png": strength_text,
@@ -239,6 +250,7 @@ LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
+    SPOTS_FIGURE: spots_text,
 }
 POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     "film_map.png": film_text,
@@ -250,6 +262,7 @@ POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
+    SPOTS_FIGURE: spots_text,
 }
 
 
