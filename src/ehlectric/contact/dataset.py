@@ -13,7 +13,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.solution import Solution
-from ehlectric.contact.spots.asperities import Coarser
+from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep, Status

@@ -14,8 +14,8 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.meter.reading import Metered, MeterReading, meter_reading
 from ehlectric.contact.setup import Setup
-from ehlectric.contact.spots.asperities import Asperities, Coarser, asperities
-from ehlectric.contact.spots.mechanics import hertz_weights, weighted_rms
+from ehlectric.contact.spots.asperities import Asperities, asperities
+from ehlectric.contact.spots.mechanics import Coarser, hertz_weights, weighted_rms
 from ehlectric.contact.spots.verdict import spots_verdict
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.discharge.verdict import Verdict, contact_verdict

@@ -26,8 +26,7 @@ from ehlectric.contact.result_warnings import accuracy_warnings, film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
-from ehlectric.contact.spots.asperities import Coarser
-from ehlectric.contact.spots.mechanics import hertz_weights, load_of, spots_of
+from ehlectric.contact.spots.mechanics import Coarser, hertz_weights, load_of, spots_of
 from ehlectric.contact.spots.warnings import spot_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.limits import field_warnings

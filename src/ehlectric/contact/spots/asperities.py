@@ -10,7 +10,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.spots.electrical import Electrical, electrical
-from ehlectric.contact.spots.mechanics import Touching, spots_of, touching
+from ehlectric.contact.spots.mechanics import Coarser, Touching, spots_of, touching
 from ehlectric.contact.spots.patches import Spots
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
@@ -18,22 +18,6 @@ from ehlectric.film.point import PointFilm
 # Change of the load share from a grid with half the nodes, of the share itself or of the whole load, above
 # which the share is not resolved.
 UNRESOLVED_SHARE, UNRESOLVED_LOAD = 0.1, 0.005
-
-
-@dataclass(frozen=True)
-class Coarser:
-    """Asperities of the same contact on a grid with half the nodes along each axis.
-
-    Attributes
-    ----------
-    load_share : float
-        Part of the load that asperities carry.
-    contact_area_share : float
-        Part of the area of the dry smooth contact in which the surfaces touch.
-    """
-
-    load_share: float
-    contact_area_share: float
 
 
 @dataclass(frozen=True)
@@ -124,9 +108,10 @@ def asperities(
     """
     spots = spots_of(film)
     friction = case.contact.boundary_friction if isinstance(case, Case) else None
+    carried = touching(conditions, film, spots, rq=rq, smooth=smooth, friction=friction, coarser=coarser)
     return Asperities(
         spots=spots,
-        touching=touching(conditions, film, spots, rq=rq, smooth=smooth, friction=friction),
+        touching=carried,
         electrical=electrical(
             film,
             spots,
@@ -134,6 +119,7 @@ def asperities(
             electric=case.electric,
             discharge=case.discharge,
             semi_axes=conditions.semi_axes,
+            area_error=carried.contact_area_error,
         ),
         coarser=coarser,
     )

@@ -138,7 +138,7 @@ def behaviour_of(
         Impedance of the film over that of the spots at 10 kHz. None if the resistance of the spots is
         unknown: they are taken as metal, which shorts any film at this frequency.
     area_error : float, optional
-        Largest relative error of the real contact area by the grid; from 1 on there may be no spot at all.
+        Relative error of the real contact area by the grid; from 1 on there may be no spot at all.
 
     Examples
     --------
@@ -209,6 +209,7 @@ def electrical(
     electric: Electric,
     discharge: Discharge | None,
     semi_axes: tuple[float, ...],
+    area_error: float | None = None,
 ) -> Electrical:
     """Electrical answer of a contact whose surfaces touch in spots.
 
@@ -226,6 +227,8 @@ def electrical(
         Dielectric strength or Weibull law, and length of a line contact.
     semi_axes : tuple of float
         Half-width of a line contact, or semi-axes of a point contact [m].
+    area_error : float, optional
+        Relative error of the real contact area by the grid.
 
     Returns
     -------
@@ -250,7 +253,7 @@ def electrical(
     thin = _thin_breakdown(film, zone, discharge)
     weakest = _weakest(film, outside, electric.voltage, discharge)
     return Electrical(
-        behaviour=behaviour_of(spots.number, always, ratio, spots.relative_edge),
+        behaviour=behaviour_of(spots.number, always, ratio, area_error),
         time_share=always,
         resistance=resistance,
         constriction_resistance=metal,

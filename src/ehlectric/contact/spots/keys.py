@@ -25,8 +25,8 @@ def _mechanics(area: str, what: str) -> Keys:
             r"$A_\mathrm{c}/A$",
         ),
         "contact_area_error": ResultKey(
-            "largest relative error of contact_area because edges of spots lie between nodes; null without "
-            "spots"
+            "error of contact_area by the grid, the larger of two: edges of spots lie between nodes, "
+            "and contact_area_share changed from a grid with half the nodes; null without spots"
         ),
         "contact_area_share_coarser": ResultKey("contact_area_share on a grid with half the nodes"),
         "spots": ResultKey(

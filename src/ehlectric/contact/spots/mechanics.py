@@ -19,6 +19,22 @@ THIN_SHARES = (0.01, 0.05, 0.5)
 
 
 @dataclass(frozen=True)
+class Coarser:
+    """Asperities of the same contact on a grid with half the nodes along each axis.
+
+    Attributes
+    ----------
+    load_share : float
+        Part of the load that asperities carry.
+    contact_area_share : float
+        Part of the area of the dry smooth contact in which the surfaces touch.
+    """
+
+    load_share: float
+    contact_area_share: float
+
+
+@dataclass(frozen=True)
 class Touching:
     """Load and area of the spots of a solved contact, and the film around them, SI units.
 
@@ -35,8 +51,9 @@ class Touching:
     contact_area_share : float
         Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1.
     contact_area_error : float or None
-        Largest relative error of ``contact_area`` because the edges of spots lie between nodes; None without
-        spots.
+        Relative error of ``contact_area``, the larger of two: the edges of spots lie between nodes, and the
+        area of the Hertz zone in contact changed from a grid with half the nodes. From 1 on, a fine grid may
+        have no spots at all. None without spots.
     spots, spots_of_one_node : int
         Number of spots, and of those that are a single node and so are not resolved.
     mean_spot, largest_spot : float or None
@@ -103,6 +120,7 @@ def touching(
     rq: float,
     smooth: Array | None,
     friction: float | None,
+    coarser: Coarser | None = None,
 ) -> Touching:
     """Load, area and film of a contact whose surfaces touch in spots.
 
@@ -120,6 +138,8 @@ def touching(
         Film thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved.
     friction : float or None
         Friction coefficient of sliding boundary films.
+    coarser : Coarser, optional
+        Asperities on a grid with half the nodes.
 
     Returns
     -------
@@ -133,13 +153,14 @@ def touching(
     thin = weighted_percentiles(thickness, weights, THIN_SHARES) if thickness.size else None
     deformed = None if smooth is None else weighted_rms(film.thickness - smooth, zone)
     mean = float(np.vdot(zone, film.thickness) / np.sum(zone))
+    share = float(np.sum(zone[touched]) / np.sum(zone))
     load_share = float(np.sum(spots.loads)) / load_of(conditions)
     return Touching(
         boundary_film=conditions.boundary_film,
         load_share=load_share,
         contact_area=spots.area,
-        contact_area_share=float(np.sum(np.where(touched, zone, 0.0)) / np.sum(zone)),
-        contact_area_error=spots.relative_edge,
+        contact_area_share=share,
+        contact_area_error=_area_error(spots, share, coarser),
         spots=spots.number,
         spots_of_one_node=int(np.count_nonzero(spots.nodes == 1)),
         mean_spot=spots.area / spots.number if spots.number else None,
@@ -154,6 +175,14 @@ def touching(
         lambda_deformed=mean / deformed if deformed is not None and deformed >= FLAT else None,
         boundary_friction=None if friction is None else friction * load_share,
     )
+
+
+def _area_error(spots: Spots, share: float, coarser: Coarser | None) -> float | None:
+    """Relative error of the real area of contact, by the edges of spots or by its change with the grid."""
+    edge = spots.relative_edge
+    if edge is None or coarser is None or share == 0.0:
+        return edge
+    return max(edge, abs(coarser.contact_area_share / share - 1.0))
 
 
 def weighted_rms(values: Array, weights: Array) -> float:

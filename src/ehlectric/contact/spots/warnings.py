@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE, Coarser
-from ehlectric.contact.spots.mechanics import load_of, spots_of
+from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
+from ehlectric.contact.spots.mechanics import Coarser, load_of, spots_of
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm

@@ -9,7 +9,7 @@ from ehlectric import Case, solve
 from ehlectric.cases.result_key import key_of
 from ehlectric.contact.files import load, save
 from ehlectric.contact.keys import CONTACT_KEYS
-from ehlectric.contact.spots.asperities import Coarser
+from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.contact.spots.warnings import share_text, spot_warnings
 from ehlectric.figures import names
 from ehlectric.figures.results import figure, figure_names
@@ -44,6 +44,8 @@ def test_oil_and_asperities_carry_the_load(geometry):
     assert found.load_share == pytest.approx(cell * np.sum(film.contact_pressure) / load)
     assert 0.0 < found.load_share < 1.0
     assert found.spots == result.asperities.spots.number > 0
+    change = abs(result.coarser.contact_area_share / found.contact_area_share - 1.0)
+    assert found.contact_area_error == max(result.asperities.spots.relative_edge, change)
     assert found.contact_area == pytest.approx(cell * np.count_nonzero(film.contact))
     assert film.thickness[film.contact] == pytest.approx(1e-9, rel=1e-3)
 
