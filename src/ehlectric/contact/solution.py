@@ -141,7 +141,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
 
     @cached_property
     def asperities(self) -> Asperities | None:
-        """Spots in which the surfaces touch; None for smooth surfaces apart, and for an unconverged film."""
+        """Asperities of a converged contact that is rough or whose surfaces touch; None of any other."""
         if not self.film.converged or not (self.rough or np.any(self.film.contact)):
             return None
         weights = hertz_weights(self.film, self.conditions.semi_axes)
@@ -153,6 +153,12 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
             smooth=None if self.smooth is None else self.smooth.thickness,
             coarser=self.coarser,
         )
+
+    @property
+    def spots(self) -> Asperities | None:
+        """Asperities of a converged contact whose surfaces touch; None where they do not."""
+        found = self.asperities
+        return found if found is not None and found.spots.number else None
 
     @cached_property
     def discharge(self) -> Assessment | None:
@@ -175,9 +181,8 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         inputs, discharge = self.case.discharge, self.discharge
         if inputs is None or discharge is None:
             return None
-        touching = self.asperities
-        if touching is not None and touching.spots.number:
-            return spots_verdict(touching, self.field.voltage, self.warnings)
+        if self.spots is not None:
+            return spots_verdict(self.spots, self.field.voltage, self.warnings)
         return contact_verdict(
             inputs,
             discharge.breakdown,

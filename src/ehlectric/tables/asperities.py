@@ -23,8 +23,8 @@ def asperity_rows(result: Result | PointResult) -> list[Row]:
     list of Row
         Values in SI units.
     """
-    found = result.asperities
-    if found is None or not found.spots.number:
+    found = result.spots
+    if found is None:
         return []
     line = isinstance(result, Result)
     return [Row("asperities that touch"), *_mechanics(found, line=line), *_electrical(found, line=line)]

@@ -183,7 +183,7 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     film = result.film
     zone = "Hertz zone" if isinstance(result, Result) else "Hertz ellipse"
     yield Row("film")
-    at = _at(result, film.minimum_position)
+    at = _at(result, film.minimum_position) + _where(result)
     yield Row("minimum film thickness h_min", film.minimum_thickness, "µm", at)
     yield Row("central film thickness", film.central_thickness, "µm")
     yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
@@ -217,6 +217,11 @@ def _at(result: Result | PointResult, position: float | tuple[float, float]) -> 
     return f" at x/b = {position / result.conditions.half_width:.4g}"
 
 
+def _where(result: Result | PointResult) -> str:
+    """Note of a value in the boundary film; empty where the surfaces do not touch."""
+    return "" if result.spots is None else ", in the boundary film"
+
+
 def _roughness(result: Result | PointResult) -> Iterator[Row]:
     """Rows of the roughness within the Hertz zone; none for smooth surfaces."""
     if not result.rough:
@@ -237,7 +242,7 @@ def _roughness(result: Result | PointResult) -> Iterator[Row]:
 
 def _field(result: Result | PointResult) -> Iterator[Row]:
     field = result.field
-    at = _at(result, field.max_strength_position)
+    at = _at(result, field.max_strength_position) + _where(result)
     if result.rough:
         at += f", {field.max_strength_wall}"
     yield Row("electric field")

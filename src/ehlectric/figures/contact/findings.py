@@ -79,7 +79,10 @@ def strength_limit(result: AnyContact) -> Array | None:
 
 def film_text(result: AnyContact) -> str:
     """Minimum film, where it is, and how it compares with smooth surfaces or with the centre."""
-    film = result.film
+    film, touching = result.film, result.spots
+    if touching is not None:
+        spots, mean = touching.spots.number, _film(result, film.mean_thickness)
+        return f"The surfaces touch in {spots} spot{'s' if spots > 1 else ''}; mean film {mean}"
     text = (
         f"Minimum film {_film(result, film.minimum_thickness)} at {place_text(result, film.minimum_position)}"
     )
@@ -205,7 +208,10 @@ def cuts_text(result: PointResult) -> str:
 
 def breakdown_text(result: AnyContact) -> str:
     """Whether the film breaks down at the voltage of the case, at which voltage it does, and where."""
-    found, volts = result.discharge, result.field.voltage
+    found, volts, touching = result.discharge, result.field.voltage, result.spots
+    if touching is not None and touching.electrical.breakdown_5 is not None:
+        around = f"5 % of the film around the spots breaks down at {touching.electrical.breakdown_5:.2g} V"
+        return f"The surfaces touch, {touching.electrical.behaviour}: {around}"
     assert found is not None and found.breakdown_voltage is not None and found.margin is not None
     applied, place = f"{volts:.3g} V", place_text(result, found.zone_position)
     breaking = f"{found.breakdown_voltage:.3g} V"
@@ -234,7 +240,7 @@ def meter_text(result: AnyContact) -> str:
 
 def spots_text(result: AnyContact) -> str:
     """Number of spots, the load that they carry, and the electrical behaviour."""
-    found = result.asperities
+    found = result.spots
     assert found is not None
     before = None if found.coarser is None else found.coarser.load_share
     share = share_text(found.touching.load_share, before)

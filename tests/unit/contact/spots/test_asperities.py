@@ -12,6 +12,7 @@ from ehlectric.contact.keys import CONTACT_KEYS
 from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.contact.spots.warnings import share_text, spot_warnings
 from ehlectric.figures import names
+from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.results import figure, figure_names
 from ehlectric.tables.contact import result_rows
 from tests.unit.contact.spots.cases import LINE, POINT, solved
@@ -108,6 +109,9 @@ def test_what_is_told(geometry):
     assert result.summary()["film"]["discretisation_error"] is None
     rows = {row.name: row for row in result_rows(result)}
     assert rows["electrical behaviour"].value == result.asperities.electrical.behaviour
+    assert rows["minimum film thickness h_min"].text.endswith("in the boundary film")
+    spots = result.asperities.spots.number
+    assert f"{spots} spots touch, {result.asperities.electrical.behaviour}" in repr(result)
     assert "where surfaces touch" in rows["discretisation error of the film"].text
 
 
@@ -143,6 +147,10 @@ def test_verdict_speaks_of_the_spots():
     assert verdict.level == "red"
     assert f"touch in {found.spots.number} spot" in verdict.text
     assert f"the contact is {found.electrical.behaviour}" in verdict.text
+    rows = {row.name: row for row in result_rows(result)}
+    assert "breakdown voltage" not in rows
+    assert rows["breakdown voltage outside of the spots"].value == found.electrical.breakdown_5
+    assert f"{found.electrical.breakdown_5:.2g} V" in finding(result, names.BREAKDOWN_FIGURE)
     assert "breakdown-expected" not in [warning.code for warning in result.warnings]
 
 
