@@ -26,7 +26,7 @@ def discharge_rows(result: Result | PointResult) -> Iterator[Row]:
     if discharge is None:
         return
     yield Row("discharge")
-    # Where surfaces touch, this is the breakdown of the boundary film. That around the spots stands with them.
+    # Where surfaces touch, this is the breakdown of the boundary film; that around the spots is with them.
     touching, costs = result.spots is not None, discharge.costs
     if not touching:
         yield from _zone(discharge.zone, result.conditions.half_width)
