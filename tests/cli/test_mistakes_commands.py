@@ -115,7 +115,8 @@ WRONG = [
     pytest.param(
         ("examples", "bering"),
         "examples: got 'bering'; expected one of ball_bearing, ball_contact, bearing_6208, discharge, "
-        "line_contact, moving_roughness, oil_contact, roller_bearing, rough_contact, sweep, uncertainty",
+        "line_contact, mixed_contact, moving_roughness, oil_contact, roller_bearing, rough_contact, sweep, "
+        "uncertainty",
         id="examples",
     ),
 ]

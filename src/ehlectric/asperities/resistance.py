@@ -182,11 +182,14 @@ def greenwood_cluster(positions: ArrayLike, radii: ArrayLike, resistivity: float
     return resistivity / (2.0 * total) + resistivity / np.pi * mutual / total**2
 
 
-def cluster_resistance(positions: ArrayLike, radii: ArrayLike, resistivity: float) -> float:
+def cluster_resistance(
+    positions: ArrayLike, radii: ArrayLike, resistivity: float, mean_free_path: float = 0.0
+) -> float:
     """Resistance of spots at given places that all have the same voltage.
 
-    The currents I_i follow from V = rho/(2 a_i) I_i + (rho/pi) sum_{j != i} I_j/s_ij for every spot. Spots in
-    the middle of a cluster get less current than those at its edge.
+    The currents I_i follow from V = R_i I_i + (rho/pi) sum_{j != i} I_j/s_ij for every spot, with its own
+    resistance R_i of ``spot_resistance``, rho/(2 a_i) without a free path. Spots in the middle of a cluster
+    get less current than those at its edge.
 
     Parameters
     ----------
@@ -196,6 +199,8 @@ def cluster_resistance(positions: ArrayLike, radii: ArrayLike, resistivity: floa
         Radii a_i of the spots [m], > 0; at least one.
     resistivity : float
         Resistivity rho of the bodies [ohm m].
+    mean_free_path : float, optional
+        Mean free path of the electrons [m], >= 0.
 
     Returns
     -------
@@ -214,7 +219,7 @@ def cluster_resistance(positions: ArrayLike, radii: ArrayLike, resistivity: floa
     """
     at, a = np.asarray(positions, dtype=float), np.asarray(radii, dtype=float)
     matrix = _inverse_distances(at, at, 0) / np.pi
-    matrix[np.diag_indices(a.size)] = 1.0 / (2.0 * a)
+    matrix[np.diag_indices(a.size)] = spot_resistance(a, 1.0, mean_free_path)
     return resistivity / float(np.sum(np.linalg.solve(matrix, np.ones(a.size))))
 
 

@@ -111,6 +111,9 @@ class Contact(Table):
         Annotated[float, Quantity("m", least=0.0, most=20e-9, reason="a film that adheres to the surfaces")]
         | None
     ) = None
+    boundary_friction: (
+        Annotated[float, Quantity("", least=0.0, most=2.0, reason="of sliding boundary films")] | None
+    ) = None
 
     hardness: (
         Annotated[float, Quantity("Pa", least=1e7, most=1e11, reason="that of metals is a few GPa")] | None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -13,6 +13,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.solution import Solution
+from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep, Status
@@ -272,6 +273,7 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
                 "summary": json.dumps(summary),
                 **as_attributes(solution.warnings),
                 "rough": json.dumps(plain(solution.rough)),
+                **({} if solution.coarser is None else {"coarser": json.dumps(vars(solution.coarser))}),
                 "film_solver": solution.film_solver,
                 "field_solver": solution.field_solver,
                 "seconds": json.dumps([solution.film_seconds, solution.field_seconds]),
@@ -296,6 +298,11 @@ def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:
     if "smooth_pressure" not in dataset:
         return None
     return {name: dataset[f"smooth_{name}"].values for name in _SMOOTH}
+
+
+def coarser_of(dataset: xr.Dataset) -> Coarser | None:
+    """Asperities on a coarser grid; None if the dataset has none."""
+    return Coarser(**json.loads(dataset.attrs["coarser"])) if "coarser" in dataset.attrs else None
 
 
 def roughness_of(dataset: xr.Dataset) -> Array:
@@ -347,6 +354,9 @@ def check(layout: Layout, dataset: xr.Dataset) -> None:
     _check_field(layout, dataset)
     json_of(dataset.attrs, "seconds", partial(is_list, right=_is_time))
     json_of(dataset.attrs, "rough", partial(is_list, right=lambda item: isinstance(item, dict)))
+    if "coarser" in dataset.attrs:
+        shares = {each.name: partial(is_number, values="not negative") for each in fields(Coarser)}
+        json_of(dataset.attrs, "coarser", partial(is_table, columns=shares))
     check_warnings(dataset.attrs)
     if "laws" in dataset.attrs:
         json_of(dataset.attrs, "laws", is_laws)

@@ -37,6 +37,8 @@ UNSTORED = {
     "current-density-high",
     "field-unresolved",
     "local-plastic-deformation",
+    "asperities-touch",
+    "load-share-unresolved",
     "radius-large",
     "speed-high",
     "steps-too-long",

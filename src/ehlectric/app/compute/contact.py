@@ -274,7 +274,7 @@ def _verdict(result: Result | PointResult) -> tuple[str, str]:
 
 def _result_numbers(result: Result | PointResult) -> list[Number]:
     film, field, discharge = result.film, result.field, result.discharge
-    error = film.discretisation_error
+    error = result.film_error
     known = "discretisation error unknown" if error is None else f"discretisation error {100 * error:.2g} %"
     key, name = _SHOWN_FORMULA[result.conditions.geometry]
     formula = result.formulas()[key]

@@ -240,6 +240,7 @@ _SHARED_CONTACT = (
     "temperature",
     "max_hertz_pressure",
     "boundary_film",
+    "boundary_friction",
     *(f"body_{k}.{key}" for k in (1, 2) for key in (_MODULUS, _RATIO)),
 )
 

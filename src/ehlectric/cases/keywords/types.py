@@ -51,6 +51,8 @@ class LineKeys(TypedDict, total=False):
         Gap at which the surfaces touch [m].
     hardness : float, str or quantity
         Largest pressure where the surfaces touch [Pa].
+    boundary_friction : float, str or quantity
+        Friction coefficient where the surfaces touch and slide, dimensionless.
     """
 
     reduced_radius: Value
@@ -68,6 +70,7 @@ class LineKeys(TypedDict, total=False):
     speed_2: Value
     boundary_film: Value
     hardness: Value
+    boundary_friction: Value
 
 
 class PointKeys(TypedDict, total=False):
@@ -92,6 +95,8 @@ class PointKeys(TypedDict, total=False):
         Gap at which the surfaces touch [m].
     hardness : float, str or quantity
         Largest pressure where the surfaces touch [Pa].
+    boundary_friction : float, str or quantity
+        Friction coefficient where the surfaces touch and slide, dimensionless.
     """
 
     radius_x: Value
@@ -108,6 +113,7 @@ class PointKeys(TypedDict, total=False):
     speed_2: Value
     boundary_film: Value
     hardness: Value
+    boundary_friction: Value
 
 
 class BearingKeys(TypedDict, total=False):

@@ -47,6 +47,7 @@ LESS_ACCURATE = frozenset(
         "variance-missed",
         # Surfaces that may touch: voltages are upper bounds
         "surfaces-touch",
+        "asperities-touch",
         "thinner-than-atom",
         "touching",
         "partial-film",
