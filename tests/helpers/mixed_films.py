@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.optimize import brentq
 
 from ehlectric import Case
 from ehlectric.contact.check import check_case
@@ -69,14 +70,51 @@ class MixedFilm:
         return self._integral(self.touching)
 
     @property
+    def zone(self):
+        """Nodes in the Hertz zone, as a mask (nx, ny)."""
+        mesh = self.mesh
+        across = 0.0 if mesh.y.size == 1 else (mesh.y / self._half_width_across) ** 2
+        mask = mesh.x[:, np.newaxis] ** 2 + across < 1.0
+        return np.broadcast_to(mask, mesh.shape)
+
+    @property
     def film_outside(self):
-        """Mean gap over the Hertz zone outside the spots, in metres."""
-        mesh, k = self.mesh, self.problem.geometry.load / (2.0 * np.pi / 3.0)
-        across = 0.0 if mesh.y.size == 1 else (mesh.y / k) ** 2
-        zone = (mesh.x[:, np.newaxis] ** 2 + across < 1.0) & ~self.touching
-        if not zone.any():
+        """Mean gap over the Hertz zone outside the spots [m]; the boundary film where there is none."""
+        outside = self.zone & ~self.touching
+        if not outside.any():
             return self.problem.boundary_film * self.problem.scales.thickness
-        return float(np.mean(self.gap[zone])) * self.problem.scales.thickness
+        return float(np.mean(self.gap[outside])) * self.problem.scales.thickness
+
+    @property
+    def oil(self):
+        """Oil that spots swallow, that spots make, and that other nodes make, over the mean flow.
+
+        It is the integral of the residual of the Reynolds equation, negative or positive, over the mass that
+        the mean gap of the Hertz zone carries through it. Where oil does not fill the gap, more may leave a
+        node than reaches it. Such oil counts as made only where the gap is full again further downstream in
+        the Hertz zone: the condition for cavitation fills it there, whatever reaches it.
+        """
+        final, zone = self.last.final, self.zone
+        carried = float(np.mean((final.coefficients.density * self.gap)[zone]))
+        if self.mesh.y.size > 1:
+            carried *= 2.0 * self._half_width_across
+        full = zone & (self.oil_pressure > self.problem.fluid.ambient_pressure)
+        refilled = np.logical_or.accumulate(full[::-1], axis=0)[::-1]
+        r = final.reynolds
+        made = refilled & (r > 0.0)
+        parts = (self.touching & (r < 0.0), self.touching & made, zone & ~self.touching & made)
+        return tuple(abs(self._integral(np.where(part, r, 0.0))) / carried for part in parts)
+
+    @property
+    def _half_width_across(self):
+        """Semi-axis of the dry contact across entrainment over that along it."""
+        return self.problem.geometry.load / (2.0 * np.pi / 3.0)
+
+    @property
+    def krylov(self):
+        """GMRES iterations on the finest grid, from all starts."""
+        finest = [each for each in self.solutions if each.level.mesh.shape == self.mesh.shape]
+        return sum(step.krylov_iterations for each in finest for step in each.steps)
 
     @property
     def steps(self):
@@ -132,6 +170,21 @@ def rough_point(*tables, nodes=65, speed=0.01, grid=(), **contact):
             "grid": {"nodes": nodes, "inlet": -2.5, "outlet": 1.5, "side": 1.6} | dict(grid),
         }
     )
+
+
+def central_film(case):
+    """Central film of smooth surfaces by the formula that also scales the first guess [m]."""
+    problem = posed(case.replace({"roughness": ()}))
+    return problem.thickness_guess * problem.scales.thickness
+
+
+def at_film(case, film):
+    """Case at the speed at which the formula gives a film [m]."""
+
+    def off(exponent):
+        return np.log(central_film(case.replace({"contact.entrainment_speed": np.exp(exponent)})) / film)
+
+    return case.replace({"contact.entrainment_speed": float(np.exp(brentq(off, -20.0, 9.0, xtol=1e-6)))})
 
 
 def sinusoid(amplitude, wavelength, **more):
