@@ -112,6 +112,9 @@ figures: $(VENV)/.run
 	cp results/sweep/map_discharge.breakdown_voltage.png docs/figures/breakdown_map.png
 	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS) --quiet
 	cp $(BEARING_RESULTS)/breakdown_over_speed.png docs/figures
+	$(BIN)/ehlectric sweep examples/bearing_regime_map.toml -o results/regimes --quiet
+	$(BIN)/ehlectric map results/regimes --x bearing.inner_speed --y bearing.temperature --value bearing.contact_time_share --quiet
+	cp results/regimes/map_bearing.contact_time_share.png docs/figures/bearing_regimes.png
 
 screenshots: $(VENV)/.test
 	EHLECTRIC_SCREENSHOTS=$(CURDIR)/docs/figures/app EHLECTRIC_BROWSER=required \

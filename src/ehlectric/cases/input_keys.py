@@ -16,6 +16,7 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.coating import Coating as RingCoating
 from ehlectric.cases.bearings.fits import Fits
 from ehlectric.cases.bearings.motor import Motor
+from ehlectric.cases.bearings.summits import Summits
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
@@ -60,6 +61,12 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "bearing.inner_ring_temperature": ("temperature of the inner ring", r"$T_\mathrm{i}$"),
     "bearing.outer_ring_temperature": ("temperature of the outer ring", r"$T_\mathrm{o}$"),
     "bearing.composite_rq": ("composite roughness", r"$R_\mathrm{q}$"),
+    "bearing.summits.density": ("density of the summits", "$n$"),
+    "bearing.summits.radius": ("radius of the summits", r"$\beta$"),
+    "bearing.summits.height_deviation": ("deviation of the summit heights", r"$\sigma_\mathrm{s}$"),
+    "bearing.summits.bandwidth": ("bandwidth of the roughness", r"$\alpha$"),
+    "bearing.summits.highest": ("height of worn summits", ""),
+    "bearing.contact_resistance": ("resistance of a closed contact", ""),
     "bearing.radial_clearance": ("radial clearance", ""),
     "bearing.clearance_class": ("clearance class", ""),
     "bearing.fits.unmounted_clearance": ("radial clearance before mounting", ""),
@@ -132,6 +139,7 @@ TABLES: Mapping[str, type[Table]] = {
     "bearing": Bearing,
     "bearing.fits": Fits,
     "bearing.coating": RingCoating,
+    "bearing.summits": Summits,
     "lubricant.temperature": OilTemperature,
     "lubricant.permittivity_table": PermittivityTable,
     "lubricant.conductivity_table": ConductivityTable,

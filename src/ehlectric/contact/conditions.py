@@ -118,6 +118,7 @@ def line_conditions(
     curvature_share: float = 0.5,
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
+    boundary_film: float = 0.0,
 ) -> Conditions:
     """Compute the operating conditions of a line contact from numbers in SI units, without a case.
 
@@ -133,6 +134,8 @@ def line_conditions(
         Radii of both bodies [m], if they are known; the dry contact must be small compared to them.
     curvature_share, compliance_share, film_factor : float
         Surface 1's shares of 1/R and of 2/E', and the film factor, dimensionless; see ``Conditions``.
+    boundary_film : float
+        Gap at which the surfaces touch [m]; zero where they are taken not to.
 
     Returns
     -------
@@ -169,6 +172,7 @@ def line_conditions(
         max_pressure=max_pressure,
         curvature_share=curvature_share,
         compliance_share=compliance_share,
+        boundary_film=boundary_film,
         film_factor=film_factor,
     )
 
@@ -287,6 +291,7 @@ def point_conditions(
     side: float | None = None,
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
+    boundary_film: float = 0.0,
 ) -> PointConditions:
     """Compute the operating conditions of a point contact from numbers in SI units, without a case.
 
@@ -307,6 +312,8 @@ def point_conditions(
         Half of the domain's width, in semi-axes across; ``default_side`` if not given.
     compliance_share, film_factor : float
         Surface 1's share of 2/E', and the film factor, dimensionless; see ``PointConditions``.
+    boundary_film : float
+        Gap at which the surfaces touch [m]; zero where they are taken not to.
 
     Returns
     -------
@@ -345,6 +352,7 @@ def point_conditions(
         max_pressure=dry.max_pressure,
         side=default_side(dry.semi_axis_y / dry.semi_axis_x) if side is None else side,
         compliance_share=compliance_share,
+        boundary_film=boundary_film,
         film_factor=film_factor,
     )
 

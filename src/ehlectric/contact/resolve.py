@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Contact
 from ehlectric.contact.bodies import modulus_of, speeds_of
@@ -56,7 +54,7 @@ def resolve(case: Case) -> Conditions:
     if load is None:
         assert contact.max_hertz_pressure is not None
         load = hertz.line_load(contact.max_hertz_pressure, radius, modulus)
-    conditions = line_conditions(
+    return line_conditions(
         case.oil,
         reduced_radius=radius,
         reduced_modulus=modulus,
@@ -66,8 +64,8 @@ def resolve(case: Case) -> Conditions:
         bodies=[abs(r) for r in (contact.radius_1, contact.radius_2) if r is not None],
         curvature_share=curvature_share,
         compliance_share=compliance_share,
+        boundary_film=contact.touching_gap,
     )
-    return replace(conditions, boundary_film=contact.touching_gap)
 
 
 def _line_radius(contact: Contact) -> tuple[float, float]:
@@ -142,12 +140,13 @@ def resolve_point(case: Case) -> PointConditions:
         bodies=(_bodies(contact, "radius_x"), _bodies(contact, "radius_y")),
         side=case.grid.side,
         compliance_share=compliance_share,
+        boundary_film=contact.touching_gap,
     )
     try:
         case.grid.check_across(conditions.side)
     except InputError as error:
         raise error.under("grid") from None
-    return replace(conditions, boundary_film=contact.touching_gap)
+    return conditions
 
 
 def _bodies(contact: Contact, key: str) -> list[float]:

@@ -44,8 +44,12 @@ _MOST_KEPT, _GRIDS_KEPT = 3201, 12
 # than the order of the wedge term does.
 _WARM_TOLERANCE = 1e-2
 
-# Newton steps from each start of a film whose surfaces may touch.
-_MIXED_ITERATIONS = 120
+# Multiple of the boundary film above which a smooth film that did not converge is not taken to be pierced.
+_THICK = 10.0
+
+# Multiple of the largest number of Newton steps from each start of a film whose surfaces may touch, on the finest
+# grid and on the coarser ones.
+_MIXED, _MIXED_COARSE = 4, 2
 
 
 def nested_iteration(
@@ -74,13 +78,15 @@ def nested_iteration(
     pressure. Where the surfaces touch on a grid, the next finer grid starts from this film at once.
     """
     solutions = list(known)
+    # Where rough surfaces may touch, a dry contact is a better start than the Hertz pressure.
+    rough = problem.added_gap is not None and problem.boundary_film > 0.0
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
         coarse = solutions[-1] if solutions and solutions[-1].status == "converged" else None
         best = None
         if coarse is not None and not coarse.touches:
             best = _from_coarser(problem, levels, coarse, progress)
         # A solution that nearly converged does not start again.
-        if (coarse is None or not coarse.touches) and (best is None or best.final.norm > NESTED_TOLERANCE):
+        if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
             *warm_up, restarted = _from_hertz(problem, levels, progress)
             solutions.extend(warm_up)
             attempts = [restarted] if best is None else [restarted, best]
@@ -98,9 +104,17 @@ def nested_iteration(
 
 
 def _is_pierced(problem: FilmProblem, solution: GridSolution) -> bool:
-    """Whether a solution without contact failed, or has a film thinner than the boundary film."""
+    """Whether the surfaces may touch: a film thinner than the boundary film, or one that has no solution.
+
+    A smooth film that is still thick may only need more Newton steps.
+    """
     thinnest = float(solution.state.thickness.min())
-    return solution.final.norm > NESTED_TOLERANCE or thinnest < problem.boundary_film
+    if thinnest < problem.boundary_film:
+        return True
+    thick = problem.added_gap is None and solution.status == "stalled"
+    return solution.final.norm > NESTED_TOLERANCE and not (
+        thick and thinnest > _THICK * problem.boundary_film
+    )
 
 
 def _mixed(
@@ -123,10 +137,13 @@ def _mixed(
         levels,
         dry,
         boundary_film=problem.boundary_film,
-        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
-        max_iterations=max(problem.max_iterations, _MIXED_ITERATIONS),
+        film_guess=problem.thickness_guess,
+        # Where the oil carries hardly anything, its pressure is known to the rounding of the gap only.
+        tolerance=max(problem.tolerance, NESTED_TOLERANCE),
+        max_iterations=(_MIXED if finest else _MIXED_COARSE) * problem.max_iterations,
         progress=progress,
         near=near,
+        thorough=finest,
     )
 
 

@@ -157,6 +157,13 @@ LIMITS = (
         _is_bearing,
     ),
     Limit(
+        "contacts of asperities",
+        "The share of time in which contacts short the bearing is a fit of one test rig, or that of ideal "
+        "Gaussian summits without wear. Contacts are independent of each other. How long a contact stays "
+        "closed and at which voltage it discharges as it opens are left out.",
+        _is_bearing,
+    ),
+    Limit(
         "circuit",
         "The bearing is a circuit of capacitances. The field beyond the gaps, to cage, shields and "
         "neighbouring elements, is left out, and so are currents that circulate through both bearings.",

@@ -7,8 +7,10 @@ from typing import Any
 
 from ehlectric.app.answers.bearing import PENDING, RANGE_FOLLOWS, Difference, Number, Table
 from ehlectric.app.answers.told import Told, beside
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import Row, amount
+from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.tables.bearing import total_rows
 
@@ -47,7 +49,7 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
     Returns
     -------
     tuple of Number
-        Capacitance, first breakdown, shaft voltage, margin, lambda ratio and critical speed.
+        Capacitance, first breakdown, shaft voltage, margin, lambda ratio, regime and critical speed.
     """
     found = (
         _capacitance(summary, told),
@@ -55,6 +57,7 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
         _shaft_voltage(summary, told),
         _margin(summary, told),
         _lambda(summary, told),
+        _regime(summary, told),
         _critical_speed(summary, told, whole=whole),
     )
     return found if summary["converged"] else tuple(map(_unusable, found))
@@ -141,6 +144,18 @@ def _lambda(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
     note = f"{STATES[totals['lubrication']]}; {film}"
     text = f"{totals['lambda_ratio']:.3g}"
     return Number("lambda", "Lambda ratio, minimum", text, bound, note, told=beside(told, "lambda"))
+
+
+def _regime(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
+    """Electrical regime in one word, with the share of time in which contacts short the bearing."""
+    totals = summary["bearing"]
+    note = f"contacts short it {time_text(totals['contact_time_share'])}"
+    if totals["contact_time_share"] == 0.0 and totals["touching_time_share"] > 0.0:
+        note = "ceramic elements or a coating insulate"
+    speed = (summary.get("margin") or {}).get("capacitive_speed")
+    if speed is not None:
+        note += f"; capacitive from {rpm_text(speed)} rpm"
+    return Number("regime", "Regime", totals["regime"], note=note, told=beside(told, "regime"))
 
 
 def _critical_speed(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> Number:

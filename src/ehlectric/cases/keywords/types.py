@@ -131,6 +131,10 @@ class BearingKeys(TypedDict, total=False):
         Absolute temperatures of the oil and of the rings [K]; write "70 degC" for degrees Celsius.
     composite_rq : float, str or quantity
         Rq of both surfaces together [m].
+    summits : mapping
+        Table of the summits of the roughness.
+    contact_resistance : float, str or quantity
+        Resistance of one contact while its asperities touch [Ohm].
     fill : str or float
         "oil" or "air" around the films, or the part filled with oil, from 0 to 1.
     film_factor : float or str
@@ -169,6 +173,8 @@ class BearingKeys(TypedDict, total=False):
     inner_ring_temperature: Value
     outer_ring_temperature: Value
     composite_rq: Value
+    summits: Keys
+    contact_resistance: Value
     fill: float | str
     film_factor: float | str
     fits: Keys

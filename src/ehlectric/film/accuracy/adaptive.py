@@ -81,7 +81,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     Notes
     -----
     The spacings are halved along both axes, in a point contact only on a patch where its film is decided. The
-    refinement ends below the target, at ``most_nodes`` over the whole domain, or after three grids in
+    refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain, or after three grids in
     succession whose error is unknown because a film did not converge.
     """
     found = RefinedSolution(problem, nested_iteration(problem, progress))
@@ -91,7 +91,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
         unknown = unknown + 1 if error is None else 0
         if (error is not None and error <= target) or unknown >= UNKNOWN:
             break
-        if times * (problem.nodes - 1) + 1 > problem.most_nodes:
+        if times * (problem.nodes - 1) + 1 > problem.most_nodes or found.last.touches:
             break
         found = _finer(found, progress)
     return found

@@ -31,6 +31,9 @@ _FASTER, _LEAST_FASTER, _GROWTH, _FALL = 4.0, 0.02, 1.5, 0.5
 # Residual of the films of the continuation, and Newton steps of each.
 _LOOSE, _FEW_STEPS = 1e-4, 40
 
+# Damping of the first step from a state that is likely to be close.
+_NEAR_DAMPING = 0.1
+
 # Largest number of films of a continuation.
 _MOST_SPEEDS = 40
 
@@ -41,10 +44,12 @@ def mixed_film(
     dry_pressure: Array,
     *,
     boundary_film: float,
+    film_guess: float,
     tolerance: float,
     max_iterations: int,
     progress: Progress | None = None,
     near: State | None = None,
+    thorough: bool = True,
 ) -> Iterator[GridSolution]:
     """Solutions of a film whose surfaces may touch, from one start after the other until one converges.
 
@@ -58,6 +63,9 @@ def mixed_film(
         Hertz pressure P.
     boundary_film : float
         Thickness H_s of the boundary film, dimensionless, > 0.
+    film_guess : float
+        Film thickness of smooth surfaces by a formula, dimensionless. With less than the boundary film the
+        asperities are likely to carry the load.
     tolerance : float
         Residual at which to stop, a pressure over p_h.
     max_iterations : int
@@ -66,6 +74,8 @@ def mixed_film(
         Function that is called with (nodes, Newton step, residual) before every Newton step.
     near : State, optional
         State that is likely to be close, as that of a coarser grid.
+    thorough : bool
+        Whether to try all starts, or the first one only, as on a grid that only serves the next finer one.
 
     Yields
     ------
@@ -73,7 +83,7 @@ def mixed_film(
         Last iterate from each start. The iteration ends with the first that converges.
     """
 
-    def solved(start: State) -> GridSolution:
+    def solved(start: State, damping: float = 1.0) -> GridSolution:
         return mixed_newton(
             fluid,
             levels,
@@ -81,18 +91,20 @@ def mixed_film(
             boundary_film=boundary_film,
             tolerance=tolerance,
             max_iterations=max_iterations,
+            first_damping=damping,
             progress=progress,
         )
 
     if near is not None:
-        yield (found := solved(near))
-        if found.status == "converged":
+        yield (found := solved(near, _NEAR_DAMPING))
+        if found.status == "converged" or not thorough:
             return
     ambient = fluid.ambient_pressure
     dry = dry_contact(levels[0], dry_pressure, boundary_film, ambient)
-    for start in (replace(dry, contact_pressure=0.0), dry):
+    starts = [replace(dry, contact_pressure=0.0), dry]
+    for start in starts if film_guess > boundary_film else starts[::-1]:
         yield (found := solved(start))
-        if found.status == "converged":
+        if found.status == "converged" or not thorough:
             return
     state = _faster_and_faster(fluid, levels, dry, boundary_film, progress)
     if state is not None:

@@ -41,6 +41,10 @@ class TouchingJacobian:
         Nodes in contact, and those among them that oil fills.
     factors : SuperLU or None
         Factorisation of the derivative of their Reynolds residual by their P; None where there are none.
+    open_nodes : ndarray of bool, shape (nx, ny)
+        Nodes apart from contact where the Poiseuille term dominates.
+    open_factors : SuperLU or None
+        Factorisation of the derivative of their Reynolds residual by their P at fixed gap.
     """
 
     levels: list[Linearised]
@@ -49,6 +53,8 @@ class TouchingJacobian:
     contact: Mask
     oil: Mask
     factors: SuperLU | None
+    open_nodes: Mask
+    open_factors: SuperLU | None
 
     @classmethod
     def of(
@@ -56,6 +62,7 @@ class TouchingJacobian:
     ) -> TouchingJacobian:
         """Jacobian at a state with the residual ``now``; the coarser grids take its injection."""
         level, contact, full_film = levels[0], now.contact, now.full_film
+        full_film_of_finest = full_film
         by_p, by_h = _damped(level, now.flow, now.thickness, damping)
         oil_by_p, oil_by_h = by_p.on_rows(full_film), by_h.on_rows(full_film)
         oil = contact & full_film
@@ -69,7 +76,9 @@ class TouchingJacobian:
             at_faces = flow(fluid, pressure, thickness, coarse.mesh)
             stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate)
             jacobians.append(_linearised(coarse, stencils, at_faces, thickness, full_film, contact))
-        return cls(jacobians, oil_by_p, oil_by_h, now.contact, oil, factors)
+        opened = full_film_of_finest & ~now.contact & (jacobians[0].poiseuille > level.rate)
+        opened_factors = splu(_matrix(oil_by_p, opened)) if opened.any() and now.contact.any() else None
+        return cls(jacobians, oil_by_p, oil_by_h, now.contact, oil, factors, opened, opened_factors)
 
     @property
     def finest(self) -> Linearised:
@@ -118,8 +127,17 @@ class TouchingJacobian:
         return np.append(finest.scale * r, load)
 
     def precondition(self, image: Array) -> Array:
-        """Approximate change of Q and H00 from a scaled residual and load, by one V-cycle."""
-        return cycled(self.levels, image)
+        """Approximate change of Q and H00 from a scaled residual and load, by one V-cycle.
+
+        Beside spots the mobility changes by orders of magnitude from node to node, which coarser grids do not
+        see. What the cycle leaves where the Poiseuille term dominates is solved at fixed gap.
+        """
+        change = cycled(self.levels, image)
+        if self.open_factors is not None:
+            left = (image - self.image(change))[:-1].reshape(self.contact.shape)
+            dp = self.open_factors.solve((self.finest.unscale * left)[self.open_nodes])
+            change[:-1].reshape(self.contact.shape)[self.open_nodes] += dp
+        return change
 
 
 def _damped(level: Level, at_faces: Flow, thickness: Array, damping: float) -> tuple[Stencil, Stencil]:

@@ -25,11 +25,10 @@ _OIL_TOLERANCE = 1e-6
 # Largest number of GMRES iterations per Newton step.
 _KRYLOV_LIMIT = 100
 
-# Damping of a Newton step, the length dX over the way that oil goes in the time step that it stands for: at
-# first and at most, the least one when it is raised, and the factors by which it falls and rises. It falls after a
-# step of more than half its length that reduces the residual. Without it, nodes at the edges of spots come into
-# contact and leave it in turn.
-_FIRST_DAMPING, _MOST_DAMPING, _LEAST_RAISED = 1.0, 4.0, 0.1
+# Damping of a Newton step at most, the least one when it is raised, and the factors by which it falls and rises.
+# It falls after a step of more than half its length that reduces the residual. Without damping, nodes at the
+# edges of spots come into contact and leave it in turn.
+_MOST_DAMPING, _LEAST_RAISED = 4.0, 0.1
 _FALL, _RISE, _LONG = 0.3, 2.0, 0.5
 
 # Residual below which there is no damping.
@@ -44,6 +43,7 @@ def mixed_newton(
     boundary_film: float,
     tolerance: float,
     max_iterations: int,
+    first_damping: float = 1.0,
     progress: Progress | None = None,
 ) -> GridSolution:
     """Solve the film equations on the first of ``levels`` where surfaces may touch.
@@ -62,6 +62,9 @@ def mixed_newton(
         Residual at which to stop, a pressure over p_h.
     max_iterations : int
         Largest number of Newton steps.
+    first_damping : float
+        Damping of the first step: the length dX over the way that oil goes in the time step that a Newton step
+        stands for.
     progress : callable, optional
         Function that is called with (nodes, Newton step, residual) before every step.
 
@@ -73,7 +76,7 @@ def mixed_newton(
     level = levels[0]
     steps: list[NewtonStep] = []
     now = assess_touching(fluid, level, state, boundary_film)
-    before, damping = np.inf, _FIRST_DAMPING
+    before, damping = np.inf, first_damping
     while len(steps) < max_iterations and not _solved(now, tolerance):
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
