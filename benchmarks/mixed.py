@@ -16,7 +16,7 @@ from __future__ import annotations
 import argparse
 import signal
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,6 @@ import numpy as np
 from tests.helpers.mixed_films import (
     MixedFilm,
     at_film,
-    central_film,
     gaussian,
     mixed_film,
     rough_line,
@@ -232,88 +231,98 @@ def cost(options: argparse.Namespace) -> None:
             )
 
 
-def swept(options: argparse.Namespace) -> Iterator[tuple[float, float, float, MixedFilm | None]]:
-    """Speed, lambda, roughness and film of one rough point contact over speed."""
-    nodes = options.nodes if options.nodes <= 257 else 65
-    case = contact(gaussian(100e-9, 34e-6), nodes, point=True)
-    rq = composite_roughness(case)
-    row("lambda", "speed m/s", HEAD)
-    for ratio in np.geomspace(0.02, 4.0, 12):
+# Rough ball of the sweep over speed, and the values of lambda.
+SWEPT = gaussian(100e-9, 34e-6)
+SWEPT_LAMBDAS = np.geomspace(0.01, 3.0, 12)
+
+# Lambda, and film or None, of every speed on one grid.
+Swept = list[tuple[float, MixedFilm | None]]
+
+
+def swept(nodes: int, limit: float) -> Swept:
+    """Films of the rough ball over lambda on a grid."""
+    case = contact(SWEPT, nodes, point=True)
+    rq, found = composite_roughness(case), []
+    for ratio in SWEPT_LAMBDAS:
         posed = at_film(case, float(ratio) * rq)
-        film, seconds = timed(posed, options.limit)
-        speed = posed.contact.entrainment_speed
-        row(f"{ratio:.3f}", f"{speed:.3g}", *cells(film, seconds))
-        assert speed is not None
-        yield speed, central_film(posed) / rq, rq, film
+        film, seconds = timed(posed, limit)
+        row(nodes, f"{ratio:.3g}", f"{posed.contact.entrainment_speed:.3g}", *cells(film, seconds))
+        found.append((float(ratio), film))
+    return found
+
+
+def formula_share(ratio: float) -> float | None:
+    """Load share of the rough ball by the formula of Masjedi and Khonsari."""
+    case = contact(SWEPT, 65, point=True)
+    rq = composite_roughness(case)
+    conditions = check_case(at_film(case, ratio * rq)).conditions
+    return masjedi_khonsari_point(conditions.contact, RoughBodies(rq, HARDNESS)).asperity_share
 
 
 def sweep(options: argparse.Namespace) -> None:
-    """One rough contact over speed beside the fits."""
-    rows = list(swept(options))
-    lambdas = np.array([each[1] for each in rows])
-    laws = load_shares(lambdas)
-    formula = []
-    for speed, _, rq, _ in rows:
-        prepared = check_case(contact(gaussian(100e-9, 34e-6), 65, point=True, speed=speed))
-        formula.append(
-            masjedi_khonsari_point(prepared.conditions.contact, RoughBodies(rq, HARDNESS)).asperity_share
-        )
+    """One rough ball over speed on several grids, beside published fits."""
+    row("nodes", "lambda", "speed m/s", HEAD)
+    grids_ = {nodes: swept(nodes, options.limit) for nodes in (65, 129, 257) if nodes <= options.most}
     print()
-    row("lambda", "solved", "Masjedi-Khonsari", *(law.name for law in LOAD_SHARE.values()))
-    for k, (_, ratio, _, film) in enumerate(rows):
-        solved = "" if film is None or not film.converged else f"{film.share:.3g}"
-        known = formula[k]
-        row(
-            f"{ratio:.3g}",
-            solved,
-            "" if known is None else f"{known:.3g}",
-            *(f"{law[k]:.3g}" for law in laws.values()),
-        )
+    row(
+        "lambda",
+        *(f"solved, {nodes}" for nodes in grids_),
+        "Masjedi-Khonsari",
+        *(law.name for law in LOAD_SHARE.values()),
+    )
+    laws = load_shares(SWEPT_LAMBDAS)
+    for k, ratio in enumerate(SWEPT_LAMBDAS):
+        films = [found[k][1] for found in grids_.values()]
+        solved = ["" if film is None or not film.converged else f"{film.share:.3g}" for film in films]
+        known = formula_share(float(ratio))
+        formula = "" if known is None else f"{known:.3g}"
+        row(f"{ratio:.3g}", *solved, formula, *(f"{law[k]:.3g}" for law in laws.values()))
     if options.figure:
-        draw(rows, formula)
+        draw(grids_)
 
 
-def draw(rows: list[tuple[float, float, float, MixedFilm | None]], formula: list[float | None]) -> None:
-    """Share and area over lambda."""
+def draw(grids_: dict[int, Swept]) -> None:
+    """Share, area and film over lambda."""
     import matplotlib as mpl
 
     mpl.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.6), layout="constrained")
-    fine = np.geomspace(0.02, 4.0, 200)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), layout="constrained")
+    fine = np.geomspace(SWEPT_LAMBDAS[0], SWEPT_LAMBDAS[-1], 200)
     for key, share in load_shares(fine).items():
-        left.semilogx(fine, share, lw=1.0, label=LOAD_SHARE[key].name)
-    known = [
-        (ratio, share) for (_, ratio, _, _), share in zip(rows, formula, strict=True) if share is not None
-    ]
-    left.semilogx(*np.array(known).T, "C7--", lw=1.4, label="Masjedi-Khonsari")
-    solved = [(ratio, film) for _, ratio, _, film in rows if film is not None and film.converged]
-    at = [ratio for ratio, _ in solved]
-    left.semilogx(
-        at, [film.share for _, film in solved], "ko-", ms=4, lw=1.4, label="solved, this surface and grid"
-    )
+        left.semilogx(fine, share, lw=0.9, label=LOAD_SHARE[key].name)
+    known = [(ratio, formula_share(ratio)) for ratio in map(float, fine[::5])]
+    given = np.array([(ratio, share) for ratio, share in known if share is not None])
+    left.semilogx(given[:, 0], given[:, 1], "C7--", lw=1.2, label="Masjedi-Khonsari")
+    rq = composite_roughness(contact(SWEPT, 65, point=True))
+    for (nodes, found), style in zip(grids_.items(), ("k:", "k--", "k-"), strict=False):
+        solved = [(ratio, film) for ratio, film in found if film is not None and film.converged]
+        at, films = [ratio for ratio, _ in solved], [film for _, film in solved]
+        whole = 1.5 * films[0].problem.geometry.load
+        left.semilogx(
+            at, [film.share for film in films], style, marker="o", ms=3, label=f"solved, {nodes} nodes"
+        )
+        label = f"{nodes} nodes" if nodes == max(grids_) else None
+        right.loglog(
+            at,
+            [max(film.area / whole, 1e-5) for film in films],
+            f"C3{style[1:]}",
+            label=label and f"area of spots, {label}",
+        )
+        right.loglog(
+            at,
+            [film.film_outside / rq for film in films],
+            f"C0{style[1:]}",
+            label=label and f"gap outside them over Rq, {label}",
+        )
     left.set(
-        xlabel="λ, film of the formula over Rq", ylabel="share of the load on asperities", ylim=(0, 1.02)
+        xlabel="λ, film of smooth surfaces over Rq", ylabel="share of the load on asperities", ylim=(0, 1.02)
     )
+    left.set_title("The finer the grid, the less touches", fontsize=10)
     left.legend(fontsize=7)
-    whole = 1.5 * solved[0][1].problem.geometry.load
-    right.loglog(
-        at,
-        [film.area / whole for _, film in solved],
-        "ko-",
-        ms=4,
-        label="area of the spots over that of Hertz",
-    )
-    rq = rows[0][2]
-    right.loglog(
-        at,
-        [film.film_outside / rq for _, film in solved],
-        "C0s-",
-        ms=4,
-        label="mean gap outside the spots / Rq",
-    )
-    right.set(xlabel="λ, film of the formula over Rq")
+    right.set(xlabel="λ, film of smooth surfaces over Rq", ylim=(1e-4, 10.0))
+    right.set_title("The gap between the spots hardly knows the grid", fontsize=10)
     right.legend(fontsize=7)
     figure.savefig(FIGURE, dpi=150)
 

@@ -8,7 +8,9 @@ import pytest
 from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.nested import levels_of
 from ehlectric.film.state import State
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.mixed_films import (
+    MixedFilm,
     gaussian,
     mixed_film,
     on_few_nodes,
@@ -61,12 +63,42 @@ def test_line_at_rest_is_the_dry_rough_contact(table):
     films = [mixed_film(rough_line(table, speed=speed)) for speed in (1e-5, 1e-6)]
     assert all(film.converged for film in films)
     before, after = (apart(film) for film in films)
-    assert after[0] < before[0] < 0.05
+    assert before[0] < 0.05
     assert after[0] < 5e-3
     assert after[1] < 3e-2
     assert abs(after[2]) <= 0.5
-    assert films[0].share < films[1].share
     assert films[1].share > 0.99
+
+
+SLOW = [
+    pytest.param(
+        sinusoid("200 nm", "40 um"),
+        id="sinusoid",
+        marks=pytest.mark.xfail(reason="accepted too early", strict=True),
+    ),
+    pytest.param(gaussian("200 nm", "20 um", seed=4), id="gaussian"),
+]
+
+
+@pytest.mark.parametrize("table", SLOW)
+def test_film_at_its_tolerance_is_that_of_a_smaller_one(table):
+    """Share and gap of a slow contact by hardly any oil, which fills the valleys all the same."""
+    found = mixed_film(rough_line(table, speed=1e-5))
+    problem, levels = found.problem, levels_of(found.problem)
+    with quiet_solution():
+        last = mixed_newton(
+            problem.fluid,
+            levels,
+            found.last.state,
+            boundary_film=problem.boundary_film,
+            tolerance=1e-9,
+            max_iterations=120,
+        )
+    exact = MixedFilm(problem, [last])
+    assert found.converged
+    assert exact.converged
+    assert found.share == pytest.approx(exact.share, abs=1e-4)
+    np.testing.assert_allclose(found.film_outside, exact.film_outside, rtol=1e-3)
 
 
 def test_point_at_rest_is_the_dry_rough_contact():
