@@ -256,7 +256,9 @@ def formula_share(ratio: float) -> float | None:
     case = contact(SWEPT, 65, point=True)
     rq = composite_roughness(case)
     conditions = check_case(at_film(case, ratio * rq)).conditions
-    return masjedi_khonsari_point(conditions.contact, RoughBodies(rq, HARDNESS)).asperity_share
+    return masjedi_khonsari_point(
+        conditions.contact, RoughBodies(roughness=rq, hardness=HARDNESS)
+    ).asperity_share
 
 
 def sweep(options: argparse.Namespace) -> None:
