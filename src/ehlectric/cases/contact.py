@@ -112,6 +112,10 @@ class Contact(Table):
         | None
     ) = None
 
+    hardness: (
+        Annotated[float, Quantity("Pa", least=1e7, most=1e11, reason="that of metals is a few GPa")] | None
+    ) = None
+
     @property
     def touching_gap(self) -> float:
         """Gap [m] at which the surfaces touch: the boundary film, or a thinner one than an atom for none."""

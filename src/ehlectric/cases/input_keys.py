@@ -43,6 +43,7 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "contact.temperature": ("temperature", "$T$"),
     "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
     "contact.boundary_film": ("boundary film", r"$h_\mathrm{s}$"),
+    "contact.hardness": ("hardness", r"$H_\mathrm{v}$"),
     "contact.load": ("load", "$F$"),
     "contact.load_per_length": ("load per length", "$w$"),
     "contact.max_hertz_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
@@ -43,6 +44,8 @@ class Conditions:
         Surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only the reduced values are known.
     boundary_film : float
         Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
+    hardness : float
+        Largest pressure where the surfaces touch [Pa]; infinite for elastic asperities.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -61,6 +64,7 @@ class Conditions:
     curvature_share: float = 0.5
     compliance_share: float = 0.5
     boundary_film: float = 0.0
+    hardness: float = math.inf
     film_factor: float = 1.0
 
     @property
@@ -119,6 +123,7 @@ def line_conditions(
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
     boundary_film: float = 0.0,
+    hardness: float = math.inf,
 ) -> Conditions:
     """Compute the operating conditions of a line contact from numbers in SI units, without a case.
 
@@ -134,8 +139,9 @@ def line_conditions(
         Radii of both bodies [m], if they are known; the dry contact must be small compared to them.
     curvature_share, compliance_share, film_factor : float
         Surface 1's shares of 1/R and of 2/E', and the film factor, dimensionless; see ``Conditions``.
-    boundary_film : float
-        Gap at which the surfaces touch [m]; zero where they are taken not to.
+    boundary_film, hardness : float
+        Gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there
+        [Pa].
 
     Returns
     -------
@@ -173,6 +179,7 @@ def line_conditions(
         curvature_share=curvature_share,
         compliance_share=compliance_share,
         boundary_film=boundary_film,
+        hardness=hardness,
         film_factor=film_factor,
     )
 
@@ -203,6 +210,8 @@ class PointConditions:
         Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
     boundary_film : float
         Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
+    hardness : float
+        Largest pressure where the surfaces touch [Pa]; infinite for elastic asperities.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -223,6 +232,7 @@ class PointConditions:
     side: float
     compliance_share: float = 0.5
     boundary_film: float = 0.0
+    hardness: float = math.inf
     film_factor: float = 1.0
 
     @property
@@ -292,6 +302,7 @@ def point_conditions(
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
     boundary_film: float = 0.0,
+    hardness: float = math.inf,
 ) -> PointConditions:
     """Compute the operating conditions of a point contact from numbers in SI units, without a case.
 
@@ -312,8 +323,9 @@ def point_conditions(
         Half of the domain's width, in semi-axes across; ``default_side`` if not given.
     compliance_share, film_factor : float
         Surface 1's share of 2/E', and the film factor, dimensionless; see ``PointConditions``.
-    boundary_film : float
-        Gap at which the surfaces touch [m]; zero where they are taken not to.
+    boundary_film, hardness : float
+        Gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there
+        [Pa].
 
     Returns
     -------
@@ -353,6 +365,7 @@ def point_conditions(
         side=default_side(dry.semi_axis_y / dry.semi_axis_x) if side is None else side,
         compliance_share=compliance_share,
         boundary_film=boundary_film,
+        hardness=hardness,
         film_factor=film_factor,
     )
 

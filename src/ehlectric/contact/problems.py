@@ -273,6 +273,7 @@ def smooth_problem(
         max_iterations=setup.solver.max_iterations,
         scales=scales_of(setup, conditions),
         boundary_film=conditions.boundary_film / conditions.thickness_scale,
+        hardness=conditions.hardness / conditions.max_pressure,
     )
 
 

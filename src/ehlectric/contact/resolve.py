@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Contact
 from ehlectric.contact.bodies import modulus_of, speeds_of
@@ -65,6 +67,7 @@ def resolve(case: Case) -> Conditions:
         curvature_share=curvature_share,
         compliance_share=compliance_share,
         boundary_film=contact.touching_gap,
+        hardness=math.inf if contact.hardness is None else contact.hardness,
     )
 
 
@@ -141,6 +144,7 @@ def resolve_point(case: Case) -> PointConditions:
         side=case.grid.side,
         compliance_share=compliance_share,
         boundary_film=contact.touching_gap,
+        hardness=math.inf if contact.hardness is None else contact.hardness,
     )
     try:
         case.grid.check_across(conditions.side)

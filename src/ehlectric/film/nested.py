@@ -47,9 +47,9 @@ _WARM_TOLERANCE = 1e-2
 # Multiple of the boundary film above which a smooth film that did not converge is not taken to be pierced.
 _THICK = 10.0
 
-# Multiple of the largest number of Newton steps from each start of a film whose surfaces may touch, on the finest
-# grid and on the coarser ones.
-_MIXED, _MIXED_COARSE = 4, 2
+# Multiple of the largest number of Newton steps from each start of a film whose surfaces may touch, on the
+# finest grid and on the coarser ones.
+_MIXED, _MIXED_COARSE = 6, 2
 
 
 def nested_iteration(
@@ -136,10 +136,9 @@ def _mixed(
         problem.fluid,
         levels,
         dry,
-        boundary_film=problem.boundary_film,
+        asperities=problem.asperities,
         film_guess=problem.thickness_guess,
-        # Where the oil carries hardly anything, its pressure is known to the rounding of the gap only.
-        tolerance=max(problem.tolerance, NESTED_TOLERANCE),
+        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=(_MIXED if finest else _MIXED_COARSE) * problem.max_iterations,
         progress=progress,
         near=near,

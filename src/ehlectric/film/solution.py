@@ -48,8 +48,8 @@ class FilmSolution(Values):
     load_residual : float
         abs(load carried/load applied - 1), dimensionless.
     contact_pressure : ndarray or None
-        Part of the pressure [Pa] that asperities carry where the surfaces touch, zero elsewhere. None where the
-        surfaces do not touch.
+        Part of the pressure [Pa] that asperities carry where the surfaces touch, zero elsewhere. None where
+        the surfaces do not touch.
     reynolds_residual : ndarray or None
         Residual of the Reynolds equation, scaled to a pressure over p_h. It is zero in the full film and not
         negative where the film is cavitated. None for an instant of a transient film.
@@ -192,7 +192,7 @@ def _values(scales: Scales, solution: GridSolution, outer: Array | float) -> dic
         "thickness": scales.thickness * state.thickness,
         "deflection": scales.thickness * (solution.level.deflection(state.pressure) + outer),
         "density": final.coefficients.density,
-        "cavitated": ~final.full_film,
+        "cavitated": ~final.full_film & ~state.touching,
         "contact_pressure": scales.pressure * np.broadcast_to(state.contact_pressure, state.pressure.shape),
         "reynolds_residual": final.scaled,
     }
@@ -201,10 +201,11 @@ def _values(scales: Scales, solution: GridSolution, outer: Array | float) -> dic
 def pressure_of(scales: Scales, state: State, full_film: Mask) -> Array:
     """Pressure of a state [Pa], shape (nx, ny), nowhere below ambient.
 
-    ``full_film`` marks the nodes with a full film; the pressure at all other nodes is ambient.
+    ``full_film`` marks the nodes with a full film; where there is none and the surfaces do not touch, the
+    pressure is ambient.
     """
     pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
-    return np.where(full_film, pressure, scales.ambient_pressure)
+    return np.where(full_film | state.touching, pressure, scales.ambient_pressure)
 
 
 def film_status(status: Status, mesh: Mesh, thickness: Array) -> Status:

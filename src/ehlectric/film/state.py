@@ -70,6 +70,11 @@ class State:
         return cls(pressure, h00, Gap.of(level, pressure, h00).thickness, contact_pressure)
 
     @property
+    def touching(self) -> Mask:
+        """Nodes where asperities carry a part of the pressure, shape (nx, ny)."""
+        return np.broadcast_to(np.asarray(self.contact_pressure) > 0.0, self.pressure.shape)
+
+    @property
     def oil_pressure(self) -> Array:
         """Pressure of the oil, shape (nx, ny)."""
         return self.pressure - self.contact_pressure
@@ -149,7 +154,7 @@ class GridSolution:
     @property
     def touches(self) -> bool:
         """Whether asperities carry a part of the load at some node."""
-        return bool(np.any(np.asarray(self.state.contact_pressure) > 0.0))
+        return bool(np.any(self.state.touching))
 
 
 def film_touches(mesh: Mesh, thickness: Array) -> bool:

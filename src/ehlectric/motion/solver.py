@@ -163,7 +163,10 @@ def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film |
         thickness=shaped(scales.thickness * state.thickness),
         deflection=shaped(scales.thickness * level.deflection(state.pressure)),
         density=shaped(instant.density),
-        cavitated=shaped(~instant.full_film),
+        cavitated=shaped(~instant.full_film & ~state.touching),
+        contact_pressure=(
+            shaped(scales.pressure * np.asarray(state.contact_pressure)) if state.touching.any() else None
+        ),
         scales=scales,
         status="converged",
         load_residual=abs(load / level.load - 1.0),

@@ -49,6 +49,8 @@ class LineKeys(TypedDict, total=False):
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
     boundary_film : float, str or quantity
         Gap at which the surfaces touch [m].
+    hardness : float, str or quantity
+        Largest pressure where the surfaces touch [Pa].
     """
 
     reduced_radius: Value
@@ -65,6 +67,7 @@ class LineKeys(TypedDict, total=False):
     speed_1: Value
     speed_2: Value
     boundary_film: Value
+    hardness: Value
 
 
 class PointKeys(TypedDict, total=False):
@@ -87,6 +90,8 @@ class PointKeys(TypedDict, total=False):
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
     boundary_film : float, str or quantity
         Gap at which the surfaces touch [m].
+    hardness : float, str or quantity
+        Largest pressure where the surfaces touch [Pa].
     """
 
     radius_x: Value
@@ -102,6 +107,7 @@ class PointKeys(TypedDict, total=False):
     speed_1: Value
     speed_2: Value
     boundary_film: Value
+    hardness: Value
 
 
 class BearingKeys(TypedDict, total=False):

@@ -61,7 +61,7 @@ def rough_film_error(
       the heights of the surface between the nodes exceed the line through the nodes, the film loses.
     """
     error = discretisation_error(problem, fine, coarser)
-    if fine.touches:
+    if fine.touches or (coarser and coarser[0].touches):
         return None if error is None else _of_mean_gap(problem, fine, coarser[0])
     if error is None or problem.added_gap is None:
         return error
@@ -74,8 +74,8 @@ def rough_film_error(
 def _of_mean_gap(problem: FilmProblem, fine: GridSolution, coarse: GridSolution) -> float:
     """Relative change of the mean gap over the dry contact from the coarser grid, where the surfaces touch.
 
-    The least gap is that of the boundary film on all grids. The gap beside the spots changes from grid to grid
-    irregularly, so that its change is not divided as that of a film with a known order.
+    The least gap is that of the boundary film on all grids. The gap beside the spots changes from grid to
+    grid irregularly, so that its change is not divided as that of a film with a known order.
     """
 
     def mean_gap(grid: GridSolution) -> float:

@@ -1,9 +1,10 @@
 """Course of the solution of a film whose surfaces may touch, on one grid: starts, and continuation in speed.
 
-Newton's method converges from different starts at different speeds. Where the oil carries part of the load, the
-dry contact with its pressure carried by the oil is near enough, since it has the shape that the surfaces take.
-Where it carries hardly any, the dry contact itself is. In between the film may change all along a streamline
-when its entry opens; there the speed is raised in steps from one at which the surfaces touch nearly everywhere.
+Newton's method converges from different starts at different speeds. Where the oil carries part of the load,
+the dry contact with its pressure carried by the oil is near enough, since it has the shape that the surfaces
+take. Where it carries hardly any, the dry contact itself is. In between the film may change all along a
+streamline when its entry opens; there the speed is raised in steps from one at which the surfaces touch
+nearly everywhere.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from ehlectric.film.flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.mixed.dry import dry_contact
 from ehlectric.film.mixed.newton import mixed_newton
+from ehlectric.film.mixed.touching import Asperities
 from ehlectric.film.state import GridSolution, Progress, State
 
 # Speeds of the continuation as parts of the speed of the contact: the first one that is tried, the factor by
@@ -43,7 +45,7 @@ def mixed_film(
     levels: list[Level],
     dry_pressure: Array,
     *,
-    boundary_film: float,
+    asperities: Asperities,
     film_guess: float,
     tolerance: float,
     max_iterations: int,
@@ -61,8 +63,8 @@ def mixed_film(
         Grids from the one to solve on to the coarsest.
     dry_pressure : ndarray, shape (nx, ny)
         Hertz pressure P.
-    boundary_film : float
-        Thickness H_s of the boundary film, dimensionless, > 0.
+    asperities : Asperities
+        Boundary film and hardness.
     film_guess : float
         Film thickness of smooth surfaces by a formula, dimensionless. With less than the boundary film the
         asperities are likely to carry the load.
@@ -88,7 +90,7 @@ def mixed_film(
             fluid,
             levels,
             start,
-            boundary_film=boundary_film,
+            asperities=asperities,
             tolerance=tolerance,
             max_iterations=max_iterations,
             first_damping=damping,
@@ -100,19 +102,19 @@ def mixed_film(
         if found.status == "converged" or not thorough:
             return
     ambient = fluid.ambient_pressure
-    dry = dry_contact(levels[0], dry_pressure, boundary_film, ambient)
+    dry = dry_contact(levels[0], dry_pressure, asperities.boundary_film, ambient)
     starts = [replace(dry, contact_pressure=0.0), dry]
-    for start in starts if film_guess > boundary_film else starts[::-1]:
+    for start in starts if film_guess > asperities.boundary_film else starts[::-1]:
         yield (found := solved(start))
         if found.status == "converged" or not thorough:
             return
-    state = _faster_and_faster(fluid, levels, dry, boundary_film, progress)
+    state = _faster_and_faster(fluid, levels, dry, asperities, progress)
     if state is not None:
         yield solved(state)
 
 
 def _faster_and_faster(
-    fluid: Fluid, levels: list[Level], dry: State, boundary_film: float, progress: Progress | None
+    fluid: Fluid, levels: list[Level], dry: State, asperities: Asperities, progress: Progress | None
 ) -> State | None:
     """State near that of the contact, over films of lower speed from the dry contact on; None without one."""
 
@@ -122,7 +124,7 @@ def _faster_and_faster(
             slower,
             levels,
             start,
-            boundary_film=boundary_film,
+            asperities=asperities,
             tolerance=_LOOSE,
             max_iterations=_FEW_STEPS,
             progress=progress,

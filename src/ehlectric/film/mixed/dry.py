@@ -1,4 +1,4 @@
-"""Dry contact of rough surfaces that touch at the thickness of a boundary film: the limit of a film at rest."""
+"""Dry contact of rough surfaces that touch at the thickness of a boundary film: a film at rest."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.state import State
 
-# Change of the pressure from step to step, relative to its mean, at which the iteration ends: it is a first guess.
+# Change of the pressure from step to step, relative to its mean, at which the iteration ends: it is a first
+# guess.
 _TOLERANCE = 1e-5
 _MOST_STEPS = 400
 

@@ -1,13 +1,13 @@
 """Jacobian of a film whose surfaces touch at some nodes, and its preconditioner.
 
-The unknowns are the sum Q of the pressures of oil and asperities at all nodes, the pressure P of the oil where
-the surfaces touch, and H00. The rows of the nodes in contact ask for H = H_s. The pressure of the oil there
-follows from its own Reynolds equation by a sparse factorisation and is eliminated, so that the unknowns are
-those of a film without contact.
+The unknowns are the sum Q of the pressures of oil and asperities at all nodes, the pressure P of the oil
+where the surfaces touch, and H00. The rows of the nodes in contact ask for H = H_s. The pressure of the oil
+there follows from its own Reynolds equation by a sparse factorisation and is eliminated, so that the unknowns
+are those of a film without contact.
 
 The difference of the rows of two neighbours in contact is the wedge term of an incompressible film through
-which no pressure drives oil, dH/dX = 0. Written in this form, the rows of a spot are like those of the Hertz zone
-of a heavy contact, and the V-cycles of the film (``ehlectric.film.multigrid``) serve as they are.
+which no pressure drives oil, dH/dX = 0. Written in this form, the rows of a spot are like those of the Hertz
+zone of a heavy contact, and the V-cycles of the film (``ehlectric.film.multigrid``) serve as they are.
 """
 
 from __future__ import annotations
@@ -62,41 +62,41 @@ class TouchingJacobian:
     ) -> TouchingJacobian:
         """Jacobian at a state with the residual ``now``; the coarser grids take its injection."""
         level, contact, full_film = levels[0], now.contact, now.full_film
-        full_film_of_finest = full_film
+        plastic = now.plastic
         by_p, by_h = _damped(level, now.flow, now.thickness, damping)
-        oil_by_p, oil_by_h = by_p.on_rows(full_film), by_h.on_rows(full_film)
+        oil_by_p, oil_by_h = by_p.on_rows(full_film), without_columns(by_h.on_rows(full_film), plastic)
         oil = contact & full_film
         factors = splu(_matrix(oil_by_p, oil)) if oil.any() else None
-        jacobians = [_linearised(level, (by_p, by_h), now.flow, now.thickness, full_film, contact)]
+        masks: tuple[Mask, ...] = (full_film, contact, plastic)
+        jacobians = [_linearised(level, (by_p, by_h), now.flow, now.thickness, masks)]
         pressure, thickness = oil_pressure, now.thickness
         for coarse in levels[1:]:
             pressure, thickness = coarse.inject(pressure), coarse.inject(thickness)
-            full_film = coarse.inject(full_film.astype(float)) > 1.0 - 1e-9
-            contact = coarse.inject(contact.astype(float)) > 1.0 - 1e-9
+            masks = tuple(coarse.inject(mask.astype(float)) > 1.0 - 1e-9 for mask in masks)
             at_faces = flow(fluid, pressure, thickness, coarse.mesh)
             stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate)
-            jacobians.append(_linearised(coarse, stencils, at_faces, thickness, full_film, contact))
-        opened = full_film_of_finest & ~now.contact & (jacobians[0].poiseuille > level.rate)
-        opened_factors = splu(_matrix(oil_by_p, opened)) if opened.any() and now.contact.any() else None
-        return cls(jacobians, oil_by_p, oil_by_h, now.contact, oil, factors, opened, opened_factors)
+            jacobians.append(_linearised(coarse, stencils, at_faces, thickness, masks))
+        opened = full_film & ~contact & (jacobians[0].poiseuille > level.rate)
+        opened_factors = splu(_matrix(oil_by_p, opened)) if opened.any() and contact.any() else None
+        return cls(jacobians, oil_by_p, oil_by_h, contact, oil, factors, opened, opened_factors)
 
     @property
     def finest(self) -> Linearised:
         """Jacobian for Q and H00 on the finest grid."""
         return self.levels[0]
 
-    def right_side(self, now: Touching, to_ambient: Array) -> tuple[Array, Array]:
+    def right_side(self, now: Touching, to_ambient: Array, given: Array) -> tuple[Array, Array]:
         """Right sides of the rows of Q (nx, ny), and of the rows of the oil (nx, ny).
 
-        ``to_ambient`` (nx, ny) is the change of P at the nodes that oil does not fill.
+        ``to_ambient`` (nx, ny) is the change of P at the nodes that oil does not fill, and ``given`` (nx, ny)
+        the change of Q at the nodes where it is known.
         """
-        reach = np.where(now.contact, 0.0, to_ambient)
-        dh = self.finest.level.deflection(reach)
+        dh = self.finest.level.deflection(given)
         oil = -now.reynolds - self.oil_by_p(to_ambient)
         rest = oil - self.oil_by_h(dh) - self.oil_by_p(self.oil_of(oil, np.zeros_like(dh), dh))
-        contact = self.finest.by_h(np.where(now.contact, now.missing - dh, 0.0))
+        contact = self.finest.by_h(np.where(now.contact & ~now.plastic, now.missing - dh, 0.0))
         free = now.full_film & ~now.contact
-        return np.where(now.contact, contact, np.where(free, rest, 0.0)), oil
+        return np.where(now.plastic, 0.0, np.where(now.contact, contact, np.where(free, rest, 0.0))), oil
 
     def oil_of(self, oil: Array, dq: Array, dh: Array) -> Array:
         """Change of P of the oil where the surfaces touch, zero elsewhere, shape (nx, ny).
@@ -157,18 +157,22 @@ def _linearised(
     stencils: tuple[Stencil, Stencil],
     at_faces: Flow,
     thickness: Array,
-    full_film: Mask,
-    contact: Mask,
+    masks: tuple[Mask, ...],
 ) -> Linearised:
-    """Jacobian for Q and H00 on one grid; P where the surfaces touch does not change."""
+    """Jacobian for Q and H00 on one grid; P where the surfaces touch does not change.
+
+    ``masks`` are the nodes with a full film, those in contact and those that are flattened.
+    """
+    full_film, contact, plastic = masks
     free = full_film & ~contact
     gap = Gap(level, thickness)
-    by_p = _without_columns(stencils[0].on_rows(free), contact)
-    by_h = _with_contact_rows(level, stencils[1].on_rows(free), contact)
+    by_p = without_columns(stencils[0].on_rows(free), contact)
+    by_h = without_columns(stencils[1].on_rows(free), plastic)
+    by_h = _with_contact_rows(level, by_h, contact & ~plastic)
     poiseuille = np.where(contact, 0.0, poiseuille_weight(at_faces, level.mesh))
     density = np.where(contact, 1.0, at_faces.coefficients.density)
     diagonal = poiseuille + gap.elastic_weight(density)
-    unknown = free | contact
+    unknown = free | (contact & ~plastic)
     return Linearised(
         gap=gap,
         by_p=by_p,
@@ -182,7 +186,7 @@ def _linearised(
     )
 
 
-def _without_columns(stencil: Stencil, columns: Mask) -> Stencil:
+def without_columns(stencil: Stencil, columns: Mask) -> Stencil:
     """Stencil with zero coefficients of the neighbours where the mask ``columns`` is True."""
     kept = stencil.coefficients.copy()
     for row, (q, p) in zip(kept, OFFSETS, strict=False):
