@@ -9,6 +9,9 @@ from hypothesis import strategies as st
 
 from tests.helpers.mixed_films import gaussian, mixed_film, on_few_nodes, rough_line, rough_point, sinusoid
 
+# Twice the tolerance of the oil's own equation in a spot, where its pressure does not move the gap.
+OIL = 2e-6
+
 exponents = st.integers(-40, 5).map(lambda tenths: 10.0 ** (0.1 * tenths))
 boundary_films = st.sampled_from([0.5e-9, 1e-9, 2e-9, 5e-9])
 heights = st.integers(30, 300).map(lambda nanometres: 1e-9 * nanometres)
@@ -35,7 +38,7 @@ def check(film):
     assume(film.converged)
     problem, gap, contact = film.problem, film.gap, film.contact_pressure
     boundary, ambient = problem.boundary_film, problem.fluid.ambient_pressure
-    tolerance = 2e-6
+    tolerance = 2.0 * problem.tolerance
     # Change of the gap under a node by a pressure as large as the tolerance on it.
     own = tolerance * float(film.last.level.deflection.influence[0, 0])
     event("touches" if film.touching.any() else "does not touch")
@@ -51,11 +54,10 @@ def check(film):
     residual = film.last.final.scaled
     full = film.oil_pressure > ambient + 1e-9
     assert np.max(np.abs(residual), where=full & ~film.touching, initial=0.0) < tolerance
-    assert np.max(np.abs(residual), where=full & film.touching, initial=0.0) < tolerance
-    assert np.min(residual, where=~full & film.mesh.inner, initial=0.0) > -tolerance
+    assert np.max(np.abs(residual), where=full & film.touching, initial=0.0) < OIL
+    assert np.min(residual, where=~full & film.mesh.inner, initial=0.0) > -OIL
 
 
-@pytest.mark.xfail(reason="films that nearly touch are solved to 1e-6 only", strict=True)
 def test_film_that_nearly_touches_has_the_tolerance_of_its_case():
     film = mixed_film(rough_line(gaussian(30e-9, 10e-6, seed=28), nodes=201, speed=0.05))
     assert film.converged
