@@ -324,7 +324,7 @@ def draw(grids_: dict[int, Swept]) -> None:
     left.set_title("The finer the grid, the less touches", fontsize=10)
     left.legend(fontsize=7)
     right.set(xlabel="λ, film of smooth surfaces over Rq", ylim=(1e-4, 10.0))
-    right.set_title("The gap between the spots hardly knows the grid", fontsize=10)
+    right.set_title("The gap outside the spots differs less", fontsize=10)
     right.legend(fontsize=7)
     figure.savefig(FIGURE, dpi=150)
 
