@@ -109,9 +109,9 @@ def upload(page, path):
     page.get_by_test_id("upload-surface").set_input_files(path)
 
 
-def statistics(page):
-    """Rows of the table of statistics, as texts."""
-    table = page.get_by_test_id("surface-statistics")
+def statistics(page, name="surface-statistics"):
+    """Rows of the table of statistics, or of another table of a surface, as texts."""
+    table = page.get_by_test_id(name)
     table.wait_for()
     return table.evaluate("t => [...t.rows].map(r => [...r.cells].map(c => c.innerText))")
 
@@ -134,6 +134,12 @@ def test_a_measured_surface_has_the_statistics_of_the_command(open_page, app_ser
         assert float(row[1].replace(" ", "")) == step["points"]
         assert float(row[column]) == pytest.approx(1e9 * step["rq"], rel=2e-3)
         assert float(row[column + 1]) == pytest.approx(1e9 * step["ra"], rel=2e-3)
+    page.get_by_test_id("surface-summits-box").get_by_role("button").click()
+    heads, *rows_of_summits = statistics(page, "surface-summits")
+    for row, summits in zip(rows_of_summits, told["summits"], strict=True):
+        assert float(row[0]) == pytest.approx(1e6 * summits["interval"], rel=5e-3)
+        radius = row[next(number for number, head in enumerate(heads) if head.startswith("radius"))]
+        assert float(radius) == pytest.approx(1e6 * summits["summit_radius"], rel=5e-3)
     assert page.get_by_test_id("surface").locator(".js-plotly-plot").count() == len(rows)
     page.get_by_test_id("use-surface").click()
     page.get_by_test_id("surfaces-used").filter(has_text=path.name).wait_for()
