@@ -113,7 +113,7 @@ def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed
     table["contact"] |= {"load_per_length": "1.57 MN/m", "entrainment_speed": "0.05 m/s"}
     page = open_page(app_server, address_of("/contact", table))
     page.get_by_test_id("number-formula-minimum-film").wait_for()
-    page.get_by_role("button", name="More").first.click()
+    page.get_by_test_id("group-contact-more").locator("summary").click()
     for typed, nanometres in ((None, 1.0), ("2", 2.0)):
         if typed is not None:
             type_into(page, "contact.boundary_film", typed)
