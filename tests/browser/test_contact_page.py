@@ -124,7 +124,7 @@ def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed
         assert "boundary film" in page.get_by_test_id("number-minimum-film").inner_text()
         legend = page.get_by_test_id("figure-profiles").locator(".legendtext")
         legend.filter(has_text="surfaces touch").wait_for()
-        legend.filter(has_text="of it by asperities").wait_for()
+        legend.filter(has_text="pressure of asperities").wait_for()
         summary = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)
         mean = 1e6 * summary["film"]["mean_thickness"]
         assert shown(page, "central-film") == pytest.approx(mean, rel=1e-3)

@@ -250,7 +250,7 @@ def test_spots_of_a_line_contact_are_drawn_where_its_film_touches(touching_line)
     assert spots["x"] == pytest.approx(1e6 * film.x[film.contact], rel=1e-6)
     # The film is drawn in µm, although it is 1 nm thick at the spots.
     assert spots["y"] == pytest.approx([1e-3] * len(spots["x"]), rel=1e-4)
-    asperities = trace(shown, "of it by asperities")
+    asperities = trace(shown, "pressure of asperities")
     assert max(asperities["y"]) == pytest.approx(film.contact_pressure.max() / 1e9, rel=1e-6)
     assert np.count_nonzero(asperities["y"]) == film.contact.sum()
     # The field in the boundary film would make that of the oil a line at zero.
@@ -273,7 +273,7 @@ def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touchin
     reach = reach_of(touching_point)
     for cut in point_cuts(touching_point, *(1e-6 * at for at in reach.at)):
         written(cut)
-        most = max(trace(cut, "of it by asperities")["y"])
+        most = max(trace(cut, "pressure of asperities")["y"])
         assert most == pytest.approx(film.contact_pressure.max() / 1e9, rel=1e-6)
         assert min(trace(cut, "surfaces touch")["y"]) == pytest.approx(1.0, rel=1e-4)
     assert reach.first == "the spot of the highest pressure"
@@ -282,7 +282,7 @@ def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touchin
 def test_surfaces_that_do_not_touch_have_no_spots(line, point):
     drawn = [*line_figures(line), *point_figures(point), *point_cuts(point, 0.0, 0.0)]
     names = {one.get("name") for shown in drawn for one in shown.plot["data"]}
-    assert not names & {"surfaces touch", "of it by asperities"}
+    assert not names & {"surfaces touch", "pressure of asperities"}
     assert reach_of(point).first == "the smallest film"
 
 

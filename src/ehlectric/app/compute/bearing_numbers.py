@@ -157,9 +157,8 @@ def _regime(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
     if speed is not None:
         # Thinner films touch up to higher speeds.
         bound = "≥ " if film_is_bound(summary) else ""
-        note += (
-            f"; capacitive, at most {100.0 * CAPACITIVE:g} % of the time, from {bound}{rpm_text(speed)} rpm"
-        )
+        seldom = f"shorted at most {100.0 * CAPACITIVE:g} % of the time"
+        note += f"; capacitive ({seldom}) from {bound}{rpm_text(speed)} rpm"
     return Number("regime", "Regime", totals["regime"], note=note, told=beside(told, "regime"))
 
 

@@ -13,7 +13,7 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 
 # Name of the pressure between asperities, and of the nodes at which surfaces touch, in legends.
-ASPERITIES, SPOTS = "of it by asperities", "surfaces touch"
+ASPERITIES, SPOTS = "pressure of asperities", "surfaces touch"
 
 # Sentence on a scale of the field that leaves the spots out.
 BEYOND = "The scale of the field ends below the field in the spots."
