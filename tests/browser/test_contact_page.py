@@ -161,7 +161,6 @@ def test_a_measured_surface_has_the_statistics_of_the_command(open_page, app_ser
         assert float(row[1].replace(" ", "")) == step["points"]
         assert float(row[column]) == pytest.approx(1e9 * step["rq"], rel=2e-3)
         assert float(row[column + 1]) == pytest.approx(1e9 * step["ra"], rel=2e-3)
-    page.get_by_test_id("surface-summits-box").get_by_role("button").click()
     heads, *rows_of_summits = statistics(page, "surface-summits")
     for row, summits in zip(rows_of_summits, told["summits"], strict=True):
         assert float(row[0]) == pytest.approx(1e6 * summits["interval"], rel=5e-3)

@@ -27,11 +27,11 @@ def show_surface(answer: SurfaceAnswer) -> None:
 
 
 def _show_summits(summits: SummitsTable) -> None:
-    """Table of the summits, which bearings and models of asperities take; closed at first."""
+    """Table of the summits, which bearings and models of asperities take."""
     title = summits.title[0].upper() + summits.title[1:]
-    with ui.expansion(title).props('data-testid="surface-summits-box"'):
-        _show_table(title, "surface-summits", summits.heads, summits.rows)
-        ui.label(summits.note).classes("note")
+    heading(title, 3)
+    _show_table(title, "surface-summits", summits.heads, summits.rows)
+    ui.label(summits.note).classes("note")
 
 
 def _show_table(name: str, testid: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
