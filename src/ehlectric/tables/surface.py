@@ -42,7 +42,8 @@ _SUMMIT_COLUMNS = (
     ("slope\nx/y", "slope_ratio", 1.0, ".2f"),
 )
 
-# Sentences below the table of the summits.
+# Title of the table of the summits, and sentences below it.
+SUMMITS_TITLE = "spectral moments and summits after the last step"
 SUMMITS_NOTE = (
     "Bandwidth, density and radius belong to the sampling interval: name it with the numbers. They hold for "
     "Gaussian heights (skewness 0, kurtosis 3). A dash stands where no isotropic Gaussian surface has the "
@@ -66,20 +67,22 @@ def surface_table(surface: dict[str, Any]) -> Table:
 
 def summits_table(summits: Sequence[Mapping[str, float | None]]) -> Table:
     """Table of spectral moments and summits, a row for each sampling interval; a dash for no summits."""
-    title = "spectral moments and summits after the last step"
-    table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0))
-    columns = [column for column in _SUMMIT_COLUMNS if column[1] in summits[0]]
-    for head, *_ in columns:
+    table = Table(title=SUMMITS_TITLE, title_justify="left", box=None, padding=(0, 1, 0, 0))
+    heads, rows = summits_rows(summits)
+    for head in heads:
         table.add_column(Text(head), justify="right", no_wrap=True)
-    for row in summits:
-        values = [(row[key], factor, how) for _, key, factor, how in columns]
-        table.add_row(
-            *(
-                "\N{EN DASH}" if value is None else format(value * factor, how)
-                for value, factor, how in values
-            )
-        )
+    for row in rows:
+        table.add_row(*row)
     return table
+
+
+def summits_rows(
+    summits: Sequence[Mapping[str, float | None]],
+) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Heads of the moments and summits with their units, and a row for every sampling interval."""
+    columns = [column for column in _SUMMIT_COLUMNS if column[1] in summits[0]]
+    rows = [tuple(_summit(row[key], factor, how) for _, key, factor, how in columns) for row in summits]
+    return tuple(head for head, *_ in columns), rows
 
 
 def size_text(surface: Mapping[str, Any]) -> str:
@@ -112,6 +115,11 @@ def _size(size: list[int] | None) -> str:
     if size is None:
         return ""
     return " x ".join(str(count) for count in size if count > 1 or len(size) == 1) + " points"
+
+
+def _summit(value: float | None, factor: float, how: str) -> str:
+    """Number of a table of summits in its shown unit; a dash where there is none."""
+    return "\N{EN DASH}" if value is None else format(value * factor, how)
 
 
 def _statistic(value: float, how: str) -> str:

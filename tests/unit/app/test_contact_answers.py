@@ -10,12 +10,14 @@ from ehlectric import Case
 from ehlectric.app.answers.contact_told import CONTACT_PLACES
 from ehlectric.app.compute.contact import (
     check_contact,
+    contact_case,
     cuts_of,
     solve_at_once,
     solve_contact,
     view_of,
 )
 from ehlectric.app.fields.contact import geometry_of, groups_of, switched
+from ehlectric.app.fields.defaults import default_of
 from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import contact_start
@@ -278,3 +280,16 @@ def test_every_way_of_a_field_is_a_valid_case(geometry, tmp_path):
             assert field.way(inputs) == place
             check_contact(dict(inputs.table), str(tmp_path))
     assert len(fields) > 3
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_boundary_film_of_a_form_is_that_of_the_command(geometry):
+    inputs = contact_start(geometry)
+    (field,) = (one for group in groups_of(geometry) for one in group.fields if "boundary" in one.key)
+    # What the form shows where nothing is given is what the solver takes.
+    default = contact_case(inputs.table, "").contact.touching_gap
+    assert 1e-9 * field.number(default_of(inputs, field.key)) == pytest.approx(default)
+    typed = changed(inputs, {field.key: field.from_text("2.5")})
+    assert contact_case(typed.table, "").contact.touching_gap == pytest.approx(2.5e-9)
+    other = "point" if geometry == "line" else "line"
+    assert switched(typed, contact_start(other)).value(field.key) == "2.5 nm"

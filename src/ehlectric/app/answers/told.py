@@ -113,7 +113,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "atlas-contacts": ("capacitance", *_FILM),
         "atlas-left": ("capacitance", *_FILM),
         "atlas-left-light": (),
-        "isothermal-film": _FILM,
+        "isothermal-film": (*_FILM, "regime"),
         "temperature-unused": _FILM,
         "viscosity-of-base": _FILM,
         "temperature-low": _FILM,

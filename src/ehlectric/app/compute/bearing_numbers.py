@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.app.answers.bearing import PENDING, RANGE_FOLLOWS, Difference, Number, Table
 from ehlectric.app.answers.told import Told, beside
+from ehlectric.bearing.intermittency.duty import CAPACITIVE
 from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import Row, amount
@@ -49,7 +50,7 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
     Returns
     -------
     tuple of Number
-        Capacitance, first breakdown, shaft voltage, margin, lambda ratio, regime and critical speed.
+        Capacitance, first breakdown, shaft voltage, margin, lambda ratio, critical speed and regime.
     """
     found = (
         _capacitance(summary, told),
@@ -57,8 +58,8 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
         _shaft_voltage(summary, told),
         _margin(summary, told),
         _lambda(summary, told),
-        _regime(summary, told),
         _critical_speed(summary, told, whole=whole),
+        _regime(summary, told),
     )
     return found if summary["converged"] else tuple(map(_unusable, found))
 
@@ -154,7 +155,10 @@ def _regime(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
         note = "ceramic elements or a coating insulate"
     speed = (summary.get("margin") or {}).get("capacitive_speed")
     if speed is not None:
-        note += f"; capacitive from {rpm_text(speed)} rpm"
+        # Thinner films touch up to higher speeds.
+        bound = "≥ " if film_is_bound(summary) else ""
+        seldom = f"shorted at most {100.0 * CAPACITIVE:g} % of the time"
+        note += f"; capacitive ({seldom}) from {bound}{rpm_text(speed)} rpm"
     return Number("regime", "Regime", totals["regime"], note=note, told=beside(told, "regime"))
 
 

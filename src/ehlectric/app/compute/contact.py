@@ -19,6 +19,7 @@ from ehlectric.app.figures.cuts import point_cuts
 from ehlectric.app.figures.lengths import Lengths
 from ehlectric.app.figures.line import line_figures
 from ehlectric.app.figures.point import point_figures, reach_of
+from ehlectric.app.figures.touching import spot_position, touches
 from ehlectric.cases.case import Case
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
@@ -257,7 +258,7 @@ def view_of(result: Result | PointResult) -> ContactView:
         rows=lines_of(result_rows(result)),
         warnings=_others(result.warnings, keys),
         figures=point_figures(result) if isinstance(result, PointResult) else line_figures(result),
-        cuts=() if whole is None else point_cuts(whole, *whole.film.minimum_position),
+        cuts=() if whole is None else point_cuts(whole, *spot_position(whole)),
         reach=None if whole is None else reach_of(whole),
     )
 
@@ -274,6 +275,34 @@ def _verdict(result: Result | PointResult) -> tuple[str, str]:
 
 def _result_numbers(result: Result | PointResult) -> list[Number]:
     film, field, discharge = result.film, result.field, result.discharge
+    touching = touches(result)
+    at = f"at {_voltage(result)}, {_IN_SPOTS}" if touching else f"at {_voltage(result)}"
+    found = [
+        *(_touching_films(result) if touching else _films(result)),
+        _number("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
+        _number("max-field", "Maximum field", field.max_strength, "V/m", at),
+    ]
+    over = f"{_OVER}, with the boundary film as an insulator" if touching else _OVER
+    if isinstance(result, PointResult):
+        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e12:.4g}", "pF", over)
+    else:
+        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e9:.4g}", "nF/m", over)
+    found.append(capacitance)
+    if discharge is not None and discharge.breakdown_voltage is not None:
+        breakdown = _number("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
+        if touching:
+            breakdown = replace(
+                breakdown, bound="≤", note=f"{_IN_SPOTS}; metal may conduct there at any voltage"
+            )
+        elif _is_flooded(result):
+            breakdown = replace(breakdown, bound="≤", note=_BOUND)
+        found.append(breakdown)
+    return found
+
+
+def _films(result: Result | PointResult) -> list[Number]:
+    """Minimum and central film with their error, beside those of a formula."""
+    film = result.film
     error = result.film_error
     known = "discretisation error unknown" if error is None else f"discretisation error {100 * error:.2g} %"
     key, name = _SHOWN_FORMULA[result.conditions.geometry]
@@ -282,21 +311,20 @@ def _result_numbers(result: Result | PointResult) -> list[Number]:
         f"{name}: {100.0 * (getattr(formula, of) / getattr(film, of) - 1.0):+.0f} %"
         for of in ("minimum_thickness", "central_thickness")
     )
-    found = [
+    return [
         _number("minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"),
         _number("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
-        _number("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
-        _number("max-field", "Maximum field", field.max_strength, "V/m", f"at {_voltage(result)}"),
     ]
-    if isinstance(result, PointResult):
-        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e12:.4g}", "pF", _OVER)
-    else:
-        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e9:.4g}", "nF/m", _OVER)
-    found.append(capacitance)
-    if discharge is not None and discharge.breakdown_voltage is not None:
-        breakdown = _number("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
-        found.append(replace(breakdown, bound="≤", note=_BOUND) if _is_flooded(result) else breakdown)
-    return found
+
+
+def _touching_films(result: Result | PointResult) -> list[Number]:
+    """Films of surfaces that touch: the boundary film, and the mean film, as a spot may be in the middle."""
+    film = result.film
+    mean = "in the dry contact, spots and gaps between them"
+    return [
+        _number("minimum-film", "Minimum film", film.minimum_thickness, "m", "surfaces touch: boundary film"),
+        _number("central-film", "Mean film", film.mean_thickness, "m", mean),
+    ]
 
 
 def _voltage(result: Result | PointResult) -> str:
@@ -312,6 +340,9 @@ _BOUND = "isothermal, fully flooded film"
 
 
 _OVER = "over the field range"
+
+# Note on numbers of the thinnest film where the surfaces touch.
+_IN_SPOTS = "in the boundary film, where the surfaces touch"
 
 
 def _with_warnings(numbers: Iterable[Number], warnings: Iterable[ResultWarning]) -> tuple[Number, ...]:

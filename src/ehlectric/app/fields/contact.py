@@ -96,6 +96,15 @@ _SPEEDS = (
         120.0,
         note="of an oil that depends on it",
     ),
+    Field(
+        "contact.boundary_film",
+        "Boundary film",
+        "nm",
+        0.5,
+        5.0,
+        note="gap at which the surfaces touch",
+        optional=True,
+    ),
 )
 
 _PRESSURE = Field("contact.max_hertz_pressure", "Hertz pressure", "GPa", 0.2, 4.0, when=_no)

@@ -7,8 +7,10 @@ from typing import Any
 from ehlectric.app.catalogue import bearing, coating, oil
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.accuracy import DEFAULT_ERROR
+from ehlectric.cases.contact import BOUNDARY_FILM
 
 _DEFAULTS = {
+    "contact.boundary_film": f"{1e9 * BOUNDARY_FILM:g} nm",
     "bearing.element_material": "steel",
     "bearing.ring_material": "steel",
     "bearing.radial_load": "0 N",

@@ -193,7 +193,8 @@ class ContactViewBox:
             return
         with self._choice:
             heading("Cuts through a point", 3)
-            ui.label("Click on a map, or move the sliders. At first: the smallest film.").classes("note")
+            said = f"Click on a map, or move the sliders. At first: {reach.first}."
+            ui.label(said).classes("note")
             for name, ends, at in (("x", reach.x, reach.at[0]), ("y", reach.y, reach.at[1])):
                 self._sliders[name] = CutSlider(name, ends, at, reach.unit, self._slid)
 
