@@ -79,6 +79,8 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Film
         "not-converged": _ALL,
         "surfaces-touch": _FILM,
+        "asperities-touch": _FILM,
+        "load-share-unresolved": (),
         "thinner-than-atom": _FILM,
         "refine-not-reached": _FILM,
         "error-unknown": _FILM,

@@ -89,7 +89,10 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
         unknown = unknown + 1 if error is None else 0
         if (error is not None and error <= target) or unknown >= UNKNOWN:
             break
-        if times * (problem.nodes - 1) + 1 > problem.most_nodes or found.last.touches:
+        if times * (problem.nodes - 1) + 1 > problem.most_nodes:
+            break
+        # A finer grid has other spots of a rough contact. A smooth one may touch on a coarse grid only.
+        if found.last.touches and problem.added_gap is not None:
             break
         found = _finer(found, progress)
     return found
