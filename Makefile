@@ -82,8 +82,11 @@ browser:
 test: $(VENV)/.test
 	$(BIN)/python -m pytest
 
+# Tests in a browser come last and one at a time: they hold the time in which a page answers, and a machine that
+# computes something else beside them answers late.
 slow: $(VENV)/.test
-	$(BIN)/python -m pytest -m slow
+	@$(BIN)/python -m pytest -m slow --ignore=tests/browser; others=$$?; \
+	$(BIN)/python -m pytest -m slow -n 0 tests/browser && exit $$others
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .

@@ -118,7 +118,7 @@ def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key
     assert shown.label in notice
     assert key not in notice
     page.get_by_test_id("to-field").click()
-    assert box.evaluate("box => document.activeElement === box")
+    box.and_(page.locator(":focus")).wait_for()
     assert "being computed" not in page.get_by_test_id("number-critical-speed").inner_text()
     assert page.get_by_test_id("answer").get_attribute("aria-busy") == "true", "an old answer is dimmed"
     page.get_by_test_id("undo").click()
