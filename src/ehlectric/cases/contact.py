@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.defaults import BOUNDARY_FILM
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
@@ -26,9 +27,6 @@ class Body(Table):
     radius_x: _SignedRadius | None = None
     radius_y: _SignedRadius | None = None
 
-
-# Thickness of the boundary film where a case gives none [m]: one layer of molecules of oil.
-BOUNDARY_FILM = 1e-9
 
 # Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
 _ATOM = 5e-11

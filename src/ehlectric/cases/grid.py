@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.accuracy import DEFAULT_ERROR
+from ehlectric.cases.defaults import DEFAULT_ERROR
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError

@@ -6,8 +6,7 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
 from ehlectric.app.inputs import Inputs
-from ehlectric.cases.accuracy import DEFAULT_ERROR
-from ehlectric.cases.contact import BOUNDARY_FILM
+from ehlectric.cases.defaults import BOUNDARY_FILM, DEFAULT_ERROR
 
 _DEFAULTS = {
     "contact.boundary_film": f"{1e9 * BOUNDARY_FILM:g} nm",
