@@ -106,7 +106,6 @@ def test_changing_between_line_and_point_asks_the_command_for_each(open_page, ap
 
 # Inputs of surfaces that touch, as they are typed.
 _OF_SPOTS = {
-    "contact.hardness": "7",
     "contact.boundary_friction": "0.12",
     "discharge.dielectric_strength": "15",
     "discharge.length": "10",
