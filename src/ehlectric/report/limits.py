@@ -126,9 +126,9 @@ LIMITS = (
     ),
     Limit(
         "roughness",
-        "The roughness of the surfaces is in the film, as far as the grid resolves it. Where asperities touch, "
-        "their load share and the number of their spots depend on the grid. Heat and wear of the spots are "
-        "left out.",
+        "The roughness of the surfaces is in the film, as far as the grid resolves it. Where asperities "
+        "touch, their load share and the number of their spots depend on the grid. Heat and wear of spots "
+        "are left out.",
         _rough,
     ),
     Limit(
