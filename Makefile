@@ -110,6 +110,8 @@ figures: $(VENV)/.run
 	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
 	$(BIN)/ehlectric run examples/ball_contact.toml -o $(POINT_RESULTS) --quiet
 	cp $(POINT_RESULTS)/field_map.png docs/figures
+	$(BIN)/ehlectric run examples/mixed_contact.toml -o results/mixed_contact --quiet
+	cp results/mixed_contact/spots.png docs/figures/mixed_spots.png
 	$(BIN)/ehlectric sweep examples/sweep.toml -o results/sweep --quiet
 	$(BIN)/ehlectric map results/sweep --x contact.entrainment_speed --y contact.load_per_length --quiet
 	cp results/sweep/map_discharge.breakdown_voltage.png docs/figures/breakdown_map.png

@@ -104,6 +104,16 @@ def test_changing_between_line_and_point_asks_the_command_for_each(open_page, ap
         )
 
 
+# Inputs of surfaces that touch, as they are typed.
+_OF_SPOTS = {
+    "contact.boundary_friction": "0.12",
+    "discharge.dielectric_strength": "15",
+    "discharge.length": "10",
+    "electric.resistivity": "2.2e-7",
+    "electric.tribofilm_resistance": "1e-12",
+}
+
+
 @pytest.mark.slow
 def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed(
     open_page, app_server, tmp_path
@@ -128,6 +138,23 @@ def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed
         summary = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)
         mean = 1e6 * summary["film"]["mean_thickness"]
         assert shown(page, "central-film") == pytest.approx(mean, rel=1e-3)
+    assert "give the resistivity" in page.get_by_test_id("number-spots-spot-resistance").inner_text()
+    for group in ("contact", "voltage-and-breakdown"):
+        box = page.get_by_test_id(f"group-{group}-more")
+        if box.get_attribute("open") is None:
+            box.locator("summary").click()
+    for key, typed in _OF_SPOTS.items():
+        type_into(page, key, typed)
+    page.get_by_test_id("solve-state").filter(has_text="earlier inputs").wait_for()
+    page.get_by_test_id("solve").click()
+    wait_until_solved(page)
+    found = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)["asperities"]
+    assert found["behaviour"] in page.get_by_test_id("number-spots-behaviour").inner_text()
+    assert shown(page, "spots-spots") == found["spots"]
+    assert shown(page, "spots-contact-area") == pytest.approx(1e6 * found["contact_area"], rel=0.05)
+    assert shown(page, "spots-friction") == pytest.approx(found["boundary_friction"], rel=0.05)
+    assert shown(page, "spots-breakdown-5") == pytest.approx(found["breakdown_5"], rel=0.05)
+    assert "Ω" in page.get_by_test_id("number-spots-spot-resistance").inner_text()
     assert overflow(page) <= 0
 
 

@@ -143,6 +143,14 @@ _VOLTAGES: Keys = {
         "",
         "margin (first breakdown / shaft voltage)",
     ),
+    "breakdown_probability": ResultKey(
+        "probability that a contact has broken down at the shaft voltage while no metallic contact shorts "
+        "the bearing, 1 − exp(−1/margin^m) with the shape m of a Weibull law, at the weakest position; "
+        "`insulating_time_share` is the share of time in which that is possible; null as margin is, and "
+        "without this law",
+        "",
+        "probability of breakdown at the shaft voltage",
+    ),
     "through_margin": ResultKey(
         "shaft_through_breakdown / shaft voltage; null without a motor",
         "",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import Any
 
 from ehlectric.bearing.accuracy import film_error
@@ -120,7 +121,8 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "lubrication": lubrication(solution),
         **duty_summary(solution, duty),
         "film_factor": solution.conditions.film_factor,
-        **breaks(solution),
+        **(broken := breaks(solution)),
+        "breakdown_probability": _breakdown_probability(solution, broken["margin"]),
         "strength_per_volt": strength,
         "max_strength": None if strength is None or across is None else strength * across,
         "bearing_voltage_ratio": bearing_voltage_ratio(solution),
@@ -177,6 +179,20 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
         "margin": margin(breakdown.shaft_first_break, shaft),
         "through_margin": margin(breakdown.shaft_through_breakdown, shaft),
     }
+
+
+def _breakdown_probability(solution: BearingSolution, ratio: float | None) -> float | None:
+    """Probability that a contact has broken down at the shaft voltage, from the margin and a Weibull law.
+
+    It is 1 - exp(-(V/V_1)^m) with the shape m, the shaft voltage V and that of the first breakdown at 63.2 %,
+    V_1. None where there is no margin, or the strength does not scatter.
+    """
+    shape = solution.positions[0].shape
+    if shape is None or ratio is None:
+        return None
+    # From this exponent on the probability is 1 to the last digit.
+    exponent = min(-shape * math.log(ratio), 10.0)
+    return -math.expm1(-math.exp(exponent))
 
 
 def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> list[dict[str, Any]]:

@@ -126,8 +126,9 @@ LIMITS = (
     ),
     Limit(
         "roughness",
-        "The roughness of the surfaces is in the film, as far as the grid resolves it. The film is a full "
-        "film: contacts of asperities carry no load and no current.",
+        "The roughness of the surfaces is in the film, as far as the grid resolves it. Where asperities "
+        "touch, their load share and the number of their spots depend on the grid. Heat and wear of spots "
+        "are left out.",
         _rough,
     ),
     Limit(

@@ -311,6 +311,12 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
     if margin is None:
         return
     yield Row("margin (first breakdown / shaft voltage)", margin, alarm=margin < 1.0, bound="≤")
+    # Results of earlier versions lack this key.
+    probability = summary["bearing"].get("breakdown_probability")
+    if probability is not None:
+        note = ", while the films insulate"
+        bound = bounds_of(summary).get("bearing.breakdown_probability", "")
+        yield Row("breakdown at the shaft voltage", probability, "%", note, digits=".2g", bound=bound)
     if analysis is None:
         return
     if analysis["low"] is not None:

@@ -231,7 +231,8 @@ def _roughness(result: Result | PointResult) -> Iterator[Row]:
     for k, rq in ((1, roughness.rq_1), (2, roughness.rq_2)):
         yield Row(f"Rq of surface {k}", rq, "nm", ", in the Hertz zone", digits=".3g")
     if roughness.lambda_ratio is not None:
-        about = ", minimum film / combined Rq"
+        least = "minimum film" if result.spots is None else "boundary film"
+        about = f", {least} / combined Rq"
         yield Row("lambda ratio", roughness.lambda_ratio, note=about, digits=".3g")
     if roughness.lambda_ratio_smooth is not None:
         about = ", smooth film / combined Rq"
@@ -280,12 +281,29 @@ def _formulas(result: Result | PointResult) -> Iterator[Row]:
     yield Row("film thickness by published formulas")
     formulas = _FORMULAS[result.conditions.geometry]
     for key, name, value in _by_formula(formulas, result.formulas()):
-        difference = 100.0 * (value / getattr(result.film, key) - 1.0)
-        beside = f", {difference:+.0f} % vs. solved film" if result.converged else ""
-        yield Row(name, value, "µm", beside)
-    yield Row("usual difference from a solved film", "up to 40", "%")
+        yield Row(name, value, "µm", _beside_formula(result, key, value))
+    if result.spots is None:
+        yield Row("usual difference from a solved film", "up to 40", "%")
+    else:
+        yield Row(
+            "difference from the solved film", "none: surfaces touch", note=", formulas are of smooth ones"
+        )
     yield Row("run")
     yield Row("computing time", result.film_seconds + result.field_seconds, "s", digits=".2g")
+
+
+def _beside_formula(result: Result | PointResult, key: str, value: float) -> str:
+    """Note with the difference of a film by formula from the solved one, or from that of smooth surfaces.
+
+    Where surfaces touch, the minimum film is the boundary film, and the centre may lie in a spot.
+    """
+    if not result.converged:
+        return ""
+    if result.spots is None:
+        return f", {100.0 * (value / getattr(result.film, key) - 1.0):+.0f} % vs. solved film"
+    if result.smooth is None or key != "minimum_thickness":
+        return ""
+    return f", {100.0 * (value / result.smooth.minimum_thickness - 1.0):+.0f} % vs. film of smooth surfaces"
 
 
 # Names of the zones of a point contact, and rows of the grid by the geometry of the contact.

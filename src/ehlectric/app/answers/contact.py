@@ -126,6 +126,8 @@ class ContactView:
         Figures of the cuts through one point of a point contact.
     reach : Reach or None
         Range of these points; None for a line contact.
+    spots : tuple of Number
+        Numbers of the spots in which the surfaces touch; none where they do not touch.
     """
 
     title: str
@@ -139,3 +141,4 @@ class ContactView:
     figures: tuple[Shown, ...] = field(repr=False)
     cuts: tuple[Shown, ...] = field(default=(), repr=False)
     reach: Reach | None = None
+    spots: tuple[Number, ...] = ()

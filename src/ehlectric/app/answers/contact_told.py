@@ -39,7 +39,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "not-converged": _SOLVED,
         "surfaces-touch": ("minimum-film", *_BREAKDOWN),
         "asperities-touch": ("minimum-film", "capacitance", *_FIELD),
-        "load-share-unresolved": (),
+        "load-share-unresolved": ("load-share",),
         "thinner-than-atom": ("minimum-film", *_FIELD),
         "refine-not-reached": _FILM,
         "error-unknown": ("minimum-film",),

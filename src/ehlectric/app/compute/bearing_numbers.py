@@ -129,6 +129,9 @@ def _margin(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
         return Number(name, label, "none", note=why, known=False, told=near)
     analysis = summary.get("margin")
     note = "upper bound; first breakdown / shaft voltage, breakdown below 1"
+    probability = totals.get("breakdown_probability")
+    if probability is not None:
+        note += f"; breakdown with a probability of {100.0 * probability:.2g} % while films insulate"
     if analysis is not None and analysis["low"] is not None:
         low, high = ratio_text(analysis["low"]), ratio_text(analysis["high"])
         note = f"{low} to {high} within the stated ranges; {note}"

@@ -14,6 +14,8 @@ from ehlectric.app.answers.figure import Shown
 from ehlectric.app.answers.told import Told, beside
 from ehlectric.app.compute.cases import case_of
 from ehlectric.app.compute.lines import lines_of
+from ehlectric.app.compute.numbers import number_of
+from ehlectric.app.compute.touching import spot_numbers
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.cuts import point_cuts
 from ehlectric.app.figures.lengths import Lengths
@@ -21,7 +23,6 @@ from ehlectric.app.figures.line import line_figures
 from ehlectric.app.figures.point import point_figures, reach_of
 from ehlectric.app.figures.touching import spot_position, touches
 from ehlectric.cases.case import Case
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.discharge.verdict import STRENGTH_UNKNOWN, doubts_of, lead_of, level_of, ratio_text
@@ -113,31 +114,26 @@ def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:
     formula, name = _SHOWN_FORMULA[geometry]
     film = summary["film_formulas"][formula]
     note = f"by formula: {name}, up to 40 % off"
-    found = [_number("hertz-pressure", "Hertz pressure", hertz["max_pressure"], "Pa")]
+    found = [number_of("hertz-pressure", "Hertz pressure", hertz["max_pressure"], "Pa")]
     if geometry == "line":
-        found.append(_number("half-width", "Half-width b", hertz["half_width"], "m", least=1.0))
+        found.append(number_of("half-width", "Half-width b", hertz["half_width"], "m", least=1.0))
     else:
         for key, label in (("semi_axis_x", "Semi-axis b, along"), ("semi_axis_y", "Semi-axis a, across")):
-            found.append(_number(key.replace("_", "-"), label, hertz[key], "m", least=1.0))
+            found.append(number_of(key.replace("_", "-"), label, hertz[key], "m", least=1.0))
     found += [
-        _number("minimum-film", "Minimum film", film["minimum_thickness"], "m", note),
-        _number("central-film", "Central film", film["central_thickness"], "m", note),
+        number_of("minimum-film", "Minimum film", film["minimum_thickness"], "m", note),
+        number_of("central-film", "Central film", film["central_thickness"], "m", note),
         Number("moes-m", "Load parameter M", f"{groups['moes_m']:.4g}"),
         Number("moes-l", "Material parameter L", f"{groups['moes_l']:.4g}"),
     ]
     estimate = summary.get("breakdown_by_formula")
     if estimate is not None:
         by = f"by formula: {estimate['formula']}, up to 40 % off; {_BOUND}"
-        breakdown = _number("breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by)
+        breakdown = number_of(
+            "breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by
+        )
         found.append(replace(breakdown, bound="≤"))
     return found
-
-
-def _number(key: str, label: str, value: float, unit: str, note: str = "", least: float = 0.1) -> Number:
-    if unit == "V":
-        return Number(key, label, f"{value:.4g}", unit, note)
-    factor, shown_unit = unit_for(abs(value), unit, least=least)
-    return Number(key, label, f"{factor * value:.4g}", shown_unit, note)
 
 
 _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
@@ -246,7 +242,8 @@ def view_of(result: Result | PointResult) -> ContactView:
     """Answer of a solved contact."""
     level, text = _verdict(result)
     numbers = _result_numbers(result) if result.converged else []
-    keys = {number.key for number in numbers}
+    spots = spot_numbers(result)
+    keys = {number.key for number in (*numbers, *spots)}
     whole = result if isinstance(result, PointResult) and result.converged else None
     return ContactView(
         title=result.case.title,
@@ -255,6 +252,7 @@ def view_of(result: Result | PointResult) -> ContactView:
         level=level,
         text=text,
         numbers=_with_warnings(numbers, result.warnings),
+        spots=_with_warnings(spots, result.warnings),
         rows=lines_of(result_rows(result)),
         warnings=_others(result.warnings, keys),
         figures=point_figures(result) if isinstance(result, PointResult) else line_figures(result),
@@ -279,8 +277,8 @@ def _result_numbers(result: Result | PointResult) -> list[Number]:
     at = f"at {_voltage(result)}, {_IN_SPOTS}" if touching else f"at {_voltage(result)}"
     found = [
         *(_touching_films(result) if touching else _films(result)),
-        _number("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
-        _number("max-field", "Maximum field", field.max_strength, "V/m", at),
+        number_of("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
+        number_of("max-field", "Maximum field", field.max_strength, "V/m", at),
     ]
     over = f"{_OVER}, with the boundary film as an insulator" if touching else _OVER
     if isinstance(result, PointResult):
@@ -289,7 +287,7 @@ def _result_numbers(result: Result | PointResult) -> list[Number]:
         capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e9:.4g}", "nF/m", over)
     found.append(capacitance)
     if discharge is not None and discharge.breakdown_voltage is not None:
-        breakdown = _number("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
+        breakdown = number_of("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
         if touching:
             breakdown = replace(
                 breakdown, bound="≤", note=f"{_IN_SPOTS}; metal may conduct there at any voltage"
@@ -312,8 +310,10 @@ def _films(result: Result | PointResult) -> list[Number]:
         for of in ("minimum_thickness", "central_thickness")
     )
     return [
-        _number("minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"),
-        _number("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
+        number_of(
+            "minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"
+        ),
+        number_of("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
     ]
 
 
@@ -322,8 +322,10 @@ def _touching_films(result: Result | PointResult) -> list[Number]:
     film = result.film
     mean = "in the dry contact, spots and gaps between them"
     return [
-        _number("minimum-film", "Minimum film", film.minimum_thickness, "m", "surfaces touch: boundary film"),
-        _number("central-film", "Mean film", film.mean_thickness, "m", mean),
+        number_of(
+            "minimum-film", "Minimum film", film.minimum_thickness, "m", "surfaces touch: boundary film"
+        ),
+        number_of("central-film", "Mean film", film.mean_thickness, "m", mean),
     ]
 
 

@@ -161,6 +161,9 @@ class ContactViewBox:
         with self._words:
             light(view.level, view.text)
             number_cards(view.numbers)
+            if view.spots:
+                heading("Where the surfaces touch", 3)
+                number_cards(view.spots, prefix="spots-")
             warnings(view.warnings)
         self._show_figures(self._plots, self._figures, view.figures)
         self._show_figures(self._cut_plots, self._cuts, view.cuts)
