@@ -285,7 +285,7 @@ def _solved(
             *contact.surface_warnings(films.setup),
             *films.warnings,
             *film_warnings(case, film),
-            *spot_warnings(conditions, film, coarser),
+            *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(case, film, field),
             *meter_warnings(case, film),
             # Where surfaces touch, the largest field is that of the boundary film.

@@ -9,6 +9,9 @@ from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.spots.asperities import Asperities
 from ehlectric.contact.spots.warnings import share_text
 
+# Error of the oil balance below which it is not stated.
+_LEAST_ERROR = 1e-4
+
 
 def asperity_rows(result: Result | PointResult) -> list[Row]:
     """Rows of the asperities of a contact; none where the surfaces do not touch.
@@ -49,6 +52,10 @@ def _mechanics(found: Asperities, *, line: bool) -> Iterator[Row]:
     yield Row("spots", str(touching.spots), note=strips + alone)
     yield Row(f"mean {what}", touching.mean_spot, unit, digits=".2g")
     yield Row(f"largest {what}", touching.largest_spot, unit, digits=".2g")
+    if found.balance is not None:
+        error = found.balance.mass_error
+        value = error if error >= _LEAST_ERROR else f"< {100.0 * _LEAST_ERROR:g}"
+        yield Row("error of the oil balance", value, "%", ", of the mean flow", digits=".2g")
     yield Row(
         "boundary film", touching.boundary_film, "nm", ", gap at which the surfaces touch", digits=".3g"
     )

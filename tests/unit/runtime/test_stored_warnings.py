@@ -39,6 +39,7 @@ UNSTORED = {
     "local-plastic-deformation",
     "asperities-touch",
     "load-share-unresolved",
+    "oil-not-conserved",
     "radius-large",
     "speed-high",
     "steps-too-long",

@@ -40,6 +40,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "surfaces-touch": ("minimum-film", *_BREAKDOWN),
         "asperities-touch": ("minimum-film", "capacitance", *_FIELD),
         "load-share-unresolved": ("load-share",),
+        "oil-not-conserved": _FILM,
         "thinner-than-atom": ("minimum-film", *_FIELD),
         "refine-not-reached": _FILM,
         "error-unknown": ("minimum-film",),

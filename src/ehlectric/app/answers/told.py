@@ -81,6 +81,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "surfaces-touch": _FILM,
         "asperities-touch": _FILM,
         "load-share-unresolved": (),
+        "oil-not-conserved": _FILM,
         "thinner-than-atom": _FILM,
         "refine-not-reached": _FILM,
         "error-unknown": _FILM,

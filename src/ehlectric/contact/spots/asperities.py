@@ -11,6 +11,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.spots.electrical import Electrical, electrical
 from ehlectric.contact.spots.mechanics import Coarser, Touching, spots_of, touching
+from ehlectric.contact.spots.oil_balance import OilBalance, oil_balance
 from ehlectric.contact.spots.patches import Spots
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
@@ -32,6 +33,8 @@ class Asperities:
         What they carry, and the film around them.
     electrical : Electrical
         What they conduct, and the capacitance and breakdown around them.
+    balance : OilBalance or None
+        Oil that the film loses and makes; None where it is not known.
     coarser : Coarser or None
         Load share and area on a grid with half the nodes; None if it was not solved.
     """
@@ -39,6 +42,7 @@ class Asperities:
     spots: Spots
     touching: Touching
     electrical: Electrical
+    balance: OilBalance | None
     coarser: Coarser | None
 
     @property
@@ -56,11 +60,14 @@ class Asperities:
 
     def summary(self) -> dict[str, Any]:
         """Values of all parts, as in ``asperities`` of summary.json."""
-        coarser = None if self.coarser is None else self.coarser
+        coarser, balance = self.coarser, self.balance
         return {
             **asdict(self.touching),
             "load_share_coarser": None if coarser is None else coarser.load_share,
             "contact_area_share_coarser": None if coarser is None else coarser.contact_area_share,
+            "mass_error": None if balance is None else balance.mass_error,
+            "oil_lost": None if balance is None else balance.oil_lost,
+            "oil_made": None if balance is None else balance.oil_made,
             **asdict(self.electrical),
         }
 
@@ -121,5 +128,6 @@ def asperities(
             semi_axes=conditions.semi_axes,
             area_error=carried.contact_area_error,
         ),
+        balance=oil_balance(case, conditions, film),
         coarser=coarser,
     )

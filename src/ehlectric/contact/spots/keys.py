@@ -40,6 +40,19 @@ def _mechanics(area: str, what: str) -> Keys:
     }
 
 
+_OIL: Keys = {
+    "mass_error": ResultKey(
+        "oil that the film loses and makes, oil_lost + oil_made, over the mean flow through the Hertz zone; "
+        "null where the nodes are not equidistant",
+        "",
+        "error of the oil balance",
+    ),
+    "oil_lost": ResultKey("part of mass_error that enters spots and does not leave them"),
+    "oil_made": ResultKey(
+        "part of mass_error that appears where cavitated gaps fill again, as a stationary film counts them "
+        "as full; each refilling along a streamline counts, so that it may be above 1"
+    ),
+}
 _FILM: Keys = {
     "mean_film": ResultKey(
         "mean film thickness in the Hertz zone outside of the spots", "m", "mean film around the spots"
@@ -123,7 +136,7 @@ def _electrical(capacitance: str) -> Keys:
 
 def _keys(area: str, what: str, capacitance: str) -> Keys:
     """Keys with the unit of an area, what a spot is, and the unit of a capacitance."""
-    return {**_mechanics(area, what), **_FILM, **_electrical(capacitance)}
+    return {**_mechanics(area, what), **_OIL, **_FILM, **_electrical(capacitance)}
 
 
 LINE_KEYS: Keys = _keys("m", "as a width: a spot is a strip that is as long as the contact", "F/m")

@@ -6,12 +6,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.setup import Setup
 from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
 from ehlectric.contact.spots.mechanics import Coarser, load_of, spots_of
+from ehlectric.contact.spots.oil_balance import OilBalance, oil_balance
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+
+# Oil that a film may make or lose without a warning, over the mean flow through its contact.
+MASS_ERROR = 0.1
 
 
 def share_text(share: float, coarser: float | None) -> str:
@@ -29,9 +35,29 @@ def share_text(share: float, coarser: float | None) -> str:
 
 
 def spot_warnings(
-    conditions: Conditions | PointConditions, film: Film | PointFilm, coarser: Coarser | None
+    case: Case | Setup,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    coarser: Coarser | None,
 ) -> Iterator[ResultWarning]:
-    """Warnings about a converged film whose surfaces touch: what it means, and a load share not resolved."""
+    """Warnings about a converged film whose surfaces touch: what it means, and what is not resolved.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Converged film; there are no warnings where its surfaces do not touch.
+    coarser : Coarser or None
+        Asperities on a grid with half the nodes; None if it was not solved.
+
+    Yields
+    ------
+    ResultWarning
+        That the surfaces touch, and where so a load share that depends on the grid, and oil that appears.
+    """
     if not film.converged or not np.any(film.contact):
         return
     spots = spots_of(film)
@@ -44,6 +70,9 @@ def spot_warnings(
         "the load: metal conducts there, and the minimum film, the maximum field, the capacitance and a "
         "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
     )
+    balance = oil_balance(case, conditions, film)
+    if balance is not None and balance.mass_error > MASS_ERROR:
+        yield _not_conserved(balance)
     if before is None:
         grids = "is not known on a coarser grid"
     elif abs(share - before) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
@@ -53,4 +82,14 @@ def spot_warnings(
     yield ResultWarning(
         "load-share-unresolved",
         f"the load share of the asperities depends on the grid: it {grids}; use more grid.nodes and compare",
+    )
+
+
+def _not_conserved(balance: OilBalance) -> ResultWarning:
+    return ResultWarning(
+        "oil-not-conserved",
+        f"the film does not keep its oil: {100.0 * balance.oil_made:.2g} % of the mean flow through the "
+        "contact appears where cavitated gaps fill again, since they count as full in a stationary film, "
+        f"and {100.0 * balance.oil_lost:.2g} % is lost in spots; the film is then rather too thick and "
+        "the load share of the asperities too low; [motion] keeps the oil",
     )

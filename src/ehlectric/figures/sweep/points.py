@@ -48,6 +48,7 @@ LESS_ACCURATE = frozenset(
         # Surfaces that may touch: voltages are upper bounds
         "surfaces-touch",
         "asperities-touch",
+        "oil-not-conserved",
         "thinner-than-atom",
         "touching",
         "partial-film",

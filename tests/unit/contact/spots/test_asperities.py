@@ -120,7 +120,8 @@ def test_a_share_that_depends_on_the_grid_is_told():
     share = result.asperities.touching.load_share
 
     def codes(coarser):
-        return [one.code for one in spot_warnings(result.conditions, result.film, coarser)]
+        told = spot_warnings(POINT, result.conditions, result.film, coarser)
+        return [one.code for one in told if one.code != "oil-not-conserved"]
 
     assert codes(Coarser(share, 0.1)) == ["asperities-touch"]
     for coarser in (Coarser(1.2 * share, 0.1), None):
