@@ -262,7 +262,7 @@ def _points(axis: Any, chosen: list[Compared], values: list[float], **style: Any
     """Points over lambda; on a logarithmic axis those below its end are triangles at the end."""
     at, shown = np.array([each.film_parameter for each in chosen]), np.array(values)
     below = shown < LEAST if axis.get_yscale() == "log" else np.zeros(shown.shape, dtype=bool)
-    axis.plot(at[~below], shown[~below], "o", ms=6, **style)
+    axis.plot(at[~below], shown[~below], "o", ms=6, clip_on=False, zorder=3, **style)
     axis.plot(at[below], np.full(int(below.sum()), 1.3 * LEAST), "v", ms=6, **style)
 
 
@@ -273,42 +273,36 @@ def draw() -> None:
     mpl.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(5.4, 7.6), layout="constrained", sharex=True)
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(5.4, 8.0), sharex=True)
+    figure.subplots_adjust(left=0.14, right=0.96, top=0.86, bottom=0.065, hspace=0.3)
     coarse, fine = _drawn(65), _drawn(129)
-    levels = np.linspace(0.3, 3.1, 100)
+    levels = np.linspace(0.3, 3.0, 100)
     surface, at = coarse[0].surface, [each.film_parameter for each in coarse]
     whole = one_rough(surface.undeformed, levels * surface.undeformed.rq, surface.modulus)
     flat = [each.contacts["GW flattened"] for each in coarse]
     top.set_yscale("log")
-    top.plot(levels, whole.pressure / surface.pressure, "C0", label="load, Greenwood-Williamson")
-    top.plot(at, [each.shares["GW flattened"] for each in coarse], "C0--", label="load, the same, flattened")
     top.plot(levels, LOAD_SHARE["patir_cheng"].share(levels), "C0:", label="load, Patir-Cheng")
+    top.plot(levels, whole.pressure / surface.pressure, "C0", label="load, Greenwood-Williamson")
+    top.plot(at, [each.shares["GW flattened"] for each in coarse], "C0--", label="load, flattened waves")
     top.plot(levels, whole.area_fraction, "C3", label="area, Greenwood-Williamson")
-    top.plot(at, [float(each.area_fraction) for each in flat], "C3--", label="area, the same, flattened")
-    bottom.plot(
-        levels, contact_time_share(whole.spots_per_area * surface.zone), "C0", label="Greenwood-Williamson"
-    )
-    times = [float(contact_time_share(each.spots["GW flattened"])) for each in coarse]
-    bottom.plot(at, times, "C0--", label="the same, flattened")
+    top.plot(at, [float(each.area_fraction) for each in flat], "C3--", label="area, flattened waves")
+    times = contact_time_share(whole.spots_per_area * surface.zone)
+    bottom.plot(levels, times, "C0", label="Greenwood-Williamson")
+    times = contact_time_share([each.spots["GW flattened"] for each in coarse])
+    bottom.plot(at, times, "C0--", label="flattened waves")
     bottom.plot(levels, LOAD_SHARE["clarke"].share(levels), "C2-.", label="Clarke, 1 − erf λ")
-    for chosen, filled in ((coarse, True), (fine, False)):
-        grid = f"solved, {65 if filled else 129}² nodes"
-        for colour, what, values in (
-            ("C0", "load", [each.row.load_share for each in chosen]),
-            ("C3", "area", [each.row.area_share for each in chosen]),
-        ):
-            face = colour if filled else "white"
-            _points(top, chosen, values, color=colour, mfc=face)
-            top.plot([], [], "o", color=colour, mfc=face, label=f"{what}, {grid}")
-        values = [each.row.time_share for each in chosen]
-        _points(bottom, chosen, values, color="k", mfc="k" if filled else "white", label=grid)
-    top.set(ylabel="share of the load, of the Hertz zone", ylim=(LEAST, 1.5))
-    bottom.set(
-        xlabel="λ, mean film over undeformed Rq", ylabel="share of time with contact", ylim=(-0.04, 1.04)
-    )
-    bottom.set(xlim=(0.2, 3.15))
+    for nodes, chosen in ((65, coarse), (129, fine)):
+        for colour, what, key in (("C0", "load", "load_share"), ("C3", "area", "area_share")):
+            face = colour if nodes == 65 else "white"
+            _points(top, chosen, [getattr(each.row, key) for each in chosen], color=colour, mfc=face)
+            top.plot([], [], "o", color=colour, mfc=face, label=f"{what}, solved, {nodes}² nodes")
+        face = "k" if nodes == 65 else "white"
+        _points(bottom, chosen, [each.row.time_share for each in chosen], color="k", mfc=face)
+        bottom.plot([], [], "o", color="k", mfc=face, label=f"solved, {nodes}² nodes")
+    top.set(ylabel="share of the load, of the Hertz zone", ylim=(LEAST, 1.0), xlim=(0.3, 3.0))
+    bottom.set(xlabel="λ, mean film over undeformed Rq", ylabel="share of time with contact", ylim=(0, 1))
     for axis in (top, bottom):
-        axis.legend(fontsize=8.5, loc="upper right" if axis is top else "center right")
+        axis.legend(fontsize=9, loc="lower left", bbox_to_anchor=(-0.15, 1.0), ncols=2, frameon=False)
     figure.savefig(FIGURE, dpi=150)
 
 
