@@ -78,7 +78,7 @@ class Posed:
 POSED = (
     *(Posed(30.0, 65, 0.0, film, 6) for film in (3.0, 2.0, 1.5, 1.0, 0.7, 0.5, 0.35)),
     *(Posed(30.0, 129, 0.0, film, 3) for film in (1.0, 0.5, 0.35)),
-    Posed(15.0, 129, 0.0, 1.0, 3),
+    *(Posed(15.0, 129, 0.0, film, 3) for film in (1.5, 1.0)),
     Posed(30.0, 65, 1.0, 0.5, 6),
 )
 
