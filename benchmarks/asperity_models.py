@@ -10,6 +10,7 @@ The models take the numbers of the same surface, and the mean film of the solved
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -196,49 +197,47 @@ def _cell(value: float) -> str:
     return "0" if value == 0.0 else "< 0.0001" if value < LEAST else f"{float(f'{value:.2g}'):g}"
 
 
-def _table(head: str, rows: list[list[str]]) -> list[str]:
-    """Lines of a table from its head and its cells."""
-    names = head.split(" | ")
-    lines = [names, ["---"] * len(names), *rows]
-    return ["| " + " | ".join(line) + " |" for line in lines]
+def _line(cells: Iterable[str]) -> str:
+    return "| " + " | ".join(cells) + " |"
+
+
+def load_line(each: Compared) -> str:
+    """Line of a contact in the table of load shares."""
+    row, shares = each.row, each.shares
+    error = f" ± {_cell(row.load_share_error)}" if row.load_share >= LEAST else ""
+    models = ("GW", "GT", "GW flattened", "Patir-Cheng", "Clarke et al.", "Masjedi-Khonsari")
+    cells = [f"{each.film_parameter:.2f}", f"{each.deformed_parameter:.2f}", _cell(row.load_share) + error]
+    return _line([name_of(row.posed), *cells, *(_cell(shares[name]) for name in models)])
+
+
+def time_line(each: Compared) -> str:
+    """Line of a contact in the table of areas, spots, and shares of time with at least one spot."""
+    row, contacts, spots, names = each.row, each.contacts, each.spots, ("GW", "GW flattened")
+    cells = [
+        row.area_share,
+        *(float(contacts[name].area_fraction) for name in names),
+        row.spots,
+        *(spots[name] for name in names),
+        row.time_share,
+        float(contact_time_share(row.spots)),
+        *(float(contact_time_share(spots[name])) for name in names),
+        each.shares["Clarke et al."],
+    ]
+    return _line([name_of(row.posed), f"{each.film_parameter:.2f}", *map(_cell, cells)])
 
 
 def load_table() -> list[str]:
     """Lines of the table of load shares."""
-    rows = []
-    for each in compared():
-        row, shares = each.row, each.shares
-        error = f" ± {_cell(row.load_share_error)}" if row.load_share >= LEAST else ""
-        models = ("GW", "GT", "GW flattened", "Patir-Cheng", "Clarke et al.", "Masjedi-Khonsari")
-        cells = [
-            f"{each.film_parameter:.2f}",
-            f"{each.deformed_parameter:.2f}",
-            _cell(row.load_share) + error,
-        ]
-        rows.append([name_of(row.posed), *cells, *(_cell(shares[name]) for name in models)])
     head = "surface, nodes | λ | λ deformed | solved | GW | GT | GW flattened | Patir-Cheng | Clarke"
-    return _table(f"{head} | Masjedi-Khonsari", rows)
+    names = [*head.split(" | "), "Masjedi-Khonsari"]
+    return [_line(names), _line(["---"] * len(names)), *map(load_line, compared())]
 
 
 def time_table() -> list[str]:
     """Lines of the table of areas, spots, and shares of time with at least one spot."""
-    rows = []
-    for each in compared():
-        row, contacts, spots = each.row, each.contacts, each.spots
-        names = ("GW", "GW flattened")
-        cells = [
-            row.area_share,
-            *(float(contacts[name].area_fraction) for name in names),
-            row.spots,
-            *(spots[name] for name in names),
-            row.time_share,
-            float(contact_time_share(row.spots)),
-            *(float(contact_time_share(spots[name])) for name in names),
-            each.shares["Clarke et al."],
-        ]
-        rows.append([name_of(row.posed), f"{each.film_parameter:.2f}", *map(_cell, cells)])
     head = "surface, nodes | λ | area: solved | GW | flattened | spots: solved | GW | flattened"
-    return _table(f"{head} | time: solved | of solved spots | GW | flattened | Clarke", rows)
+    names = [*head.split(" | "), "time: solved", "of solved spots", "GW", "flattened", "Clarke"]
+    return [_line(names), _line(["---"] * len(names)), *map(time_line, compared())]
 
 
 def name_of(posed: Posed) -> str:

@@ -75,6 +75,7 @@ class Posed:
         return moving
 
 
+# Thinner films of the short waves take more than two seconds of processor time a step.
 POSED = (
     *(Posed(30.0, 65, 0.0, film, 6) for film in (3.0, 2.0, 1.5, 1.0, 0.7, 0.5, 0.35)),
     *(Posed(30.0, 129, 0.0, film, 3) for film in (1.0, 0.5, 0.35)),
