@@ -6,10 +6,13 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
+from ehlectric.app.figures import over_time
 from ehlectric.arrays import Array
 from ehlectric.cases.result_key import key_of
 from ehlectric.figures.motion.findings import of_history
 from ehlectric.figures.motion.save import figure
+from ehlectric.film.accuracy.moving_patch import MovingFilm
+from ehlectric.film.flow import flow
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.state import State
 from ehlectric.motion.accuracy import run_errors
@@ -98,6 +101,32 @@ def test_every_step_has_what_its_film_has(written):
     assert dataset["spots"].values[34] == 0 < dataset["spots"].values[41]
 
 
+def test_oil_is_kept_where_surfaces_come_into_contact():
+    """Change of the oil of every node by the Couette flow, less what the pressure drives in: nothing is left.
+
+    Oil moves by one node in a step. The masses of cavitated nodes and of those in contact count as well.
+    """
+    contact = TransientContact.of(CASE)
+    moving_film, step = MovingFilm(contact.problem, contact.moving_gap), contact.schedule.step
+    history, mesh = moving_film.start(step), moving_film.film.level.mesh
+    assert step == pytest.approx(mesh.dx)
+    spots = []
+    for _ in range(contact.schedule.steps):
+        earlier, last = history.before.mass, history.now.mass
+        history = moving_film.film.advance(history, step)
+        now = history.now
+        if history.effort.halvings or not now.state.touching.any():
+            continue
+        spots.append(np.count_nonzero(now.state.touching))
+        change = (1.5 * now.mass[3:-1] - 2.0 * last[2:-2] + 0.5 * earlier[1:-3]) / step
+        gap = np.maximum(now.state.thickness, contact.problem.boundary_film)
+        driven = flow(contact.problem.fluid, now.state.oil_pressure, gap, mesh).along.divergence()[2:]
+        flown = np.mean(now.mass[np.abs(mesh.x) < 1.0])
+        assert mesh.dx * np.abs(change - driven).sum() < 1e-6 * flown
+    assert len(spots) > 5
+    assert max(spots) > 1
+
+
 def test_balance_of_the_load_with_asperities(written):
     """Oil and asperities carry the load at all recorded instants, some with a quarter of it in spots."""
     dataset = written[0].result
@@ -139,6 +168,7 @@ def test_the_summary_tables_figures_and_warnings_say_it(written):
     assert "surfaces touch" in of_history(moving_run)
     labels = [ax.get_ylabel() for ax in figure(moving_run, "motion_history.png").axes]
     assert "share [%]" in labels
+    assert "load share of asperities" in [trace["name"] for trace in over_time.history(moving_run)["data"]]
 
 
 def test_a_run_that_never_touches_says_nothing(tmp_path):
@@ -150,6 +180,8 @@ def test_a_run_that_never_touches_says_nothing(tmp_path):
     assert not any("asperit" in row.name or "spot" in row.name for row in run_rows(outcome.summary))
     labels = [ax.get_ylabel() for ax in figure(MotionRun.of(outcome.result), "motion_history.png").axes]
     assert "share [%]" not in labels
+    drawn = over_time.history(MotionRun.of(outcome.result))["data"]
+    assert "load share of asperities" not in [trace["name"] for trace in drawn]
 
 
 # The Hertz zone is covered from T = 6 on.
