@@ -5,6 +5,7 @@ python -m benchmarks.mixed lines --solve     (made and measured surfaces over la
 python -m benchmarks.mixed points --solve    (the same in contacts of a ball)
 python -m benchmarks.mixed grids --solve     (surfaces whose shortest wave has 16 nodes, from grid to grid)
 python -m benchmarks.mixed boundary --solve  (boundary films of 5 to 0.5 nm)
+python -m benchmarks.mixed short             (load share, mean film and time of lines and points in one table)
 python -m benchmarks.mixed cost              (processor time beside that of full films)
 python -m benchmarks.mixed sweep --solve     (one rough ball over speed beside published fits, and a figure)
 
@@ -163,6 +164,8 @@ def percent(share: float | None) -> str:
     """Share in per cent with two digits, without those of a rest."""
     if share is None:
         return ""
+    if share > 0.995:
+        return "100"
     return "0" if share < 5e-5 else f"{100.0 * share:.2g}"
 
 
@@ -193,6 +196,25 @@ def print_robust(contacts: list[Contact], found: dict[str, Record]) -> None:
             row(contact.nodes, contact.name, rq, f"{contact.ratio:g}", *cells(record), *cost)
     done = sum(map(converged, found.values()))
     print(f"\n{done} of {len(found)} converged, {len(contacts) - len(found)} not solved\n")
+
+
+def print_short(contacts: list[Contact], found: dict[str, Record]) -> None:
+    """Load share, mean film and time of every surface and grid in one row."""
+    head("surface", "nodes", *(f"λ {ratio:g}" for ratio in LAMBDAS))
+    for first in contacts:
+        series = [found.get(other.key) for other in contacts if _same_but_speed(first, other)]
+        if first.ratio != LAMBDAS[0] or not any(series):
+            continue
+        entries = []
+        for record in series:
+            if converged(record) and record is not None:
+                film = nanometres(record, "mean_film") or "none"
+                entries.append(f"{percent(record['share'])}, {film}, {record['seconds']:.1f}")
+            else:
+                entries.append("-" if record is None else status(record))
+        kind = "²" if first.point else ""
+        row(first.name, f"{first.nodes}{kind}", *entries)
+    print()
 
 
 def change(now: Record, before: Record | None, key: str) -> str:
@@ -244,11 +266,14 @@ def print_cost(contacts: list[Contact], found: dict[str, Record]) -> None:
             continue
         entries = []
         for each in group[1:]:
-            times = "" if each is None else f"{each['seconds'] / full['seconds']:.1f}"
-            touches = each is not None and each.get("share", 1.0) > 0.0
-            if each is not None and touches:
-                over.append(each["seconds"] / full["seconds"])
-            entries.append(f"**{times}**" if touches else times)
+            if each is None or not converged(each):
+                entries.append("" if each is None else status(each))
+                continue
+            times = each["seconds"] / full["seconds"]
+            touches = each["share"] > 0.0
+            if touches:
+                over.append(times)
+            entries.append(f"**{times:.1f}**" if touches else f"{times:.1f}")
         smooth = f"{full['smooth_seconds']:.2f}"
         row(contact.nodes, contact.name, f"{full['ratio']:g}, {full['seconds']:.2f}", smooth, *entries)
     least = np.array(over)
@@ -303,7 +328,7 @@ def draw(grids_: dict[int, list[Record | None]]) -> None:
     mpl.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 4.2), layout="constrained", sharex=True)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 4.6), layout="constrained", sharex=True)
     fine = np.geomspace(SWEPT_LAMBDAS[0], SWEPT_LAMBDAS[-1], 200)
     for key, share in load_shares(fine).items():
         left.semilogx(fine, share, lw=1.2, label=LOAD_SHARE[key].name)
@@ -319,15 +344,20 @@ def draw(grids_: dict[int, list[Record | None]]) -> None:
         films = [film for film in films if "mean_film" in film]
         at = [film["ratio"] for film in films]
         right.loglog(at, [film["mean_film"] / rq for film in films], f"C0{style}", lw=1.6)
-    label = "λ, film of smooth surfaces over Rq"
+    label = "λ, smooth film over Rq"
     left.set(xlabel=label, ylabel="share of the load on asperities", ylim=(0.0, 1.02))
-    left.set_title("Solved asperities carry less than fits say", fontsize=11)
-    left.legend(fontsize=8, framealpha=0.9)
+    left.set_title("Solved asperities carry\nless than fits say", fontsize=11)
+    figure.legend(loc="outside lower center", ncols=3, fontsize=9)
     right.set(xlabel=label, ylim=(1e-4, 10.0))
-    right.set_title("Finer grids have fewer spots in the same film", fontsize=11)
-    right.text(0.25, 0.9, "mean film outside the spots over Rq", color="C0", ha="center", fontsize=9)
-    right.text(0.3, 2e-3, "part of the Hertz\nzone that touches", color="C3", fontsize=9)
+    right.set_title("Finer grids have\nfewer spots", fontsize=11)
+    right.text(0.3, 1.2, "mean film outside\nthe spots over Rq", color="C0", ha="right", fontsize=10)
+    right.text(0.3, 2e-3, "part of the Hertz\nzone in contact", color="C3", fontsize=10)
     figure.savefig(FIGURE, dpi=150)
+
+
+def every_surface() -> list[Contact]:
+    """Every surface over lambda, in line and point contacts."""
+    return robust(point=False, grids_=LINE_GRIDS) + robust(point=True, grids_=POINT_GRIDS)
 
 
 PARTS: dict[str, tuple[Callable[[], list[Contact]], Callable[[list[Contact], dict[str, Record]], None]]] = {
@@ -335,10 +365,8 @@ PARTS: dict[str, tuple[Callable[[], list[Contact]], Callable[[list[Contact], dic
     "points": (lambda: robust(point=True, grids_=POINT_GRIDS), print_robust),
     "grids": (grid_series, print_grids),
     "boundary": (boundary_series, print_boundary),
-    "cost": (
-        lambda: robust(point=False, grids_=LINE_GRIDS) + robust(point=True, grids_=POINT_GRIDS),
-        print_cost,
-    ),
+    "short": (every_surface, print_short),
+    "cost": (every_surface, print_cost),
     "sweep": (sweep_series, print_sweep),
 }
 
