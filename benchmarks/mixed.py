@@ -1,82 +1,41 @@
 """Films whose surfaces touch: which converge, at what cost, and what does not depend on the grid.
 
-python -m benchmarks.mixed robust            (line contacts on 3201 nodes)
-python -m benchmarks.mixed robust --nodes 12801
-python -m benchmarks.mixed robust --point --nodes 257
-python -m benchmarks.mixed boundary          (boundary films from 5 to 0.5 nm)
-python -m benchmarks.mixed grids             (line contact on 801 to 12801 nodes, point on 65 to 257)
-python -m benchmarks.mixed cost              (mixed film beside the full film of the same contact)
-python -m benchmarks.mixed sweep --figure    (speeds of one contact beside published fits, and their figure)
+python -m benchmarks.mixed                   (all tables and the figure, from the films of benchmarks/data)
+python -m benchmarks.mixed lines --solve     (made and measured surfaces over lambda in line contacts)
+python -m benchmarks.mixed points --solve    (the same in contacts of a ball)
+python -m benchmarks.mixed grids --solve     (surfaces whose shortest wave has 16 nodes, from grid to grid)
+python -m benchmarks.mixed boundary --solve  (boundary films of 5 to 0.5 nm)
+python -m benchmarks.mixed short             (load share, mean film and time of lines and points in one table)
+python -m benchmarks.mixed cost              (processor time beside that of full films)
+python -m benchmarks.mixed sweep --solve     (one rough ball over speed beside published fits, and a figure)
 
-A solution that takes more processor time than ``--limit`` is given up, and the table says so.
+``--solve`` solves the films that the file of results does not hold, and adds each to it; with ``--again`` it
+solves all of them once more. Without it what is missing stays empty. A film that takes more processor time
+than ``--limit`` is given up, and the table says so.
 """
 
 from __future__ import annotations
 
 import argparse
-import signal
-import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tests.helpers.mixed_films import (
-    MixedFilm,
-    at_film,
-    gaussian,
-    mixed_film,
-    rough_line,
-    rough_point,
-    sinusoid,
-)
+from tests.helpers.mixed_films import at_film, gaussian, rough_point, sinusoid
 from tests.helpers.places import DEKTAK, SURFACES
 
-from ehlectric import Case
+from benchmarks.mixed_store import Contact, Record, composite_roughness, records, tidy
 from ehlectric.asperities.shares import LOAD_SHARE, load_shares
 from ehlectric.contact.check import check_case
-from ehlectric.errors import InputError
 from ehlectric.formulas.film_mixed import RoughBodies, masjedi_khonsari_point
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "mixed_sweep.png"
 
-LAMBDAS = (3.0, 1.0, 0.3, 0.1, 0.03, 0.01)
+LAMBDAS = (3.0, 1.0, 0.3, 0.1, 0.03)
 
 # Hardness of bearing steel of 700 HV, for the formula of Masjedi and Khonsari.
 HARDNESS = 7e9
-
-
-class GivenUpError(Exception):
-    """A solution took more processor time than it may."""
-
-
-def timed(case: Case, limit: float) -> tuple[MixedFilm | None, float]:
-    """Film of a case, None if it was given up, and its processor time [s]."""
-
-    def give_up(*_: Any) -> None:
-        raise GivenUpError
-
-    signal.signal(signal.SIGPROF, give_up)
-    started = time.process_time()
-    signal.setitimer(signal.ITIMER_PROF, limit)
-    try:
-        return mixed_film(case), time.process_time() - started
-    except GivenUpError:
-        return None, time.process_time() - started
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-
-
-def composite_roughness(case: Case) -> float:
-    """Root mean square height of the sum of both surfaces over the Hertz zone [m]."""
-    prepared = check_case(case)
-    problem = prepared.kind.film_problem(prepared.case, prepared.conditions, prepared.rough)
-    x = np.linspace(-1.0, 1.0, 2001 if problem.width is None else 201)
-    y = np.zeros(1) if problem.width is None else x
-    assert problem.added_gap is not None
-    heights = problem.added_gap(x, y)
-    inside = x[:, np.newaxis] ** 2 + y**2 <= 1.0
-    return float(np.std(heights[inside])) * problem.scales.thickness
 
 
 def _measured(path: Path, **steps: Any) -> dict[str, Any]:
@@ -109,151 +68,226 @@ def surfaces(*, point: bool) -> dict[str, dict[str, Any]]:
     }
 
 
-def contact(table: dict[str, Any], nodes: int, *, point: bool, speed: float = 0.1) -> Case:
-    """Line or point contact with one rough surface."""
-    make = rough_point if point else rough_line
-    return make(table, nodes=nodes, speed=speed)
-
-
-HEAD = "status | steps | Krylov | CPU s | share % | area % | film outside nm | oil lost, made, made outside %"
-
-
-def cells(film: MixedFilm | None, seconds: float) -> list[str]:
-    """Key figures of one film."""
-    if film is None:
-        return ["given up", "", "", f"{seconds:.0f}", "", "", "", ""]
-    whole = 2.0 if film.mesh.y.size == 1 else 1.5 * film.problem.geometry.load
+def robust(*, point: bool, grids_: Iterable[int]) -> list[Contact]:
+    """Every surface over lambda and grids."""
+    named = surfaces(point=point).items()
     return [
-        film.last.status,
-        str(film.steps),
-        str(film.krylov),
-        f"{seconds:.1f}",
-        f"{100.0 * film.share:.2f}",
-        f"{100.0 * film.area / whole:.2f}",
-        f"{1e9 * film.film_outside:.2f}",
-        ", ".join(f"{100.0 * part:.2g}" for part in film.oil),
+        Contact(name, point, table, nodes, ratio)
+        for nodes in grids_
+        for name, table in named
+        for ratio in LAMBDAS
     ]
 
 
-def row(*entries: Any) -> None:
-    """Print one row of a table at once, since the next one may take minutes."""
-    print("| " + " | ".join(map(str, entries)) + " |", flush=True)
+LINE_GRIDS, POINT_GRIDS = (3201, 12_801), (65, 129, 257)
+
+# Surfaces whose shortest wave has at least sixteen nodes on one of the coarser grids.
+LINE_SHORTEST, POINT_SHORTEST = 13e-6, 60e-6
 
 
-def robust(options: argparse.Namespace) -> None:
-    """Surfaces over lambda, the central film of the formula over the roughness."""
-    row("surface", "Rq nm", "lambda", "speed m/s", HEAD)
-    done = converged = 0
-    for name, table in surfaces(point=options.point).items():
-        if options.only and options.only not in name:
-            continue
-        try:
-            case = contact(table, options.nodes, point=options.point)
-            rq = composite_roughness(case)
-        except InputError as error:
-            row(name, "refused", "", "", error)
-            continue
-        for ratio in options.ratios or LAMBDAS:
-            posed = at_film(case, ratio * rq)
-            film, seconds = timed(posed, options.limit)
-            done, converged = done + 1, converged + (film is not None and film.converged)
-            speed = posed.contact.entrainment_speed
-            row(name, f"{1e9 * rq:.1f}", f"{ratio:g}", f"{speed:.3g}", *cells(film, seconds))
-    print(f"\n{converged} of {done} converged")
+def resolved(*, point: bool) -> dict[str, dict[str, Any]]:
+    """Tables of the surfaces from grid to grid: measured ones without their waves that are too short."""
+    short = POINT_SHORTEST if point else LINE_SHORTEST
+    tables = surfaces(point=point)
+    found = {name: table | {"cutoff_short": short} for name, table in tables.items() if "file" in table}
+    if point:
+        return {
+            "asperity 100 nm": {"generator": "asperity", "height": 100e-9, "width": 70e-6},
+            "sinusoid 70 nm": sinusoid(100e-9, 70e-6),
+            "gaussian 100 nm": gaussian(100e-9, 34e-6, cutoff_short=short),
+        } | found
+    made = {name: tables[name] for name in ("asperity 200 nm", "sinusoid 140 nm", "gaussian 200 nm")}
+    return made | found
 
 
-# Contacts whose shortest wave has at least sixteen nodes on the second grid.
-GRIDS: dict[str, tuple[bool, dict[str, Any], tuple[float, ...]]] = {
-    "line gaussian": (False, gaussian(200e-9, 40e-6, seed=4, cutoff_short=20e-6), (0.3, 0.1, 0.03)),
-    "line sinusoid": (False, sinusoid(200e-9, 100e-6), (0.3, 0.1, 0.03)),
-    "point gaussian": (True, gaussian(100e-9, 34e-6, cutoff_short=60e-6), (0.3, 0.1, 0.03)),
-}
+def grid_series() -> list[Contact]:
+    """Contacts of ``resolved`` on their grids."""
+    return [
+        Contact(name, point, table, nodes, ratio)
+        for point, grids_ in ((False, (801, 1601, 3201, 6401, 12_801)), (True, POINT_GRIDS))
+        for name, table in resolved(point=point).items()
+        for ratio in (0.3, 0.1, 0.03)
+        for nodes in grids_
+    ]
 
 
-def grids(options: argparse.Namespace) -> None:
-    """Load share, area and film from grid to grid."""
-    row("contact", "lambda", "nodes", "per shortest wave", HEAD)
-    for name, (point, table, ratios) in GRIDS.items():
-        if options.only and options.only not in name:
-            continue
-        for ratio in options.ratios or ratios:
-            for nodes in (65, 129, 257) if point else (401, 801, 1601, 3201, 6401):
-                if nodes > options.most:
-                    continue
-                case = contact(table, nodes, point=point)
-                case = at_film(case, ratio * composite_roughness(case))
-                prepared = check_case(case)
-                spacing = max(prepared.kind.spacings(case, prepared.conditions))
-                wave = table.get("cutoff_short", table.get("wavelength"))
-                row(name, f"{ratio:g}", nodes, f"{wave / spacing:.0f}", *cells(*timed(case, options.limit)))
-
-
-def boundary(options: argparse.Namespace) -> None:
-    """Load share over the thickness of the boundary film."""
-    row("contact", "lambda", "boundary film nm", HEAD)
-    for point, table, nodes in (
-        (False, gaussian(200e-9, 20e-6, seed=4), 1601),
-        (True, gaussian(100e-9, 30e-6), 65),
-    ):
-        for ratio in (0.1, 0.03, 0.01):
-            for nanometres in (5.0, 2.0, 1.0, 0.5):
-                case = contact(table, nodes, point=point)
-                case = at_film(case, ratio * composite_roughness(case))
-                case = case.replace({"contact.boundary_film": 1e-9 * nanometres})
-                what = f"point {nodes}" if point else f"line {nodes}"
-                row(what, f"{ratio:g}", f"{nanometres:g}", *cells(*timed(case, options.limit)))
-
-
-def cost(options: argparse.Namespace) -> None:
-    """Mixed films beside the full film of the same surfaces at a speed at which they do not touch."""
-    row("contact", "lambda", "full film: lambda, CPU s", "ratio", HEAD)
-    chosen = (
-        (False, "gaussian 200 nm", 3201),
-        (False, "sinusoid 140 nm", 3201),
-        (True, "gaussian 100 nm", 129),
-    )
-    for point, name, nodes in chosen:
-        case = contact(surfaces(point=point)[name], nodes, point=point)
-        rq = composite_roughness(case)
-        full, least = None, 2.0
-        while full is None or full.touching.any() or not full.converged:
-            full, of_full = timed(at_film(case, least * rq), options.limit)
-            least *= 1.5
-        for ratio in LAMBDAS[1:]:
-            film, seconds = timed(at_film(case, ratio * rq), options.limit)
-            what = f"{name} {nodes}"
-            row(
-                what,
-                f"{ratio:g}",
-                f"{least / 1.5:.2g}, {of_full:.1f}",
-                f"{seconds / of_full:.1f}",
-                *cells(film, seconds),
-            )
+def boundary_series() -> list[Contact]:
+    """Two contacts over the thickness of the boundary film."""
+    return [
+        Contact(name, point, table, nodes, ratio, 1e-9 * nanometres)
+        for name, point, table, nodes in (
+            ("gaussian 200 nm", False, gaussian(200e-9, 20e-6, seed=4), 1601),
+            ("gaussian 100 nm", True, gaussian(100e-9, 30e-6), 65),
+        )
+        for ratio in (0.1, 0.03, 0.01)
+        for nanometres in (5.0, 2.0, 1.0, 0.5)
+    ]
 
 
 # Rough ball of the sweep over speed, and the values of lambda.
 SWEPT = gaussian(100e-9, 34e-6)
-SWEPT_LAMBDAS = np.geomspace(0.01, 3.0, 12)
-
-# Lambda, and film or None, of every speed on one grid.
-Swept = list[tuple[float, MixedFilm | None]]
+SWEPT_LAMBDAS = tuple(float(ratio) for ratio in np.geomspace(0.01, 3.0, 12))
 
 
-def swept(nodes: int, limit: float) -> Swept:
-    """Films of the rough ball over lambda on a grid."""
-    case = contact(SWEPT, nodes, point=True)
-    rq, found = composite_roughness(case), []
-    for ratio in SWEPT_LAMBDAS:
-        posed = at_film(case, float(ratio) * rq)
-        film, seconds = timed(posed, limit)
-        row(nodes, f"{ratio:.3g}", f"{posed.contact.entrainment_speed:.3g}", *cells(film, seconds))
-        found.append((float(ratio), film))
-    return found
+def sweep_series() -> list[Contact]:
+    """One rough ball over speed, on three grids."""
+    return [
+        Contact("swept", point=True, table=SWEPT, nodes=nodes, ratio=ratio)
+        for nodes in POINT_GRIDS
+        for ratio in SWEPT_LAMBDAS
+    ]
+
+
+def row(*entries: Any) -> None:
+    """Print one row of a table."""
+    print("| " + " | ".join(map(str, entries)) + " |", flush=True)
+
+
+def head(*names: str) -> None:
+    """Print the head of a table."""
+    row(*names)
+    row(*("---" for _ in names))
+
+
+def status(record: Record | None) -> str:
+    """Whether a film converged, or why there is none."""
+    if record is None:
+        return "not solved"
+    if record["status"] == "given up":
+        return f"given up after {record['limit']:.0f} s"
+    if record["status"] == "stalled":
+        return f"stalled at {record['residual']:.0e}"
+    return str(record["status"])
+
+
+def percent(share: float | None) -> str:
+    """Share in per cent with two digits, without those of a rest."""
+    if share is None:
+        return ""
+    if share > 0.995:
+        return "100"
+    return "0" if share < 5e-5 else f"{100.0 * share:.2g}"
+
+
+def nanometres(record: Record, key: str) -> str:
+    """Film in nm."""
+    return f"{1e9 * record[key]:.3g}" if key in record else ""
+
+
+def cells(record: Record | None) -> list[str]:
+    """Figures of a film in the tables over lambda."""
+    if record is None or record["status"] not in ("converged", "stalled"):
+        return [status(record), "", "", "", "", ""]
+    films = [nanometres(record, key) for key in ("mean_film", "median_film")]
+    field = f"{1e-6 * record['mean_field']:.3g}" if "mean_field" in record else ""
+    return [status(record), percent(record["share"]), percent(record["area"]), *films, field]
+
+
+FIGURES = ("status", "load share %", "area %", "mean nm", "median nm", "field V/µm")
+
+
+def print_robust(contacts: list[Contact], found: dict[str, Record]) -> None:
+    """Surfaces over lambda: convergence, cost and key figures."""
+    head("nodes", "surface", "Rq nm", "λ", *FIGURES, "steps", "CPU s")
+    for contact in contacts:
+        record = found.get(contact.key)
+        if record is not None:
+            rq, cost = f"{1e9 * record['rq']:.0f}", (record.get("steps", ""), f"{record['seconds']:.1f}")
+            row(contact.nodes, contact.name, rq, f"{contact.ratio:g}", *cells(record), *cost)
+    done = sum(map(converged, found.values()))
+    print(f"\n{done} of {len(found)} converged, {len(contacts) - len(found)} not solved\n")
+
+
+def print_short(contacts: list[Contact], found: dict[str, Record]) -> None:
+    """Load share, mean film and time of every surface and grid in one row."""
+    head("surface", "nodes", *(f"λ {ratio:g}" for ratio in LAMBDAS))
+    for first in contacts:
+        series = [found.get(other.key) for other in contacts if _same_but_speed(first, other)]
+        if first.ratio != LAMBDAS[0] or not any(series):
+            continue
+        entries = []
+        for record in series:
+            if converged(record) and record is not None:
+                film = nanometres(record, "mean_film") or "none"
+                entries.append(f"{percent(record['share'])}, {film}, {record['seconds']:.1f}")
+            else:
+                entries.append("-" if record is None else status(record))
+        kind = "²" if first.point else ""
+        row(first.name, f"{first.nodes}{kind}", *entries)
+    print()
+
+
+def change(now: Record, before: Record | None, key: str) -> str:
+    """Change of a figure from the coarser grid in per cent."""
+    if before is None or not before.get(key) or key not in now:
+        return ""
+    return f"{100.0 * (now[key] / before[key] - 1.0):+.1f}"
+
+
+def print_grids(contacts: list[Contact], found: dict[str, Record]) -> None:
+    """Key figures from grid to grid, with their changes."""
+    keys = ("share", "area", "mean_film", "median_film", "mean_field")
+    changes = ("share", "area", "mean", "median", "field")
+    head("surface", "λ", "nodes", "per wave", *FIGURES, *(f"{name} ±%" for name in changes))
+    before: Record | None = None
+    for contact in contacts:
+        record = found.get(contact.key)
+        if record is None:
+            continue
+        if before is not None and (before["name"], before["ratio"]) != (contact.name, contact.ratio):
+            before = None
+        off = [change(record, before, key) for key in keys] if converged(record) else [""] * len(keys)
+        surface = f"{'point' if contact.point else 'line'} {contact.name}"
+        wave = f"{record['per_wave']:.0f}"
+        row(surface, f"{contact.ratio:g}", contact.nodes, wave, *cells(record), *off)
+        before = record if converged(record) else None
+    print()
+
+
+def print_boundary(contacts: list[Contact], found: dict[str, Record]) -> None:
+    """Key figures over the boundary film."""
+    head("contact", "λ", "boundary film nm", *FIGURES)
+    for contact in contacts:
+        kind = f"{'point' if contact.point else 'line'} {contact.nodes}"
+        row(kind, f"{contact.ratio:g}", f"{1e9 * contact.boundary_film:g}", *cells(found.get(contact.key)))
+    print()
+
+
+def print_cost(contacts: list[Contact], found: dict[str, Record]) -> None:
+    """Times of films that touch over that of the full film of the same surface on the same grid."""
+    head("nodes", "surface", "full film λ, s", "smooth film s", *(f"λ {ratio:g}" for ratio in LAMBDAS[1:]))
+    over: list[float] = []
+    for contact in contacts:
+        if contact.ratio != LAMBDAS[0]:
+            continue
+        group = [found.get(other.key) for other in contacts if _same_but_speed(contact, other)]
+        full = next((each for each in group if each is not None and converged(each)), None)
+        if full is None or full["share"] > 0.0:
+            continue
+        entries = []
+        for each in group[1:]:
+            if each is None or not converged(each):
+                entries.append("" if each is None else status(each))
+                continue
+            times = each["seconds"] / full["seconds"]
+            touches = each["share"] > 0.0
+            if touches:
+                over.append(times)
+            entries.append(f"**{times:.1f}**" if touches else f"{times:.1f}")
+        smooth = f"{full['smooth_seconds']:.2f}"
+        row(contact.nodes, contact.name, f"{full['ratio']:g}, {full['seconds']:.2f}", smooth, *entries)
+    least = np.array(over)
+    print(f"\nbold: surfaces touch; {np.sum(least <= 3.0)} of {least.size} at most three times, ", end="")
+    print(f"median {np.median(least):.1f}, most {least.max():.0f}\n" if least.size else "none\n")
+
+
+def _same_but_speed(contact: Contact, other: Contact) -> bool:
+    return (contact.name, contact.point, contact.nodes) == (other.name, other.point, other.nodes)
 
 
 def formula_share(ratio: float) -> float | None:
     """Load share of the rough ball by the formula of Masjedi and Khonsari."""
-    case = contact(SWEPT, 65, point=True)
+    case = rough_point(SWEPT, nodes=65, speed=0.1)
     rq = composite_roughness(case)
     conditions = check_case(at_film(case, ratio * rq)).conditions
     return masjedi_khonsari_point(
@@ -261,100 +295,120 @@ def formula_share(ratio: float) -> float | None:
     ).asperity_share
 
 
-def sweep(options: argparse.Namespace) -> None:
-    """One rough ball over speed on several grids, beside published fits."""
-    row("nodes", "lambda", "speed m/s", HEAD)
-    grids_ = {nodes: swept(nodes, options.limit) for nodes in (65, 129, 257) if nodes <= options.most}
-    print()
-    row(
-        "lambda",
-        *(f"solved, {nodes}" for nodes in grids_),
-        "Masjedi-Khonsari",
-        *(law.name for law in LOAD_SHARE.values()),
-    )
-    laws = load_shares(SWEPT_LAMBDAS)
+def print_sweep(contacts: list[Contact], found: dict[str, Record]) -> None:
+    """One rough ball over speed beside published fits, and the figure."""
+    grids_ = {n: [found.get(c.key) for c in contacts if c.nodes == n] for n in POINT_GRIDS}
+    grids_ = {nodes: series for nodes, series in grids_.items() if any(map(converged, series))}
+    laws = load_shares(np.array(SWEPT_LAMBDAS))
+    names = [law.name for law in LOAD_SHARE.values()]
+    head("λ", *(f"solved, {nodes}²" for nodes in grids_), "Masjedi-Khonsari", *names)
     for k, ratio in enumerate(SWEPT_LAMBDAS):
-        films = [found[k][1] for found in grids_.values()]
-        solved = ["" if film is None or not film.converged else f"{film.share:.3g}" for film in films]
-        known = formula_share(float(ratio))
-        formula = "" if known is None else f"{known:.3g}"
-        row(f"{ratio:.3g}", *solved, formula, *(f"{law[k]:.3g}" for law in laws.values()))
-    if options.figure:
-        draw(grids_)
+        columns = [series[k] for series in grids_.values()]
+        solved = [f"{each['share']:.2g}" if converged(each) else status(each) for each in columns]
+        known = formula_share(ratio)
+        formula = "" if known is None else f"{known:.2g}"
+        row(f"{ratio:.2g}", *solved, formula, *(f"{law[k]:.2g}" for law in laws.values()))
+    for nodes, series in grids_.items():
+        shares = np.array([each["share"] for each in series if converged(each)])
+        rises = np.sum(np.diff(shares) > 0.0)
+        print(f"\n{nodes}²: {shares.size} of {len(series)} converged, {rises} rises of the share with speed")
+    print()
+    draw(grids_)
 
 
-def draw(grids_: dict[int, Swept]) -> None:
+def converged(record: Record | None) -> bool:
+    """Whether there is a converged film."""
+    return record is not None and record["status"] == "converged"
+
+
+def draw(grids_: dict[int, list[Record | None]]) -> None:
     """Share, area and film over lambda."""
     import matplotlib as mpl
 
     mpl.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 4.6), layout="constrained", sharex=True)
     fine = np.geomspace(SWEPT_LAMBDAS[0], SWEPT_LAMBDAS[-1], 200)
     for key, share in load_shares(fine).items():
-        left.semilogx(fine, share, lw=0.9, label=LOAD_SHARE[key].name)
+        left.semilogx(fine, share, lw=1.2, label=LOAD_SHARE[key].name)
     known = [(ratio, formula_share(ratio)) for ratio in map(float, fine[::5])]
     given = np.array([(ratio, share) for ratio, share in known if share is not None])
-    left.semilogx(given[:, 0], given[:, 1], "C7--", lw=1.2, label="Masjedi-Khonsari")
-    rq = composite_roughness(contact(SWEPT, 65, point=True))
-    for (nodes, found), style in zip(grids_.items(), ("k:", "k--", "k-"), strict=False):
-        solved = [(ratio, film) for ratio, film in found if film is not None and film.converged]
-        at, films = [ratio for ratio, _ in solved], [film for _, film in solved]
-        whole = 1.5 * films[0].problem.geometry.load
-        left.semilogx(
-            at, [film.share for film in films], style, marker="o", ms=3, label=f"solved, {nodes} nodes"
-        )
-        label = f"{nodes} nodes" if nodes == max(grids_) else None
-        right.loglog(
-            at,
-            [max(film.area / whole, 1e-5) for film in films],
-            f"C3{style[1:]}",
-            label=label and f"area of spots, {label}",
-        )
-        right.loglog(
-            at,
-            [film.film_outside / rq for film in films],
-            f"C0{style[1:]}",
-            label=label and f"gap outside them over Rq, {label}",
-        )
-    left.set(
-        xlabel="λ, film of smooth surfaces over Rq", ylabel="share of the load on asperities", ylim=(0, 1.02)
-    )
-    left.set_title("The finer the grid, the less touches", fontsize=10)
-    left.legend(fontsize=7)
-    right.set(xlabel="λ, film of smooth surfaces over Rq", ylim=(1e-4, 10.0))
-    right.set_title("The gap outside the spots differs less", fontsize=10)
-    right.legend(fontsize=7)
+    left.semilogx(given[:, 0], given[:, 1], "C7--", lw=1.6, label="Masjedi-Khonsari")
+    for (nodes, series), style in zip(grids_.items(), (":", "--", "-"), strict=False):
+        films = [each for each in series if each is not None and converged(each)]
+        at, rq = [film["ratio"] for film in films], films[0]["rq"]
+        drawn = {"ls": style, "lw": 1.6, "marker": "o", "ms": 3.5, "label": f"solved, {nodes}² nodes"}
+        left.semilogx(at, [film["share"] for film in films], color="k", **drawn)
+        right.loglog(at, [max(film["area"], 1e-9) for film in films], f"C3{style}", lw=1.6)
+        films = [film for film in films if "mean_film" in film]
+        at = [film["ratio"] for film in films]
+        right.loglog(at, [film["mean_film"] / rq for film in films], f"C0{style}", lw=1.6)
+    label = "λ, smooth film over Rq"
+    left.set(xlabel=label, ylabel="share of the load on asperities", ylim=(0.0, 1.02))
+    left.set_title("Solved asperities carry\nless than fits say", fontsize=11)
+    figure.legend(loc="outside lower center", ncols=3, fontsize=9)
+    right.set(xlabel=label, ylim=(1e-4, 10.0))
+    right.set_title("Finer grids have\nfewer spots", fontsize=11)
+    right.text(0.3, 1.2, "mean film outside\nthe spots over Rq", color="C0", ha="right", fontsize=10)
+    right.text(0.3, 2e-3, "part of the Hertz\nzone in contact", color="C3", fontsize=10)
     figure.savefig(FIGURE, dpi=150)
 
 
-RUNS: dict[str, Callable[[argparse.Namespace], None]] = {
-    "robust": robust,
-    "grids": grids,
-    "boundary": boundary,
-    "cost": cost,
-    "sweep": sweep,
+def every_surface() -> list[Contact]:
+    """Every surface over lambda, in line and point contacts."""
+    return robust(point=False, grids_=LINE_GRIDS) + robust(point=True, grids_=POINT_GRIDS)
+
+
+PARTS: dict[str, tuple[Callable[[], list[Contact]], Callable[[list[Contact], dict[str, Record]], None]]] = {
+    "lines": (lambda: robust(point=False, grids_=LINE_GRIDS), print_robust),
+    "points": (lambda: robust(point=True, grids_=POINT_GRIDS), print_robust),
+    "grids": (grid_series, print_grids),
+    "boundary": (boundary_series, print_boundary),
+    "short": (every_surface, print_short),
+    "cost": (every_surface, print_cost),
+    "sweep": (sweep_series, print_sweep),
 }
 
 
+def chosen(contacts: list[Contact], options: argparse.Namespace) -> list[Contact]:
+    """Contacts that the options leave."""
+    return [
+        contact
+        for contact in contacts
+        if options.only in contact.name
+        and (not options.nodes or contact.nodes in options.nodes)
+        and (not options.ratios or contact.ratio in options.ratios)
+    ]
+
+
 def main() -> None:
-    """Print the tables that are asked for."""
+    """Solve and print the tables that are asked for."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("run", choices=RUNS, help="what to measure")
-    parser.add_argument("--nodes", type=int, default=3201, help="nodes along entrainment")
-    parser.add_argument("--point", action="store_true", help="point contacts")
+    parser.add_argument("parts", nargs="*", choices=[*PARTS, []], help="what to show; all if none is given")
+    parser.add_argument("--solve", action="store_true", help="solve what the file of results does not hold")
+    parser.add_argument("--again", action="store_true", help="with --solve, solve all once more")
+    parser.add_argument("--tidy", action="store_true", help="drop what was solved again from the file")
     parser.add_argument("--limit", type=float, default=120.0, help="processor time of one film [s]")
-    parser.add_argument(
-        "--most", type=int, default=100_000, help="largest number of nodes of a series of grids"
-    )
-    parser.add_argument("--only", default="", help="surfaces or contacts whose names contain this")
-    parser.add_argument("--ratios", type=float, nargs="*", help="values of lambda in place of the usual ones")
-    parser.add_argument("--figure", action="store_true", help="draw the figure of the sweep")
+    parser.add_argument("--nodes", type=int, nargs="*", help="grids to solve in place of all")
+    parser.add_argument("--ratios", type=float, nargs="*", help="values of lambda to solve in place of all")
+    parser.add_argument("--only", default="", help="surfaces to solve, whose names contain this")
     options = parser.parse_args()
-    RUNS[options.run](options)
+    for part in options.parts or PARTS:
+        contacts, show = PARTS[part][0](), PARTS[part][1]
+        if options.solve:
+
+            def told(record: Record) -> None:
+                row(record["nodes"], record["name"], record["ratio"], *cells(record), record["seconds"])
+
+            left = chosen(contacts, options)
+            records(left, limit=options.limit, solve=True, again=options.again, told=told)
+            continue
+        show(contacts, records(contacts, limit=options.limit, solve=False))
+    if options.tidy:
+        tidy()
 
 
 if __name__ == "__main__":
