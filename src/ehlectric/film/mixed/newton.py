@@ -92,7 +92,9 @@ def mixed_newton(
             progress(level.nodes, len(steps), now.norm)
         if now.norm < 0.5 * best:
             best, found = now.norm, len(steps)
-        before, step = now.norm, newton_step(fluid, levels, state, now, asperities, damping, before)
+        close = linear_tolerance(now.norm, before, 0.0)
+        before = now.norm
+        step = newton_step(fluid, levels, state, now, asperities, close, damping)
         steps.append(step.record)
         state, assessed = step.state, step.now
         if not np.isfinite(assessed.norm):
@@ -133,8 +135,8 @@ def newton_step(
     state: State,
     now: Touching,
     asperities: Asperities,
+    close: float,
     damping: float = 0.0,
-    before: float = np.inf,
 ) -> Stepped:
     """Film after one Newton step on the first of ``levels``.
 
@@ -150,10 +152,10 @@ def newton_step(
         Residual of this film.
     asperities : Asperities
         Boundary film and hardness.
+    close : float
+        Relative tolerance of the linear system.
     damping : float
         Damping of the step: the length dX over the way that oil goes in the time that it stands for.
-    before : float
-        Residual one step earlier, from which follows how closely the linear system is solved.
 
     Returns
     -------
@@ -163,7 +165,7 @@ def newton_step(
     level = levels[0]
     state = projected(fluid, state, now.contact)
     jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
-    step = _direction(fluid, jacobian, state, now, linear_tolerance(now.norm, before, 0.0))
+    step = _direction(fluid, jacobian, state, now, close)
     length = _length(level, now, step, asperities.boundary_film)
     state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
     record = NewtonStep(level.nodes, now.norm, step.krylov)
