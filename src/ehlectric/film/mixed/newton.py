@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,7 +24,7 @@ _CLOSING, _LEAST_STEP = 0.5, 0.05
 
 # Residual of the oil where surfaces touch, a pressure over p_h, that is small enough: it does not move the
 # gap.
-_OIL_TOLERANCE = 1e-6
+OIL_TOLERANCE = 1e-6
 
 # Largest number of GMRES iterations per Newton step.
 _KRYLOV_LIMIT = 100
@@ -86,31 +87,89 @@ def mixed_newton(
     now = assess_touching(fluid, level, state, asperities)
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
-    while len(steps) < min(max_iterations, found + _PATIENCE) and not _solved(now, tolerance):
+    while len(steps) < min(max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
         if now.norm < 0.5 * best:
             best, found = now.norm, len(steps)
-        state = projected(fluid, state, now.contact)
         close = linear_tolerance(now.norm, before, 0.0)
-        jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
-        step = _direction(fluid, jacobian, state, now, close)
         before = now.norm
-        length = _length(level, now, step, asperities.boundary_film)
-        steps.append(NewtonStep(level.nodes, now.norm, step.krylov))
-        state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
-        assessed = assess_touching(fluid, level, state, asperities)
+        step = newton_step(fluid, levels, state, now, asperities, close, damping)
+        steps.append(step.record)
+        state, assessed = step.state, step.now
         if not np.isfinite(assessed.norm):
-            return _solution(level, state, assessed, steps, "diverged")
-        better = assessed.norm < now.norm and length > _LONG
+            return grid_solution(level, state, assessed, steps, "diverged")
+        better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         damping = damping if assessed.norm > _NEAR else 0.0
         now = assessed
-    status: Status = "converged" if _solved(now, tolerance) else "stalled"
     state = projected(fluid, state, now.contact)
-    # The gap of flattened asperities is that of the boundary film.
-    flattened = replace(state, thickness=np.where(now.plastic, now.thickness, state.thickness))
-    return _solution(level, flattened, now, steps, status)
+    return grid_solution(level, state, now, steps, "converged" if is_solved(now, tolerance) else "stalled")
+
+
+@dataclass(frozen=True)
+class Stepped:
+    """Film after one Newton step.
+
+    Attributes
+    ----------
+    state : State
+        Pressures, H00 and gap.
+    now : Touching
+        Residual of the state.
+    length : float
+        Part of the full Newton step that was taken.
+    record : NewtonStep
+        Residual before the step, and its GMRES iterations.
+    """
+
+    state: State
+    now: Touching
+    length: float
+    record: NewtonStep
+
+
+def newton_step(
+    fluid: Fluid,
+    levels: list[Level],
+    state: State,
+    now: Touching,
+    asperities: Asperities,
+    close: float,
+    damping: float = 0.0,
+) -> Stepped:
+    """Film after one Newton step on the first of ``levels``.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    levels : list of Level
+        Grids from the one to solve on to the coarsest.
+    state : State
+        Film before the step.
+    now : Touching
+        Residual of this film.
+    asperities : Asperities
+        Boundary film and hardness.
+    close : float
+        Relative tolerance of the linear system.
+    damping : float
+        Damping of the step: the length dX over the way that oil goes in the time that it stands for.
+
+    Returns
+    -------
+    Stepped
+        Film after the part of the step that keeps the changes within their limits.
+    """
+    level = levels[0]
+    state = projected(fluid, state, now.contact)
+    jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
+    step = _direction(fluid, jacobian, state, now, close)
+    length = _length(level, now, step, asperities.boundary_film)
+    state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
+    record = NewtonStep(level.nodes, now.norm, step.krylov)
+    return Stepped(state, assess_touching(fluid, level, state, asperities), length, record)
 
 
 @dataclass(frozen=True)
@@ -141,14 +200,17 @@ def _moved(level: Level, state: State, contact: Mask, step: _Step, length: float
     return State.of(level, pressure, state.h00 + length * step.h00, pressure - oil)
 
 
-def _solved(now: Touching, tolerance: float) -> bool:
-    return now.norm <= tolerance and now.oil_norm <= max(tolerance, _OIL_TOLERANCE)
+def is_solved(now: Touching, tolerance: float) -> bool:
+    """Whether all equations hold within a tolerance, those of the oil where surfaces touch within 1e-6."""
+    return now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
 
 
-def _solution(
-    level: Level, state: State, now: Touching, steps: list[NewtonStep], status: Status
+def grid_solution(
+    level: Level, state: State, now: Touching, steps: Sequence[NewtonStep], status: Status
 ) -> GridSolution:
     """Solution on a grid, with the residual in the form of a film without contact."""
+    # The gap of flattened asperities is that of the boundary film.
+    state = replace(state, thickness=np.where(now.plastic, now.thickness, state.thickness))
     final = Residual(
         flow=now.flow,
         reynolds=now.reynolds,
