@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
+from ehlectric.cases.row import formatted
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
@@ -86,10 +87,11 @@ def spot_warnings(
 
 
 def _not_conserved(balance: OilBalance) -> ResultWarning:
+    made, lost = (formatted(100.0 * each, ".2g") for each in (balance.oil_made, balance.oil_lost))
     return ResultWarning(
         "oil-not-conserved",
-        f"the film does not keep its oil: {100.0 * balance.oil_made:.2g} % of the mean flow through the "
-        "contact appears where cavitated gaps fill again, since they count as full in a stationary film, "
-        f"and {100.0 * balance.oil_lost:.2g} % is lost in spots; the film is then rather too thick and "
-        "the load share of the asperities too low; [motion] keeps the oil",
+        f"the film does not keep its oil: {made} % of the mean flow through the contact appears where "
+        f"cavitated gaps fill again, since they count as full in a stationary film, and {lost} % is lost in "
+        "spots; the film is then rather too thick and the load share of the asperities too low; [motion] "
+        "keeps the oil",
     )
