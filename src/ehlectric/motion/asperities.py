@@ -86,7 +86,7 @@ class Toucher:
 
 @dataclass(frozen=True)
 class TouchHistory:
-    """Asperities over the time steps of a run whose surfaces touch at one of them.
+    """Asperities over the time steps of a run.
 
     Attributes
     ----------
@@ -95,7 +95,8 @@ class TouchHistory:
     load_share, area_share, spots : ndarray, shape (steps,)
         Values of ``Touch``.
     coarse_share : ndarray, shape (steps,)
-        Load share in the companion of the run; NaN between its steps, and where it has no film.
+        Load share in the companion of the run; NaN between its steps, where it has no film, and where a file
+        has no such variable, as nothing touched.
     counted : ndarray of bool, shape (steps,)
         Steps that count for statistics: those from which on the roughness fills the contact.
     """
@@ -110,16 +111,21 @@ class TouchHistory:
     @classmethod
     def of(cls, run: MotionRun) -> TouchHistory | None:
         """Asperities of a run; None where its surfaces touch at no time step."""
-        if SPOTS not in run.dataset or not np.any(run.values(SPOTS)):
-            return None
-        time = run.values("time")
+        history = cls.whole(run)
+        return history if np.any(history.spots) else None
+
+    @classmethod
+    def whole(cls, run: MotionRun) -> TouchHistory:
+        """Asperities of a run, with shares of zero where its surfaces touch at no time step."""
+        time, stored = run.values("time"), SPOTS in run.dataset
+        none = np.zeros(time.shape)
         late = time >= run.field_history.settled_from
         return cls(
             time=time,
-            load_share=run.values(LOAD_SHARE),
-            area_share=run.values(AREA_SHARE),
-            spots=run.values(SPOTS),
-            coarse_share=run.values(COARSE_SHARE),
+            load_share=run.values(LOAD_SHARE) if stored else none,
+            area_share=run.values(AREA_SHARE) if stored else none,
+            spots=run.values(SPOTS) if stored else none,
+            coarse_share=run.values(COARSE_SHARE) if stored else np.full_like(none, math.nan),
             counted=late if np.any(late) else np.ones_like(late),
         )
 

@@ -106,7 +106,7 @@ _ASPERITIES: Keys = {
         "load_share_mean on every second node with twice the time step; null if this is not known"
     ),
     "load_share_largest": ResultKey("largest share of asperities in the load, of all steps"),
-    "load_share_largest_time": ResultKey("time of load_share_largest", "s"),
+    "load_share_largest_time": ResultKey("time of load_share_largest; null if nothing touches", "s"),
     "contact_area_share_mean": ResultKey(
         "part of the Hertz zone in which the surfaces touch, mean over the steps",
         "",
@@ -162,7 +162,6 @@ def _keys(capacitance: str, surface: Keys) -> Keys:
         **under("film", _FILM),
         **under("field", _FIELD),
         **under("field", _capacitances(capacitance)),
-        "asperities": ResultKey("only of runs whose surfaces touch at one step or more"),
         **under("asperities", _ASPERITIES),
         "discharge": ResultKey("null without a constant `dielectric_strength`"),
         **under("discharge", _DISCHARGE),

@@ -73,14 +73,13 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "motion": _course(run),
         "film": _film(run),
         "field": _field(run),
+        "asperities": _asperities(TouchHistory.whole(run)),
         "discharge": _discharge(run),
         "stationary": json.loads(attributes["stationary"]),
         "beside_stationary": _beside(run),
         "rough": json.loads(attributes["rough"]),
         "seconds": float(attributes["seconds"]),
     }
-    if (touching := TouchHistory.of(run)) is not None:
-        results["asperities"] = _asperities(touching)
     summary: dict[str, Any] = plain(results)
     return summary
 
@@ -175,7 +174,7 @@ def _asperities(found: TouchHistory) -> dict[str, Any]:
         "load_share_mean": found.mean_share,
         "load_share_mean_coarser": found.coarser,
         "load_share_largest": found.load_share[largest],
-        "load_share_largest_time": found.time[largest],
+        "load_share_largest_time": found.time[largest] if np.any(found.spots) else None,
         "contact_area_share_mean": np.mean(found.area_share[found.counted]),
         "spots_mean": np.mean(found.spots[found.counted]),
         "time_share": found.time_share,

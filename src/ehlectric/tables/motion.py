@@ -92,7 +92,7 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
     steps, peaks = summary["motion"]["steps"], summary["field"]["local_maxima"]
     film_at, field_at = _time(summary, "film.minimum_time"), _time(summary, "field.max_strength_time")
     breakdown_at = _time(summary, "discharge.breakdown_time")
-    if "asperities" in summary:
+    if _touches(summary):
         film_at, field_at, breakdown_at = (
             f"{at}, in the boundary film" for at in (film_at, field_at, breakdown_at)
         )
@@ -149,11 +149,16 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
     )
 
 
+def _touches(summary: Mapping[str, Any]) -> bool:
+    """Whether the surfaces touch at one time step; summaries of earlier versions say nothing of it."""
+    return bool("asperities" in summary and summary["asperities"]["load_share_largest"] > 0.0)
+
+
 def _touching_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     """Rows of the asperities that touch; none where the surfaces do not touch at any time."""
-    found = summary.get("asperities")
-    if found is None:
+    if not _touches(summary):
         return
+    found = summary["asperities"]
     share, coarser = found["load_share_mean"], found["load_share_mean_coarser"]
     on_half = ", not known on a coarser grid"
     if coarser is not None:

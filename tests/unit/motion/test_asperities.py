@@ -172,10 +172,15 @@ def test_the_summary_tables_figures_and_warnings_say_it(written):
 
 
 def test_a_run_that_never_touches_says_nothing(tmp_path):
-    """Its file, its summary, its table and its figure have nothing of asperities."""
+    """Its file, its table and its figure have nothing of asperities; its summary has no time with a spot."""
     outcome = run(FULL, tmp_path)
     assert not set(TOUCHING) & set(outcome.result.variables)
-    assert "asperities" not in outcome.summary
+    found = outcome.summary["asperities"]
+    assert (found["time_share"], found["load_share_mean"], found["load_share_largest_time"]) == (
+        0.0,
+        0.0,
+        None,
+    )
     assert "asperities-touch" not in outcome.summary["warning_codes"]
     assert not any("asperit" in row.name or "spot" in row.name for row in run_rows(outcome.summary))
     labels = [ax.get_ylabel() for ax in figure(MotionRun.of(outcome.result), "motion_history.png").axes]
@@ -233,7 +238,11 @@ def test_spots_of_the_companion_alone_change_nothing():
     without = made(LONG, times=TIMES)
     coarse = touching([0] * 6, coarse=[0.5] * 6)
     assert TouchHistory.of(MotionRun.of(coarse)) is None
-    assert json.dumps(summary_of(coarse)) == json.dumps(summary_of(without))
+    found = summary_of(coarse)
+    assert found["asperities"].pop("load_share_mean_coarser") == 0.5
+    expected = summary_of(without)
+    assert expected["asperities"].pop("load_share_mean_coarser") is None
+    assert json.dumps(found) == json.dumps(expected)
 
 
 def test_a_run_that_touches_has_no_error_of_its_minimum():
