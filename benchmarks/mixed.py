@@ -22,20 +22,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tests.helpers.mixed_films import at_film, gaussian, rough_point, sinusoid
+from tests.helpers.mixed_films import gaussian, sinusoid
 from tests.helpers.places import DEKTAK, SURFACES
 
-from benchmarks.mixed_store import Contact, Record, composite_roughness, records, tidy
+from benchmarks.mixed_store import POINT_GRIDS, Contact, Record, records, tidy
+from benchmarks.mixed_sweep import SWEPT_LAMBDAS, converged, draw, formula_share, sweep_series
 from ehlectric.asperities.shares import LOAD_SHARE, load_shares
-from ehlectric.contact.check import check_case
-from ehlectric.formulas.film_mixed import RoughBodies, masjedi_khonsari_point
-
-FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "mixed_sweep.png"
 
 LAMBDAS = (3.0, 1.0, 0.3, 0.1, 0.03)
-
-# Hardness of bearing steel of 700 HV, for the formula of Masjedi and Khonsari.
-HARDNESS = 7e9
 
 
 def _measured(path: Path, **steps: Any) -> dict[str, Any]:
@@ -79,7 +73,7 @@ def robust(*, point: bool, grids_: Iterable[int]) -> list[Contact]:
     ]
 
 
-LINE_GRIDS, POINT_GRIDS = (3201, 12_801), (65, 129, 257)
+LINE_GRIDS = (3201, 12_801)
 
 # Surfaces whose shortest wave has at least sixteen nodes on one of the coarser grids.
 LINE_SHORTEST, POINT_SHORTEST = 13e-6, 60e-6
@@ -125,19 +119,6 @@ def boundary_series() -> list[Contact]:
 
 
 # Rough ball of the sweep over speed, and the values of lambda.
-SWEPT = gaussian(100e-9, 34e-6)
-SWEPT_LAMBDAS = tuple(float(ratio) for ratio in np.geomspace(0.01, 3.0, 12))
-
-
-def sweep_series() -> list[Contact]:
-    """One rough ball over speed, on three grids."""
-    return [
-        Contact("swept", point=True, table=SWEPT, nodes=nodes, ratio=ratio)
-        for nodes in POINT_GRIDS
-        for ratio in SWEPT_LAMBDAS
-    ]
-
-
 def row(*entries: Any) -> None:
     """Print one row of a table."""
     print("| " + " | ".join(map(str, entries)) + " |", flush=True)
@@ -285,16 +266,6 @@ def _same_but_speed(contact: Contact, other: Contact) -> bool:
     return (contact.name, contact.point, contact.nodes) == (other.name, other.point, other.nodes)
 
 
-def formula_share(ratio: float) -> float | None:
-    """Load share of the rough ball by the formula of Masjedi and Khonsari."""
-    case = rough_point(SWEPT, nodes=65, speed=0.1)
-    rq = composite_roughness(case)
-    conditions = check_case(at_film(case, ratio * rq)).conditions
-    return masjedi_khonsari_point(
-        conditions.contact, RoughBodies(roughness=rq, hardness=HARDNESS)
-    ).asperity_share
-
-
 def print_sweep(contacts: list[Contact], found: dict[str, Record]) -> None:
     """One rough ball over speed beside published fits, and the figure."""
     grids_ = {n: [found.get(c.key) for c in contacts if c.nodes == n] for n in POINT_GRIDS}
@@ -314,45 +285,6 @@ def print_sweep(contacts: list[Contact], found: dict[str, Record]) -> None:
         print(f"\n{nodes}²: {shares.size} of {len(series)} converged, {rises} rises of the share with speed")
     print()
     draw(grids_)
-
-
-def converged(record: Record | None) -> bool:
-    """Whether there is a converged film."""
-    return record is not None and record["status"] == "converged"
-
-
-def draw(grids_: dict[int, list[Record | None]]) -> None:
-    """Share, area and film over lambda."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 4.6), layout="constrained", sharex=True)
-    fine = np.geomspace(SWEPT_LAMBDAS[0], SWEPT_LAMBDAS[-1], 200)
-    for key, share in load_shares(fine).items():
-        left.semilogx(fine, share, lw=1.2, label=LOAD_SHARE[key].name)
-    known = [(ratio, formula_share(ratio)) for ratio in map(float, fine[::5])]
-    given = np.array([(ratio, share) for ratio, share in known if share is not None])
-    left.semilogx(given[:, 0], given[:, 1], "C7--", lw=1.6, label="Masjedi-Khonsari")
-    for (nodes, series), style in zip(grids_.items(), (":", "--", "-"), strict=False):
-        films = [each for each in series if each is not None and converged(each)]
-        at, rq = [film["ratio"] for film in films], films[0]["rq"]
-        drawn = {"ls": style, "lw": 1.6, "marker": "o", "ms": 3.5, "label": f"solved, {nodes}² nodes"}
-        left.semilogx(at, [film["share"] for film in films], color="k", **drawn)
-        right.loglog(at, [max(film["area"], 1e-9) for film in films], f"C3{style}", lw=1.6)
-        films = [film for film in films if "mean_film" in film]
-        at = [film["ratio"] for film in films]
-        right.loglog(at, [film["mean_film"] / rq for film in films], f"C0{style}", lw=1.6)
-    label = "λ, smooth film over Rq"
-    left.set(xlabel=label, ylabel="share of the load on asperities", ylim=(0.0, 1.02))
-    left.set_title("Solved asperities carry\nless than fits say", fontsize=11)
-    figure.legend(loc="outside lower center", ncols=3, fontsize=9)
-    right.set(xlabel=label, ylim=(1e-4, 10.0))
-    right.set_title("Finer grids have\nfewer spots", fontsize=11)
-    right.text(0.3, 1.2, "mean film outside\nthe spots over Rq", color="C0", ha="right", fontsize=10)
-    right.text(0.3, 2e-3, "part of the Hertz\nzone in contact", color="C3", fontsize=10)
-    figure.savefig(FIGURE, dpi=150)
 
 
 def every_surface() -> list[Contact]:

@@ -32,6 +32,9 @@ Record = dict[str, Any]
 
 BOUNDARY_FILM = 1e-9
 
+# Nodes along each axis of contacts of a ball.
+POINT_GRIDS = (65, 129, 257)
+
 
 class GivenUpError(Exception):
     """A solution took more processor time than it may."""
