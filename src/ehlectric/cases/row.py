@@ -36,7 +36,7 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "ms": ("s", 1e3),
         "s": ("s", 1.0),
         "Hz": ("Hz", 1.0),
-        "MHz": ("Hz", 1e-6),
+        "GHz": ("Hz", 1e-9),
         "Ω": ("ohm", 1.0),
         "V": ("V", 1.0),
         "V/µm": ("V/m", 1e-6),
