@@ -60,13 +60,19 @@ class TouchingJacobian:
     def of(
         cls, fluid: Fluid, levels: list[Level], oil_pressure: Array, now: Touching, damping: float
     ) -> TouchingJacobian:
-        """Jacobian at a state with the residual ``now``; the coarser grids take its injection."""
+        """Jacobian at a state with the residual ``now``; the coarser grids take its injection.
+
+        Raises
+        ------
+        numpy.linalg.LinAlgError
+            Where the oil of some nodes has no flow, as in gaps that are far from a solution.
+        """
         level, contact, full_film = levels[0], now.contact, now.full_film
         plastic = now.plastic
         by_p, by_h = _damped(level, now.flow, now.thickness, damping)
         oil_by_p, oil_by_h = by_p.on_rows(full_film), without_columns(by_h.on_rows(full_film), plastic)
         oil = contact & full_film
-        factors = splu(_matrix(oil_by_p, oil)) if oil.any() else None
+        factors = _factored(oil_by_p, oil) if oil.any() else None
         masks: tuple[Mask, ...] = (full_film, contact, plastic)
         jacobians = [_linearised(level, (by_p, by_h), now.flow, now.thickness, masks)]
         pressure, thickness = oil_pressure, now.thickness
@@ -77,7 +83,7 @@ class TouchingJacobian:
             stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate)
             jacobians.append(_linearised(coarse, stencils, at_faces, thickness, masks))
         opened = full_film & ~contact & (jacobians[0].poiseuille > level.rate)
-        opened_factors = splu(_matrix(oil_by_p, opened)) if opened.any() and contact.any() else None
+        opened_factors = _factored(oil_by_p, opened) if opened.any() and contact.any() else None
         return cls(jacobians, oil_by_p, oil_by_h, contact, oil, factors, opened, opened_factors)
 
     @property
@@ -208,6 +214,14 @@ def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
         after[0] = False
         rows[1][after] = -level.rate
     return Stencil(rows)
+
+
+def _factored(stencil: Stencil, nodes: Mask) -> SuperLU:
+    """Factorisation of a stencil between nodes; an error where its matrix is singular."""
+    try:
+        return splu(_matrix(stencil, nodes))
+    except RuntimeError as error:
+        raise np.linalg.LinAlgError("the flow of the oil has a singular matrix") from error
 
 
 def _matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:

@@ -160,11 +160,15 @@ def newton_step(
     Returns
     -------
     Stepped
-        Film after the part of the step that keeps the changes within their limits.
+        Film after the part of the step that keeps the changes within their limits. Where there is no step,
+        as the linear system is singular, the same film with an infinite residual.
     """
     level = levels[0]
     state = projected(fluid, state, now.contact)
-    jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
+    try:
+        jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
+    except np.linalg.LinAlgError:
+        return Stepped(state, replace(now, norm=np.inf), 0.0, NewtonStep(level.nodes, now.norm, 0))
     step = _direction(fluid, jacobian, state, now, close)
     length = _length(level, now, step, asperities.boundary_film)
     state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
