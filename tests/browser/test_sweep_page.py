@@ -122,10 +122,12 @@ def test_a_sweep_that_was_stopped_at_once_does_not_show_the_one_before_as_its_ow
     page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
     run(page)
     wait_for_points(page, "4 solved")
-    box = page.get_by_test_id("field-vary-1-to")
+    # With so many points more the run is not over before it is stopped.
+    box = page.get_by_test_id("field-vary-1-count")
     box = box if box.evaluate("box => box.matches('input')") else box.locator("input")
-    box.fill("7 kN")
+    box.fill("20")
     box.press("Tab")
+    page.get_by_test_id("plan").filter(has_text="40 points").wait_for()
     wait_for_points(page, "The inputs have changed")
     run(page)
     page.locator("[data-testid=cancel]:not([disabled])").first.click()
@@ -136,7 +138,7 @@ def test_a_sweep_that_was_stopped_at_once_does_not_show_the_one_before_as_its_ow
     assert not page.get_by_test_id("solve").is_disabled()
     assert page.get_by_test_id("download-csv").is_disabled() == ("have changed" in note)
     run(page)
-    wait_for_points(page, "4 solved")
+    wait_for_points(page, "40 solved")
     assert page.get_by_test_id("points").count() == 1
 
 
