@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from benchmarks.mixed import composite_roughness, surfaces
+from benchmarks.mixed import surfaces
+from benchmarks.mixed_store import composite_roughness
 
 from tests.helpers.mixed_films import at_film, gaussian, mixed_film, rough_line, rough_point, sinusoid
 
