@@ -13,6 +13,8 @@ from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.discharges.energy import current_warnings
 from ehlectric.bearing.discharges.leakage import leakage_warnings
 from ehlectric.bearing.fits.warnings import class_warnings, fit_warnings
+from ehlectric.bearing.intermittency.duty import duty_of
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.shaft_voltage import film_voltage, shaft_voltage
@@ -268,14 +270,17 @@ def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]
         yield ResultWarning("touching", text)
     elif state == "touching":
         yield ResultWarning("touching", f"{touching} touch; only the ceramic elements insulate")
-    elif state == "partial film":
-        text = f"{touching} may touch"
-        if not ceramic:
-            text += (
-                " at times, and contacts discharge at a lower voltage as they open, which is not computed; "
+    elif state == "partial film" and ceramic:
+        yield ResultWarning("partial-film", f"{touching} may touch")
+    else:
+        duty = duty_of(solution)
+        if state == "partial film" or duty.regime != "capacitive":
+            text = (
+                f"{touching} may touch at times, and contacts discharge at a lower voltage as they open, "
+                f"which is not computed; they touch from ring to ring {time_text(duty.touching_time_share)}; "
                 "breakdown voltages are upper bounds"
             )
-        yield ResultWarning("partial-film", text)
+            yield ResultWarning("partial-film", text)
 
 
 def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:

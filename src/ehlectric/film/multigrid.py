@@ -86,7 +86,7 @@ class Linearised:
             poiseuille=poiseuille,
             scale=np.divide(1.0, diagonal, out=np.zeros(full_film.shape), where=full_film),
             unscale=np.where(full_film, diagonal, 0.0),
-            resolved=_resolved(level, at_faces.coefficients.eps, full_film),
+            resolved=resolved_nodes(level, at_faces.coefficients.eps, full_film),
             log_viscosity=at_faces.coefficients.log_viscosity,
         )
 
@@ -191,7 +191,7 @@ def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: s
             flat[start : start + count * (n + 2) : n + 2] += row[first : first + count]
 
 
-def _resolved(level: Level, eps: Array, full_film: Mask) -> Mask:
+def resolved_nodes(level: Level, eps: Array, full_film: Mask) -> Mask:
     """Mask of the nodes whose residual is passed to the coarser grids.
 
     Beside the pressure spike of a line contact eps changes by orders of magnitude from node to node. There

@@ -38,6 +38,9 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Film
         "not-converged": _SOLVED,
         "surfaces-touch": ("minimum-film", *_BREAKDOWN),
+        "asperities-touch": ("minimum-film", "capacitance", *_FIELD),
+        "load-share-unresolved": ("load-share",),
+        "oil-not-conserved": _FILM,
         "thinner-than-atom": ("minimum-film", *_FIELD),
         "refine-not-reached": _FILM,
         "error-unknown": ("minimum-film",),

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator
 from ehlectric.bearing.accuracy import error_text, film_error
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
 from ehlectric.bearing.discharges.leakage import leakage_warnings, shaft_leakage
+from ehlectric.bearing.intermittency.duty import duty_of
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import Intervals, SpeedRange
 from ehlectric.bearing.meter.reading import film_share, shaft_path
@@ -80,8 +82,8 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
         return Verdict(
             "yellow" if solution.case.motor is None else "red",
             f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}), "
-            f"and contacts are intermittent. {_OPENING}, and no voltage is computed for that. This is no "
-            "protection: current passes, and arcs are likely.",
+            f"and contacts are intermittent; they short the bearing {_time(solution)}. {_OPENING}, and no "
+            "voltage is computed for that. This is no protection: current passes, and arcs are likely.",
         )
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
@@ -190,10 +192,11 @@ def _strength_is_open(solution: BearingSolution) -> bool:
 
 def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
     """Sentences for which the margin may be lower than it is computed to be."""
-    if lubrication(solution) == "partial film":
+    if lubrication(solution) == "partial film" or duty_of(solution).regime != "capacitive":
         yield (
             f"Surfaces may touch at times (lambda ratio {lambda_ratio(solution):.2g}), and contacts are "
-            f"intermittent: voltages are upper bounds. {_OPENING}, which is not computed."
+            f"intermittent: voltages are upper bounds. {_OPENING}, which is not computed. An element touches "
+            f"both rings {_time(solution)}."
         )
     if solution.case.ranges and analysis.low is None:
         yield "The range of the margin could not be computed from the stated ranges of inputs."
@@ -259,6 +262,11 @@ def _interval(low: float | None, high: float | None) -> str:
     if high is None:
         return f"above about {rpm_text(low)} rpm"
     return f"between about {rpm_text(low)} and {rpm_text(high)} rpm"
+
+
+def _time(solution: BearingSolution) -> str:
+    """Share of time in which an element touches both rings, as text."""
+    return time_text(duty_of(solution).touching_time_share)
 
 
 def _at(solution: BearingSolution) -> str:

@@ -10,6 +10,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import impedance_of
+from ehlectric.bearing.intermittency.duty import duty_of
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.meter.reading import shaft_capacitance
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_ratio, lubrication
@@ -85,9 +87,13 @@ def impedance(result: BearingResult) -> str:
     """Sentence: the capacitance that the bearing is above its corner frequency, and its impedance there."""
     found = impedance_of(result.solution)
     assert found is not None
+    shown = [(prefixed(magnitude_at(found.mean or found, at), "Ω"), at) for at in read_at(result)]
+    values = ", ".join(f"{value} at {prefixed(at, 'Hz')}" for value, at in shown)
+    if found.mean is not None:
+        duty = duty_of(result.solution)
+        return f"An element touches both rings {time_text(duty.touching_time_share)}: mean |Z| = {values}"
     value = prefixed(shaft_capacitance(result.solution), "F")
-    values = [f"{prefixed(magnitude_at(found, at), 'Ω')} at {prefixed(at, 'Hz')}" for at in read_at(result)]
-    return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {', '.join(values)}"
+    return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {values}"
 
 
 def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:

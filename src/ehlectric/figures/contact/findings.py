@@ -10,9 +10,10 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.spots.warnings import share_text
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE
+from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE, SPOTS_FIGURE
 
 AnyContact = Result | PointResult
 
@@ -78,7 +79,10 @@ def strength_limit(result: AnyContact) -> Array | None:
 
 def film_text(result: AnyContact) -> str:
     """Minimum film, where it is, and how it compares with smooth surfaces or with the centre."""
-    film = result.film
+    film, touching = result.film, result.spots
+    if touching is not None:
+        spots, mean = touching.spots.number, _film(result, film.mean_thickness)
+        return f"The surfaces touch in {spots} spot{'s' if spots > 1 else ''}; mean film {mean}"
     text = (
         f"Minimum film {_film(result, film.minimum_thickness)} at {place_text(result, film.minimum_position)}"
     )
@@ -204,7 +208,10 @@ def cuts_text(result: PointResult) -> str:
 
 def breakdown_text(result: AnyContact) -> str:
     """Whether the film breaks down at the voltage of the case, at which voltage it does, and where."""
-    found, volts = result.discharge, result.field.voltage
+    found, volts, touching = result.discharge, result.field.voltage, result.spots
+    if touching is not None and touching.electrical.breakdown_5 is not None:
+        around = f"5 % of the film around the spots breaks down at {touching.electrical.breakdown_5:.2g} V"
+        return f"The surfaces touch, {touching.electrical.behaviour}: {around}"
     assert found is not None and found.breakdown_voltage is not None and found.margin is not None
     applied, place = f"{volts:.3g} V", place_text(result, found.zone_position)
     breaking = f"{found.breakdown_voltage:.3g} V"
@@ -231,6 +238,16 @@ def meter_text(result: AnyContact) -> str:
     return f"The meter reads {with_unit(reading.capacitance, 'F', least=1.0)}: {parts}"
 
 
+def spots_text(result: AnyContact) -> str:
+    """Number of spots, the load that they carry, and the electrical behaviour."""
+    found = result.spots
+    assert found is not None
+    before = None if found.coarser is None else found.coarser.load_share
+    share = share_text(found.touching.load_share, before)
+    number = "1 spot carries" if found.spots.number == 1 else f"{found.spots.number} spots carry"
+    return f"{number} about {share} % of the load on this grid: the contact is {found.electrical.behaviour}"
+
+
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     "film.png": film_text,
     "field_strength.png": strength_text,
@@ -239,6 +256,7 @@ LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
+    SPOTS_FIGURE: spots_text,
 }
 POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     "film_map.png": film_text,
@@ -250,6 +268,7 @@ POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
+    SPOTS_FIGURE: spots_text,
 }
 
 

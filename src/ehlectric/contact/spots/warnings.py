@@ -1,0 +1,97 @@
+"""Warnings about a contact whose surfaces touch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ehlectric.cases.case import Case
+from ehlectric.cases.row import formatted
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.setup import Setup
+from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
+from ehlectric.contact.spots.mechanics import Coarser, load_of, spots_of
+from ehlectric.contact.spots.oil_balance import OilBalance, oil_balance
+from ehlectric.errors import ResultWarning
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
+
+# Oil that a film may make or lose without a warning, over the mean flow through its contact.
+MASS_ERROR = 0.1
+
+
+def share_text(share: float, coarser: float | None) -> str:
+    """Share in per cent, with no more digits than its change from a coarser grid leaves.
+
+    Examples
+    --------
+    >>> share_text(0.2369, 0.2371), share_text(0.2369, 0.21), share_text(0.0511, 0.12)
+    ('23.7', '24', '5')
+    """
+    error = share if coarser is None else abs(share - coarser)
+    relative = error / share if share > 0.0 else 0.0
+    digits = 3 if relative < 0.01 else 2 if relative < 0.2 else 1
+    return f"{float(f'{100.0 * share:.{digits}g}'):g}"
+
+
+def spot_warnings(
+    case: Case | Setup,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    coarser: Coarser | None,
+) -> Iterator[ResultWarning]:
+    """Warnings about a converged film whose surfaces touch: what it means, and what is not resolved.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Converged film; there are no warnings where its surfaces do not touch.
+    coarser : Coarser or None
+        Asperities on a grid with half the nodes; None if it was not solved.
+
+    Yields
+    ------
+    ResultWarning
+        That the surfaces touch, and where so a load share that depends on the grid, and oil that appears.
+    """
+    if not film.converged or not np.any(film.contact):
+        return
+    spots = spots_of(film)
+    share = float(np.sum(spots.loads)) / load_of(conditions)
+    before = None if coarser is None else coarser.load_share
+    what = "spot, which carries" if spots.number == 1 else "spots, which carry"
+    yield ResultWarning(
+        "asperities-touch",
+        f"the surfaces touch in {spots.number} {what} about {share_text(share, before)} % of "
+        "the load: metal conducts there, and the minimum film, the maximum field, the capacitance and a "
+        "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
+    )
+    balance = oil_balance(case, conditions, film)
+    if balance is not None and balance.mass_error > MASS_ERROR:
+        yield _not_conserved(balance)
+    if before is None:
+        grids = "is not known on a coarser grid"
+    elif abs(share - before) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
+        grids = f"was {share_text(before, share)} % on a grid with half the nodes"
+    else:
+        return
+    yield ResultWarning(
+        "load-share-unresolved",
+        f"the load share of the asperities depends on the grid: it {grids}; use more grid.nodes and compare",
+    )
+
+
+def _not_conserved(balance: OilBalance) -> ResultWarning:
+    made, lost = (formatted(100.0 * each, ".2g") for each in (balance.oil_made, balance.oil_lost))
+    return ResultWarning(
+        "oil-not-conserved",
+        f"the film does not keep its oil: {made} % of the mean flow through the contact appears where "
+        f"cavitated gaps fill again, since they count as full in a stationary film, and {lost} % is lost in "
+        "spots; the film is then rather too thick and the load share of the asperities too low; [motion] "
+        "keeps the oil",
+    )
