@@ -10,7 +10,7 @@ import pytest
 
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.words import in_field_unit
-from tests.browser.driving import wait_for_number
+from tests.browser.driving import type_into, wait_for_number
 from tests.browser.outputs import address_of, command, downloaded
 from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import alive, wait_until
@@ -123,14 +123,12 @@ def test_a_sweep_that_was_stopped_at_once_does_not_show_the_one_before_as_its_ow
     run(page)
     wait_for_points(page, "4 solved")
     # With so many points more the run is not over before it is stopped.
-    box = page.get_by_test_id("field-vary-1-count")
-    box = box if box.evaluate("box => box.matches('input')") else box.locator("input")
-    box.fill("20")
-    box.press("Tab")
+    type_into(page, "vary.1.count", "20")
+    type_into(page, "vary.1.to", "7 kN")
     page.get_by_test_id("plan").filter(has_text="40 points").wait_for()
     wait_for_points(page, "The inputs have changed")
     run(page)
-    page.locator("[data-testid=cancel]:not([disabled])").first.click()
+    page.get_by_test_id("cancel").first.click()
     page.get_by_test_id("progress").first.filter(has_text="Stopped").wait_for()
     # As fast as that, the run has not begun to write, or it has no more than the points of both sweeps.
     note = page.get_by_test_id("map-note").inner_text()
@@ -185,10 +183,7 @@ def test_a_click_on_the_map_opens_the_point_in_a_new_tab(open_page, app_server):
 def test_a_wrong_range_is_told_beside_its_field(open_page, app_server, tmp_path):
     page = open_page(app_server, address_of("/sweep", sweep(2)))
     page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
-    box = page.get_by_test_id("field-vary-0-from")
-    box = box if box.evaluate("box => box.matches('input')") else box.locator("input")
-    box.fill("600 kg")
-    box.press("Tab")
+    type_into(page, "vary.0.from", "600 kg")
     error = page.get_by_test_id("error-vary-0-from")
     error.filter(has_text="600 kg").wait_for()
     case = downloaded(page, "download-toml", tmp_path)

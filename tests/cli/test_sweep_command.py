@@ -28,12 +28,12 @@ case = "case.toml"
 contact.entrainment_speed = ["1 m/s", "2 m/s"]
 contact.max_hertz_pressure = { from = "0.5 GPa", to = "1 GPa", count = 2 }
 """
-# Many points that take a moment each.
+# Many points that take a moment each: far more than are solved before a test stops them.
 LONG = """\
 case = "case.toml"
 [vary]
 contact.entrainment_speed = { from = "0.5 m/s", to = "8 m/s", count = 12, spacing = "log" }
-contact.max_hertz_pressure = { from = "0.5 GPa", to = "2 GPa", count = 10 }
+contact.max_hertz_pressure = { from = "0.5 GPa", to = "2 GPa", count = 100 }
 """
 
 
@@ -193,7 +193,7 @@ def test_a_scheduler_that_nobody_is(ehlectric, swept):
 
 def told(count):
     """What is said of a long sweep that is stopped."""
-    return f"{count} of 120 points are saved in out; the same command resumes the sweep\n"
+    return f"{count} of 1200 points are saved in out; the same command resumes the sweep\n"
 
 
 def begun(folder, *options, points=1, group=False):
@@ -230,9 +230,7 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     out, errors = process.communicate(timeout=30)
     assert (process.returncode, out) == (128 + number, "")
     count = len(saved(tmp_path / "out"))
-    assert (
-        errors == f"interrupted; {count} of 120 points are saved in out; the same command resumes the sweep\n"
-    )
+    assert errors == "interrupted; " + told(count)
     assert gone(workers)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["sweep.sqlite"]
 
@@ -253,7 +251,9 @@ def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept
 @pytest.mark.slow
 def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
     """Ten times kill -9 at a random moment: rows only become more, and the workers go too."""
-    swept(LONG.replace("count = 10", "count = 60"))
+    # Far more points than a fast machine solves in ten turns.
+    swept(LONG.replace("count = 100", "count = 300"))
+    number = 12 * 300
     moment, rows = random.Random(5), {}
     for turn in range(10):
         # Half of them while points are saved, half while all is being made ready.
@@ -267,19 +267,19 @@ def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
         assert rows.items() <= before.items() <= after.items()
         assert gone(workers)
         rows = after
-    assert 5 <= len(rows) < 720
+    assert 5 <= len(rows) < number
     done = ehlectric("sweep", "sweep.toml", "-o", "out")
     assert done.returncode == 0, done.stderr
     final = saved(tmp_path / "out")
     assert rows.items() <= final.items()
-    assert len(final) == 720
-    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 720
-    assert [row["number"] for row in rows_of(tmp_path / "out")] == [str(k) for k in range(720)]
+    assert len(final) == number
+    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * number
+    assert [row["number"] for row in rows_of(tmp_path / "out")] == [str(k) for k in range(number)]
 
 
 @pytest.mark.slow
 def test_a_worker_that_is_killed_costs_no_point(tmp_path, swept):
-    swept(LONG.replace("count = 10", "count = 4"))
+    swept(LONG.replace("count = 100", "count = 4"))
     process = begun(tmp_path, "--workers", "2", points=4)
     # The tracker of resources is a child as well, and no worker.
     workers = [
@@ -338,15 +338,13 @@ def test_a_scheduler_that_dies_loses_nothing(ehlectric, tmp_path, swept, cluster
     rows = saved(tmp_path / "out")
     assert len(rows) >= 5
     assert errors.startswith("error: the workers were lost: ")
-    assert errors.endswith(
-        f"; {len(rows)} of 120 points are saved in out; the same command resumes the sweep\n"
-    )
+    assert errors.endswith("; " + told(len(rows)))
     assert errors.count("\n") == 1
     # Without the cluster, on this machine.
     done = ehlectric("sweep", "sweep.toml", "-o", "out")
     assert (done.returncode, failures(done.stderr)) == (0, "")
     assert rows.items() <= saved(tmp_path / "out").items()
-    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 120
+    assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 1200
 
 
 @pytest.mark.slow
