@@ -182,7 +182,10 @@ def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: s
     n, nodes = len(matrix) - 1, gap.level.nodes
     kernel = gap.level.deflection.beside(_STEPS)[:, nodes - n : nodes + n - 1]
     over_distance = (by_h.coefficients[:ALONG, part, 0].T @ kernel).reshape(-1)
-    matrix[:n, :n] = over_distance[n - 1 : n - 1 + n * (2 * n - 2)].reshape(n, 2 * n - 2)[:, :n]
+    if n == 1:
+        matrix[0, 0] = over_distance[0]
+    else:
+        matrix[:n, :n] = over_distance[n - 1 : n - 1 + n * (2 * n - 2)].reshape(n, 2 * n - 2)[:, :n]
     flat = matrix.reshape(-1)
     for row, step in zip(by_p.coefficients[:ALONG, part, 0], _STEPS, strict=True):
         first, count = max(0, -step), n - abs(step)

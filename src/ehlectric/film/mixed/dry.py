@@ -7,12 +7,16 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
+from ehlectric.film.mixed.touching import own_compliance
 from ehlectric.film.state import State
 
 # Change of the pressure from step to step, relative to its mean, at which the iteration ends: it is a first
 # guess.
 _TOLERANCE = 1e-5
 _MOST_STEPS = 400
+
+# Curvature along a direction, over that of a single node, that is only rounding.
+_ROUNDING = 1e-9
 
 
 def dry_contact(level: Level, pressure: Array, boundary_film: float, ambient_pressure: float) -> State:
@@ -45,7 +49,7 @@ def dry_contact(level: Level, pressure: Array, boundary_film: float, ambient_pre
     q = np.where(inner, np.maximum(pressure - ambient_pressure, 0.0), 0.0)
     q *= load / float(np.vdot(weights, q))
     direction, last, h00 = np.zeros_like(q), 1.0, 0.0
-    opened = level.deflection(q)
+    opened, compliance = level.deflection(q), own_compliance(level)
     for _ in range(_MOST_STEPS):
         touching = q > 0.0
         gap = base + opened
@@ -56,7 +60,8 @@ def dry_contact(level: Level, pressure: Array, boundary_film: float, ambient_pre
         image = level.deflection(direction)
         image -= float(np.average(image, weights=weights * touching))
         curvature = float(np.vdot(weights * direction, image))
-        if not curvature > 0.0:
+        # With a single node in contact the rest of the gap and the direction are rounding errors.
+        if not curvature > _ROUNDING * compliance * float(np.vdot(weights, direction**2)):
             break
         step = float(np.vdot(weights * slack, direction)) / curvature
         after = np.maximum(q - step * direction, 0.0)
