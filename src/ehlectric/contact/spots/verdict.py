@@ -8,6 +8,12 @@ from ehlectric.contact.spots.asperities import Asperities
 from ehlectric.discharge.verdict import Verdict, unusable
 from ehlectric.errors import ResultWarning
 
+# First words of a verdict, which are its heading, and what the contact does.
+_LEADS = {
+    "resistive": "Metal conducts",
+    "mixed": "Discharges expected",
+    "capacitive": "Breakdown possible",
+}
 _ANSWERS = {
     "resistive": "metal spots short the film at 10 kHz, and no voltage builds up while they are there",
     "mixed": "the contact conducts and insulates in turn, and discharges as the spots open",
@@ -37,8 +43,9 @@ def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWa
         return Verdict("grey", refused)
     answer, number = found.electrical, found.spots.number
     spots = "1 spot" if number == 1 else f"{number} spots"
-    text = f"The surfaces touch in {spots} at an applied voltage of {voltage:.3g} V: "
-    text += f"the contact is {answer.behaviour}, {_ANSWERS[answer.behaviour]}."
+    text = f"{_LEADS[answer.behaviour]}: the surfaces touch in {spots} "
+    text += f"at an applied voltage of {voltage:.3g} V. "
+    text += f"The contact is {answer.behaviour}, {_ANSWERS[answer.behaviour]}."
     if answer.breakdown_5 is not None:
         text += f" Around the spots 5 % of the Hertz zone would break down at {answer.breakdown_5:.2g} V."
     if answer.breakdown_probability is not None:

@@ -14,6 +14,7 @@ from ehlectric.contact.spots.warnings import share_text, spot_warnings
 from ehlectric.figures import names
 from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.results import figure, figure_names
+from ehlectric.report.light import light_of
 from ehlectric.tables.contact import result_rows
 from tests.unit.contact.spots.cases import LINE, POINT, solved
 
@@ -147,7 +148,10 @@ def test_verdict_speaks_of_the_spots():
     verdict, found = result.verdict, result.asperities
     assert verdict.level == "red"
     assert f"touch in {found.spots.number} spot" in verdict.text
-    assert f"the contact is {found.electrical.behaviour}" in verdict.text
+    assert f"The contact is {found.electrical.behaviour}" in verdict.text
+    # The heading of the traffic light says the same.
+    lead = {"resistive": "Metal conducts", "mixed": "Discharges expected"}[found.electrical.behaviour]
+    assert light_of(verdict.level, verdict.text).words == lead
     rows = {row.name: row for row in result_rows(result)}
     assert "breakdown voltage" not in rows
     assert rows["breakdown voltage outside of the spots"].value == found.electrical.breakdown_5
