@@ -156,21 +156,12 @@ def _lines(result: AnyContact) -> list[tuple[str, Array, Array, Mask]]:
 
 
 def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
-    """Write on two panels where they cut the film: through the place that breaks down first."""
+    """Write below two panels where they cut the film: through the place that breaks down first."""
     assert result.discharge is not None
     x, y = np.atleast_1d(result.discharge.zone_position) / result.conditions.semi_axis_x
-    names = (f"along entrainment at y/b = {y + 0.0:.3g}", f"across entrainment at x/b = {x + 0.0:.3g}")
+    names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
     for ax, name in zip(panels, names, strict=True):
-        ax.text(
-            0.5,
-            0.94,
-            signed(name),
-            transform=ax.transAxes,
-            ha="center",
-            va="top",
-            fontsize=8.0,
-            path_effects=_OUTLINE,
-        )
+        ax.set_xlabel(f"{ax.get_xlabel()}, {signed(name)}")
 
 
 def _or_all(mask: Mask) -> Mask:
@@ -185,7 +176,15 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
     below = voltages < applied
     if np.any(below):
         ax.fill_between(
-            at, voltages, applied, where=below, color=STRENGTH, alpha=0.25, lw=0.0, label="breaks down"
+            at,
+            voltages,
+            applied,
+            where=below,
+            interpolate=True,
+            color=STRENGTH,
+            alpha=0.25,
+            lw=0.0,
+            label="breaks down",
         )
     k = int(np.argmin(voltages))
     ax.plot(
