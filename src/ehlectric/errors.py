@@ -280,7 +280,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "outlet-too-short": Cause("The film does not cavitate within the domain."),
         "inlet-too-short": Cause("Some of the inlet pressure builds up upstream of the domain."),
         "inlet-far-too-short": Cause("Above 20 % of the inlet pressure builds up upstream.", "severe"),
-        "domain-too-small": Cause("The domain of a point contact is too small."),
+        "domain-too-small": Cause("The domain is too small for the contact."),
         "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, load, save, solve
-from ehlectric.film.mixed.dry import dry_contact
+from ehlectric.film.mixed.dry import dry_contact, relieved
 from ehlectric.film.nested import levels_of
-from tests.helpers.mixed_films import posed
+from ehlectric.film.state import State
+from tests.helpers.mixed_films import gaussian, posed, rough_point
 
 # Half-width 13 um, and waves higher than the indentation.
 LIGHT = {
@@ -41,13 +42,31 @@ def test_dry_contact_on_a_node_or_two(nodes):
     assert np.vdot(level.weights, dry.pressure) == pytest.approx(level.load, rel=1e-9)
 
 
-def test_surfaces_that_touch_at_the_edge_of_the_domain_are_no_solution(tmp_path):
+def test_surfaces_that_touch_at_the_edge_of_the_domain_are_told(tmp_path):
+    """An asperity at the last node has the gap of the boundary film, and no pressure."""
     table = LIGHT["roughness"][0] | {"correlation_length": 6.014948025679727e-06, "seed": 2}
     result = solve(Case.from_dict(LIGHT | {"roughness": [table]}))
-    assert result.film.thickness[-1] == pytest.approx(1e-9)
-    assert result.film.thickness.min() > 0.99e-9
-    assert not result.film.converged
-    (told,) = [each.text for each in result.warnings if each.code == "not-converged"]
-    assert "surfaces touch at the edge of the domain" in told
-    back = load(save(result, tmp_path)[1])
-    assert back.film.status == result.film.status
+    film = result.film
+    assert film.converged
+    assert film.thickness[-1] == pytest.approx(1e-9, rel=1e-12)
+    assert film.thickness.min() > 1e-9 * (1.0 - 1e-9)
+    (told,) = [each.text for each in result.warnings if each.code == "domain-too-small"]
+    assert told.startswith("the surfaces touch at the edge of the domain")
+    wide = solve(Case.from_dict(LIGHT | {"roughness": [table], "grid": LIGHT["grid"] | {"outlet": 4.0}}))
+    assert "domain-too-small" not in [each.code for each in wide.warnings]
+    np.testing.assert_array_equal(load(save(result, tmp_path)[1]).film.thickness, film.thickness)
+
+
+def test_asperities_that_pierce_a_film_are_relieved():
+    """The rough surface pressed into a smooth film: no node is left pierced, and others push nowhere."""
+    problem = posed(rough_point(gaussian("100 nm", "35 um"), nodes=65))
+    level = levels_of(problem, roughness=1.0)[0]
+    pressure = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y) + problem.fluid.ambient_pressure
+    pierced = State.of(level, np.broadcast_to(pressure, level.mesh.shape).copy(), -1.0)
+    hs, inner = problem.boundary_film, level.mesh.inner
+    assert pierced.thickness[inner].min() < -10.0 * hs
+    state = relieved(level, pierced, hs)
+    assert state.h00 == pierced.h00
+    assert state.thickness[inner].min() > 0.99 * hs
+    assert np.max(np.abs(state.thickness[state.touching] - hs)) < 0.01 * hs
+    np.testing.assert_allclose(state.oil_pressure, pierced.pressure, rtol=0.0, atol=1e-12)

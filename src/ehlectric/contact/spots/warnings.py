@@ -20,6 +20,8 @@ from ehlectric.film.point import PointFilm
 # Oil that a film may make or lose without a warning, over the mean flow through its contact.
 MASS_ERROR = 0.1
 
+_ROUNDING = 1e-9
+
 
 def share_text(share: float, coarser: float | None) -> str:
     """Share in per cent, with no more digits than its change from a coarser grid leaves.
@@ -50,16 +52,25 @@ def spot_warnings(
     conditions : Conditions or PointConditions
         Operating conditions.
     film : Film or PointFilm
-        Converged film; there are no warnings where its surfaces do not touch.
+        Film; there are no warnings where it has not converged, or its surfaces do not touch.
     coarser : Coarser or None
         Asperities on a grid with half the nodes; None if it was not solved.
 
     Yields
     ------
     ResultWarning
-        That the surfaces touch, and where so a load share that depends on the grid, and oil that appears.
+        That the surfaces touch at the edge of the domain; that they touch in it, and where so a load share
+        that depends on the grid, and oil that appears.
     """
-    if not film.converged or not np.any(film.contact):
+    if not film.converged:
+        return
+    if conditions.boundary_film > 0.0 and _edge_gap(film) <= (1.0 + _ROUNDING) * conditions.boundary_film:
+        yield ResultWarning(
+            "domain-too-small",
+            "the surfaces touch at the edge of the domain, where asperities carry nothing in this solution; "
+            "lower grid.inlet or raise grid.outlet" + (" or grid.side" if film.thickness.ndim == 2 else ""),
+        )
+    if not np.any(film.contact):
         return
     spots = spots_of(film)
     share = float(np.sum(spots.loads)) / load_of(conditions)
@@ -84,6 +95,12 @@ def spot_warnings(
         "load-share-unresolved",
         f"the load share of the asperities depends on the grid: it {grids}; use more grid.nodes and compare",
     )
+
+
+def _edge_gap(film: Film | PointFilm) -> float:
+    """Least gap on the edges of the domain [m]."""
+    edges = (film.thickness[[0, -1]], film.thickness[..., [0, -1]])
+    return min(float(np.min(edge)) for edge in edges)
 
 
 def _not_conserved(balance: OilBalance) -> ResultWarning:

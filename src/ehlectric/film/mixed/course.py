@@ -14,9 +14,9 @@ from dataclasses import replace
 from ehlectric.arrays import Array
 from ehlectric.film.flow import Fluid
 from ehlectric.film.levels import Level
-from ehlectric.film.mixed.dry import dry_contact
+from ehlectric.film.mixed.dry import dry_contact, relieved
 from ehlectric.film.mixed.filling import filled_film
-from ehlectric.film.mixed.newton import mixed_newton, touches_at_edge
+from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.mixed.touching import Asperities
 from ehlectric.film.state import GridSolution, Progress, State
 
@@ -84,22 +84,18 @@ def mixed_film(
             progress=progress,
         )
 
-    def is_last(found: GridSolution) -> bool:
-        # No start moves an asperity away from the edge of the domain.
-        at_edge = touches_at_edge(levels[0], found.state, asperities.boundary_film)
-        closed = found.final.norm <= tolerance and at_edge
-        return found.status == "converged" or closed or not thorough
-
     if near is not None:
+        if levels[0].mesh.y.size > 1:
+            near = relieved(levels[0], near, asperities.boundary_film)
         yield (found := solved(near, _NEAR_DAMPING))
-        if is_last(found):
+        if found.status == "converged" or not thorough:
             return
     ambient = fluid.ambient_pressure
     dry = dry_contact(levels[0], dry_pressure, asperities.boundary_film, ambient)
     starts = [replace(dry, contact_pressure=0.0), dry]
     for start in starts if film_guess > asperities.boundary_film else starts[::-1]:
         yield (found := solved(start))
-        if is_last(found):
+        if found.status == "converged" or not thorough:
             return
     yield filled_film(
         fluid,

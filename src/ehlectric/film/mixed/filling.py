@@ -101,12 +101,12 @@ def filled_film(
         now = assess_touching(fluid, level, state, asperities)
         state = projected(fluid, state, now.contact)
         if rate == 0.0 and is_solved(now, tolerance):
-            return grid_solution(level, state, now, steps, "converged", asperities)
+            return grid_solution(level, state, now, steps, "converged")
         if len(taken) <= _QUICK:
             rate = _LONGER * rate if _LONGER * rate > _LEAST else 0.0
         elif len(taken) > _SLOW:
             rate *= _SHORTER
-    return grid_solution(level, state, now, steps, "stalled", asperities)
+    return grid_solution(level, state, now, steps, "stalled")
 
 
 @dataclass(frozen=True)

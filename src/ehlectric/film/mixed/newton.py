@@ -98,14 +98,14 @@ def mixed_newton(
         steps.append(step.record)
         state, assessed = step.state, step.now
         if not np.isfinite(assessed.norm):
-            return grid_solution(level, state, assessed, steps, "diverged", asperities)
+            return grid_solution(level, state, assessed, steps, "diverged")
         better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         damping = damping if assessed.norm > _NEAR else 0.0
         now = assessed
     state = projected(fluid, state, now.contact)
     status: Status = "converged" if is_solved(now, tolerance) else "stalled"
-    return grid_solution(level, state, now, steps, status, asperities)
+    return grid_solution(level, state, now, steps, status)
 
 
 @dataclass(frozen=True)
@@ -210,31 +210,12 @@ def is_solved(now: Touching, tolerance: float) -> bool:
     return now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
 
 
-def touches_at_edge(level: Level, state: State, boundary_film: float) -> bool:
-    """Whether the surfaces touch at an edge of the domain, where no contact is modelled.
-
-    The gap there is then H_s or less. The edges of a part of the contact have the pressure of the whole
-    one, which may be that of asperities.
-    """
-    free = level.mesh.edge & (level.edge_excess == 0.0)
-    return bool(np.any(state.thickness[free] <= boundary_film))
-
-
 def grid_solution(
-    level: Level,
-    state: State,
-    now: Touching,
-    steps: Sequence[NewtonStep],
-    status: Status,
-    asperities: Asperities,
+    level: Level, state: State, now: Touching, steps: Sequence[NewtonStep], status: Status
 ) -> GridSolution:
-    """Solution on a grid, with the residual in the form of a film without contact.
-
-    It has not converged where the surfaces touch at an edge of the domain.
-    """
-    if status == "converged" and touches_at_edge(level, state, asperities.boundary_film):
-        status = "stalled"
-    # The gap of flattened asperities, and at the edges, is at least that of the boundary film.
+    """Solution on a grid, with the residual in the form of a film without contact."""
+    # The gap of flattened asperities is that of the boundary film. So is that of asperities at the edges,
+    # where no pressure opens it.
     state = replace(state, thickness=np.where(now.plastic | level.mesh.edge, now.thickness, state.thickness))
     final = Residual(
         flow=now.flow,
