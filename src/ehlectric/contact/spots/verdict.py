@@ -9,8 +9,8 @@ from ehlectric.discharge.verdict import Verdict, unusable
 from ehlectric.errors import ResultWarning
 
 _ANSWERS = {
-    "resistive": "metal spots short the film at 10 kHz, and no voltage builds up while they are there",
-    "mixed": "the contact conducts and insulates in turn, and discharges as the spots open",
+    "resistive": "the spots short the film at 10 kHz, and no voltage builds up while they are there",
+    "mixed": "it conducts and insulates in turn, and discharges as the spots open",
     "capacitive": "only what lies on the spots insulates, and its own breakdown is not known",
 }
 
