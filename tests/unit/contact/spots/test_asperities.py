@@ -112,6 +112,9 @@ def test_what_is_told(geometry):
     rows = {row.name: row for row in result_rows(result)}
     assert rows["electrical behaviour"].value == result.asperities.electrical.behaviour
     assert rows["minimum film thickness h_min"].text.endswith("in the boundary film")
+    assert "in the boundary film" in rows["maximum field"].text
+    assert "error of the maximum field" not in rows
+    assert "maximum field / parallel-plate field" not in rows
     spots = result.asperities.spots.number
     assert f"{spots} spots touch, {result.asperities.electrical.behaviour}" in repr(result)
     assert "where surfaces touch" in rows["discretisation error of the film"].text
