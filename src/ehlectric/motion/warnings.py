@@ -117,12 +117,13 @@ def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
         coarser one.
     """
     share, coarser = found.mean_share, found.coarser
+    short = "; the roughness never fills the Hertz zone, and these are shares of the whole run: take more "
     yield ResultWarning(
         "asperities-touch",
         f"the surfaces touch at {100.0 * found.time_share:.3g} % of {found.steps} time steps, and asperities "
         f"carry {about_share(share, coarser)} of the load on average: the film conducts there, and the "
         "minimum film, the maximum field and the breakdown voltage are those of the boundary film; use the "
-        "values of asperities",
+        "values of asperities" + ("" if found.filled else f"{short}motion.passes"),
     )
     if coarser is None:
         grids = "is not known on every second node with twice the time step"
