@@ -251,6 +251,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "radius-large": Cause("A radius above 1 m was probably given in the wrong unit."),
         "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
         "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
+        "hardness-low": Cause("The hardness of the surfaces is below the Hertz pressure."),
         "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
         "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
         "estimated-alpha": Cause(

@@ -242,6 +242,12 @@ def lambda_ratio(solution: BearingSolution) -> float:
     return solution.least_film / solution.case.bearing.composite_rq
 
 
+def lambda_text(solution: BearingSolution) -> str:
+    """Lambda ratio with two digits, and with three near 1, where the state of lubrication changes."""
+    ratio = lambda_ratio(solution)
+    return f"{ratio:.3g}" if 0.9 < ratio < 1.1 else f"{ratio:.2g}"
+
+
 def lubrication(solution: BearingSolution, *, film_scale: float = 1.0) -> str:
     """State of lubrication: "conducting", "touching", "partial film" or "full film".
 

@@ -23,7 +23,7 @@ from ehlectric.bearing.solution import (
     Position,
     capacitance_is_bound,
     insulating,
-    lambda_ratio,
+    lambda_text,
     lubrication,
 )
 from ehlectric.cases import library
@@ -260,7 +260,7 @@ def _coating_warnings(solution: BearingSolution, shaft: float | None) -> Iterato
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warning of surfaces that touch all or some of the time."""
     state, ceramic = lubrication(solution), solution.conditions.ceramic
-    touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
+    touching = f"lambda is {lambda_text(solution)}: surfaces"
     if state == "conducting":
         text = (
             f"{touching} touch, and contacts close and open all the time: they discharge at a low voltage as "

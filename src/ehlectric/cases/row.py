@@ -37,6 +37,7 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "s": ("s", 1.0),
         "Hz": ("Hz", 1.0),
         "GHz": ("Hz", 1e-9),
+        "kHz": ("Hz", 1e-3),
         "Ω": ("ohm", 1.0),
         "V": ("V", 1.0),
         "V/µm": ("V/m", 1e-6),

@@ -109,9 +109,11 @@ def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
     method needs more steps for such a film. Thinner films need a finer grid.
     """
     if setup.roughness:
+        hardness = setup.contact.hardness if isinstance(setup, Case) else None
+        soft = "" if hardness is None else "raise contact.hardness or leave it out, "
         return (
-            "lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are too few "
-            "for the roughness"
+            f"{soft}lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are "
+            "too few for the roughness"
         )
     spacing = float(film.x[1] - film.x[0]) / film.scales.length
     resolved = film.central_thickness > spacing * film.scales.thickness

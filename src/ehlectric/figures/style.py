@@ -10,7 +10,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -21,6 +21,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.text import Annotation
 from matplotlib.textpath import text_to_path
+from matplotlib.ticker import ScalarFormatter
 from matplotlib.transforms import offset_copy
 
 from ehlectric.arrays import Array
@@ -29,6 +30,9 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.names import STYLES, in_formats, with_units_kept
 from ehlectric.runtime.files import write
+
+if TYPE_CHECKING:
+    from matplotlib.axis import Axis
 
 D = TypeVar("D")
 
@@ -383,6 +387,19 @@ def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
 LENGTH_AXIS, _LENGTH_NAME = 18.0, (-4.0, 6.0)
 
 
+# Part of an axis of lengths at its left end within which a number would run into the name of the axis.
+_NAME_REACH = 0.035
+
+
+class _BesideName(ScalarFormatter):
+    """Numbers of an axis of lengths, without those that would run into its name at the left end."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        left, right = cast("Axis", self.axis).get_view_interval()
+        near = abs(x - left) < _NAME_REACH * abs(right - left)
+        return "" if near else super().__call__(x, pos)
+
+
 def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
     """Add an axis above the axes with the position as a length, in micrometres or millimetres."""
     b = result.conditions.half_width
@@ -390,6 +407,7 @@ def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
     top = ax.secondary_xaxis(
         "top", functions=(lambda x: np.asarray(x) * factor * b, lambda x: np.asarray(x) / (factor * b))
     )
+    top.xaxis.set_major_formatter(_BesideName())
     top.set_xlabel(f"${axis}$ [{unit}]", ha="right", va="bottom")
     left, up = _LENGTH_NAME
     beside = offset_copy(ax.transAxes, figure_of(ax), x=left, y=up, units="points")

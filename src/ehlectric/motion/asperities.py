@@ -99,6 +99,8 @@ class TouchHistory:
         has no such variable, as nothing touched.
     counted : ndarray of bool, shape (steps,)
         Steps that count for statistics: those from which on the roughness fills the contact.
+    filled : bool
+        Whether it fills the contact at all; in a shorter run all steps count.
     """
 
     time: Array
@@ -107,6 +109,7 @@ class TouchHistory:
     spots: Array
     coarse_share: Array
     counted: Mask
+    filled: bool = True
 
     @classmethod
     def of(cls, run: MotionRun) -> TouchHistory | None:
@@ -127,6 +130,7 @@ class TouchHistory:
             spots=run.values(SPOTS) if stored else none,
             coarse_share=run.values(COARSE_SHARE) if stored else np.full_like(none, math.nan),
             counted=late if np.any(late) else np.ones_like(late),
+            filled=bool(np.any(late)),
         )
 
     @property

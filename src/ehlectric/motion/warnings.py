@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
-from ehlectric.contact.spots.warnings import share_text
+from ehlectric.contact.spots.warnings import about_share
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.asperities import TouchHistory
@@ -117,17 +117,18 @@ def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
         coarser one.
     """
     share, coarser = found.mean_share, found.coarser
+    short = "; the roughness never fills the Hertz zone, and these are shares of the whole run: take more "
     yield ResultWarning(
         "asperities-touch",
         f"the surfaces touch at {100.0 * found.time_share:.3g} % of {found.steps} time steps, and asperities "
-        f"carry about {share_text(share, coarser)} % of the load on average: metal conducts there, and the "
+        f"carry {about_share(share, coarser)} of the load on average: the film conducts there, and the "
         "minimum film, the maximum field and the breakdown voltage are those of the boundary film; use the "
-        "values of asperities",
+        "values of asperities" + ("" if found.filled else f"{short}motion.passes"),
     )
     if coarser is None:
         grids = "is not known on every second node with twice the time step"
     elif abs(found.share_change) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
-        grids = f"was {share_text(coarser, share)} % on every second node with twice the time step"
+        grids = f"was {about_share(coarser, share)} on every second node with twice the time step"
     else:
         return
     yield ResultWarning(

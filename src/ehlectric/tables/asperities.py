@@ -87,7 +87,8 @@ def _electrical(found: Asperities, *, line: bool) -> Iterator[Row]:
     yield Row("capacitance outside of the spots", answer.capacitance_outside, unit, digits=".3g")
     if answer.corner_frequency is not None:
         above = ", above it the film takes more current than the spots"
-        yield Row("corner frequency", answer.corner_frequency, "GHz", above, digits=".2g")
+        unit = "GHz" if answer.corner_frequency >= 1e9 else "kHz"
+        yield Row("corner frequency", answer.corner_frequency, unit, above, digits=".2g")
     if answer.breakdown_5 is not None:
         of = ", reached by 5 % of the Hertz zone"
         yield Row("breakdown voltage outside of the spots", answer.breakdown_5, "V", of, digits=".2g")

@@ -247,17 +247,26 @@ def _field(result: Result | PointResult) -> Iterator[Row]:
     if result.rough:
         at += f", {field.max_strength_wall}"
     yield Row("electric field")
-    yield Row("maximum field", field.max_strength, "V/µm", at, bound="≥")
-    name, error = "error of the maximum field", field.strength_error
+    if result.spots is None:
+        yield Row("maximum field", field.max_strength, "V/µm", at, bound="≥")
+        yield from _accuracy_of_maximum(result)
+    else:
+        # The voltage over a given gap: nothing of it is computed, and no error is to be stated.
+        yield Row("maximum field", field.max_strength, "V/µm", at, digits=".3g")
+    if isinstance(result, Result):
+        yield from _line_field(result)
+    else:
+        yield from _point_field(result)
+
+
+def _accuracy_of_maximum(result: Result | PointResult) -> Iterator[Row]:
+    """Rows of the error of the maximum field, and of its ratio to that of parallel plates."""
+    name, error = "error of the maximum field", result.field.strength_error
     yield Row(name, "unknown") if error is None else Row(name, error, "%", digits=".1g")
     name = "maximum field / parallel-plate field"
     yield Row(name, result.max_dimensionless, note="(parallel plates: V/h_min)", digits=".4f")
     if result.thin_gap_error is not None:
         yield Row("error of the estimate V/h_min", result.thin_gap_error, "%", digits=".2g")
-    if isinstance(result, Result):
-        yield from _line_field(result)
-    else:
-        yield from _point_field(result)
 
 
 def _line_field(result: Result) -> Iterator[Row]:

@@ -24,6 +24,7 @@ from ehlectric.motion.run import run, run_motion
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MotionRun, read_motion
 from ehlectric.motion.summary import summary_of
+from ehlectric.motion.warnings import touch_warnings
 from ehlectric.runtime.checks.schema import UnfitError
 from ehlectric.tables.motion import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving
@@ -284,3 +285,11 @@ def test_a_point_contact(tmp_path):
     touched = last["thickness"].values <= 1.0001e-9
     assert np.any(touched)
     assert outcome.result["spots"].values[-1] >= 1
+
+
+@pytest.mark.parametrize("filled", [True, False])
+def test_a_run_that_the_roughness_never_fills_is_told(filled):
+    share, counted = np.full(3, 0.2), np.ones(3, dtype=bool)
+    found = TouchHistory(np.arange(3.0), share, share, np.ones(3), share, counted, filled)
+    told = next(touch_warnings(found)).text
+    assert ("take more motion.passes" in told) != filled

@@ -40,6 +40,7 @@ UNSTORED = {
     "asperities-touch",
     "load-share-unresolved",
     "oil-not-conserved",
+    "hardness-low",
     "radius-large",
     "speed-high",
     "steps-too-long",

@@ -15,7 +15,7 @@ from ehlectric.bearing.meter.reading import film_share, shaft_path
 from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.bearing.shaft_voltage import shaft_voltage
-from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
+from ehlectric.bearing.solution import BearingSolution, lambda_text, lubrication
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import amount
@@ -70,9 +70,7 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
         return Verdict("grey", refused or "No verdict: a contact of the bearing is not converged.")
     state = lubrication(solution)
     if solution.conditions.ceramic:
-        touching = (
-            f" Surfaces touch (lambda ratio {lambda_ratio(solution):.2g})." if state == "touching" else ""
-        )
+        touching = f" Surfaces touch (lambda ratio {lambda_text(solution)})." if state == "touching" else ""
         return Verdict(
             "grey",
             "No verdict: the ceramic elements insulate, and their own breakdown is not computed." + touching,
@@ -81,7 +79,7 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
         # A thinner film than one that breaks down is not safer.
         return Verdict(
             "yellow" if solution.case.motor is None else "red",
-            f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}), "
+            f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_text(solution)}), "
             f"and contacts are intermittent; they short the bearing {_time(solution)}. {_OPENING}, and no "
             "voltage is computed for that. This is no protection: current passes, and arcs are likely.",
         )
@@ -194,7 +192,7 @@ def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) 
     """Sentences for which the margin may be lower than it is computed to be."""
     if lubrication(solution) == "partial film" or duty_of(solution).regime != "capacitive":
         yield (
-            f"Surfaces may touch at times (lambda ratio {lambda_ratio(solution):.2g}), and contacts are "
+            f"Surfaces may touch at times (lambda ratio {lambda_text(solution)}), and contacts are "
             f"intermittent: voltages are upper bounds. {_OPENING}, which is not computed. An element touches "
             f"both rings {_time(solution)}."
         )

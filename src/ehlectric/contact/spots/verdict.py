@@ -10,13 +10,13 @@ from ehlectric.errors import ResultWarning
 
 # First words of a verdict, which are its heading, and what the contact does.
 _LEADS = {
-    "resistive": "Metal conducts",
+    "resistive": "The spots conduct",
     "mixed": "Discharges expected",
     "capacitive": "Breakdown possible",
 }
 _ANSWERS = {
-    "resistive": "metal spots short the film at 10 kHz, and no voltage builds up while they are there",
-    "mixed": "the contact conducts and insulates in turn, and discharges as the spots open",
+    "resistive": "the spots short the film at 10 kHz, and no voltage builds up while they are there",
+    "mixed": "it conducts and insulates in turn, and discharges as the spots open",
     "capacitive": "only what lies on the spots insulates, and its own breakdown is not known",
 }
 

@@ -22,19 +22,36 @@ MASS_ERROR = 0.1
 
 _ROUNDING = 1e-9
 
+# Smallest load share, and smallest part of the mean flow of the oil, that a text states as a number.
+_LEAST_SHARE = 1e-4
+
 
 def share_text(share: float, coarser: float | None) -> str:
     """Share in per cent, with no more digits than its change from a coarser grid leaves.
 
     Examples
     --------
-    >>> share_text(0.2369, 0.2371), share_text(0.2369, 0.21), share_text(0.0511, 0.12)
-    ('23.7', '24', '5')
+    >>> share_text(0.2369, 0.2371), share_text(0.2369, 0.21), share_text(0.0511, 0.12), share_text(4e-7, 0.0)
+    ('23.7', '24', '5', '< 0.01')
     """
+    if 0.0 < share < _LEAST_SHARE:
+        return f"< {100.0 * _LEAST_SHARE:g}"
     error = share if coarser is None else abs(share - coarser)
     relative = error / share if share > 0.0 else 0.0
     digits = 3 if relative < 0.01 else 2 if relative < 0.2 else 1
     return f"{float(f'{100.0 * share:.{digits}g}'):g}"
+
+
+def about_share(share: float, coarser: float | None) -> str:
+    """Share in per cent within a sentence, with the digits of ``share_text``.
+
+    Examples
+    --------
+    >>> about_share(0.2369, 0.2371), about_share(4e-7, 0.03)
+    ('about 23.7 %', 'less than 0.01 %')
+    """
+    text = share_text(share, coarser)
+    return f"less than {text.removeprefix('< ')} %" if text.startswith("<") else f"about {text} %"
 
 
 def spot_warnings(
@@ -78,8 +95,8 @@ def spot_warnings(
     what = "spot, which carries" if spots.number == 1 else "spots, which carry"
     yield ResultWarning(
         "asperities-touch",
-        f"the surfaces touch in {spots.number} {what} about {share_text(share, before)} % of "
-        "the load: metal conducts there, and the minimum film, the maximum field, the capacitance and a "
+        f"the surfaces touch in {spots.number} {what} {about_share(share, before)} of "
+        "the load: the film conducts there, and the minimum film, the maximum field, the capacitance and a "
         "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
     )
     balance = oil_balance(case, conditions, film)
@@ -88,7 +105,7 @@ def spot_warnings(
     if before is None:
         grids = "is not known on a coarser grid"
     elif abs(share - before) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
-        grids = f"was {share_text(before, share)} % on a grid with half the nodes"
+        grids = f"was {about_share(before, share)} on a grid with half the nodes"
     else:
         return
     yield ResultWarning(
@@ -104,11 +121,14 @@ def _edge_gap(film: Film | PointFilm) -> float:
 
 
 def _not_conserved(balance: OilBalance) -> ResultWarning:
-    made, lost = (formatted(100.0 * each, ".2g") for each in (balance.oil_made, balance.oil_lost))
+    made, lost = (
+        f"{formatted(100.0 * each, '.2g')} %" if each >= _LEAST_SHARE else "none"
+        for each in (balance.oil_made, balance.oil_lost)
+    )
     return ResultWarning(
         "oil-not-conserved",
-        f"the film does not keep its oil: {made} % of the mean flow through the contact appears where "
-        f"cavitated gaps fill again, since they count as full in a stationary film, and {lost} % is lost in "
+        f"the film does not keep its oil: {made} of the mean flow through the contact appears where "
+        f"cavitated gaps fill again, since they count as full in a stationary film, and {lost} is lost in "
         "spots; the film is then rather too thick and the load share of the asperities too low; [motion] "
         "keeps the oil",
     )

@@ -14,7 +14,7 @@ from ehlectric.bearing.intermittency.duty import duty_of
 from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.meter.reading import shaft_capacitance
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import lambda_ratio, lubrication
+from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
 from ehlectric.discharge.verdict import lead_of, ratio_text
 from ehlectric.figures.bearing.curves import (
@@ -45,7 +45,7 @@ def loads(result: BearingResult) -> str:
     text = (
         f"Largest load {most['load']:.3g} N ({_contact(most)}); minimum film {least} ({_contact(thinnest)})"
     )
-    text += f", λ {lambda_ratio(result.solution):.2g}"
+    text += f", λ {lambda_text(result.solution)}"
     return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
 
 
@@ -166,7 +166,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     solution = result.solution
     factor = solution.conditions.film_factor
     text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {factor:.3g}"
-    text += f", minimum λ {lambda_ratio(solution):.2g}"
+    text += f", minimum λ {lambda_text(solution)}"
     text += f", contacts {HOW[solution.case.contacts]}"
     if lubrication(solution) in _TOUCHING:
         return text + ": surfaces touch"

@@ -29,6 +29,9 @@ STRENGTH = "#a50026"
 # White edge of a text, which keeps it readable on a line.
 _OUTLINE = [withStroke(linewidth=2.0, foreground="white")]
 
+# A dielectric strength below this part of the maximum field is named above its line, away from the ticks.
+_LOW = 0.1
+
 # A dielectric strength above this many times the maximum field is named beside the axes instead of drawn: the
 # field would be flat below it.
 _FAR = 2.5
@@ -75,16 +78,17 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
         )
         return largest
     ax.plot(x, limit, color=STRENGTH, lw=1.0, ls=(0, (5.0, 1.5, 1.0, 1.5)))
-    # Above the left half of the line, the oil is thick and its field low.
+    # On the left half of the line, the oil is thick and its field low.
+    low = float(limit[0]) < _LOW * largest
     ax.annotate(
         text,
         (0.03, float(limit[0])),
-        (0.0, -2.0),
+        (0.0, 2.0 if low else -2.0),
         xycoords=ax.get_yaxis_transform(),
         textcoords="offset points",
         color=STRENGTH,
         fontsize=8.0,
-        va="top",
+        va="bottom" if low else "top",
         path_effects=_OUTLINE,
         zorder=5.0,
     )

@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
-from ehlectric.contact.spots.warnings import share_text
+from ehlectric.contact.spots.warnings import about_share
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.discharge.verdict import lead_of, ratio_text
 from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE, SPOTS_FIGURE
@@ -29,10 +29,10 @@ def with_unit(value: float, unit: str, *, least: float = 0.1) -> str:
 
     Examples
     --------
-    >>> with_unit(2.98e6, "V/m")
-    '2.98 V/µm'
+    >>> with_unit(2.98e6, "V/m"), with_unit(0.9999e-9, "m", least=1.0)
+    ('2.98 V/µm', '1 nm')
     """
-    factor, prefixed = unit_for(abs(value), unit, least=least)
+    factor, prefixed = unit_for(float(f"{abs(value):.3g}"), unit, least=least)
     return signed(f"{factor * value:.3g}") + f" {prefixed}"
 
 
@@ -102,8 +102,10 @@ def _more(change: float, more: str, less: str) -> str:
 
 
 def strength_text(result: AnyContact) -> str:
-    """Maximum field and where it is."""
+    """Maximum field and where it is, or that it is the field of the boundary film."""
     field = result.field
+    if result.spots is not None:
+        return _boundary_film_text(result)
     place = place_text(result, field.max_strength_position)
     if isinstance(result, Result) and not result.rough:
         at = result.field.max_strength_position / result.conditions.half_width
@@ -113,9 +115,17 @@ def strength_text(result: AnyContact) -> str:
     return f"Maximum field {with_unit(field.max_strength, 'V/m')} {place}"
 
 
+def _boundary_film_text(result: AnyContact) -> str:
+    """Field where the surfaces touch, with the thickness of the boundary film, which it belongs to."""
+    film = _film(result, result.film.minimum_thickness)
+    return f"Field {with_unit(result.field.max_strength, 'V/m')} where the surfaces touch, over {film}"
+
+
 def profiles_text(result: AnyContact) -> str:
     """Maximum field, its ratio to the dielectric strength, and the difference between walls and mid-film."""
     field, limit = result.field, strength_limit(result)
+    if result.spots is not None:
+        return f"{_boundary_film_text(result)}; walls and mid-film within {per_cent(disagreement(result))}"
     if limit is None:
         place = place_text(result, field.max_strength_position)
         text = f"Maximum field {with_unit(field.max_strength, 'V/m')} at {place}"
@@ -199,6 +209,8 @@ def cut_offs(result: AnyContact) -> dict[int, float]:
 def cuts_text(result: PointResult) -> str:
     """Minimum film and maximum field of a point contact."""
     field, limit = result.field, strength_limit(result)
+    if result.spots is not None:
+        return _boundary_film_text(result)
     film, strongest = _film(result, result.film.minimum_thickness), with_unit(field.max_strength, "V/m")
     text = f"Minimum film {film}, maximum field {strongest}"
     if limit is None:
@@ -243,9 +255,9 @@ def spots_text(result: AnyContact) -> str:
     found = result.spots
     assert found is not None
     before = None if found.coarser is None else found.coarser.load_share
-    share = share_text(found.touching.load_share, before)
+    share = about_share(found.touching.load_share, before)
     number = "1 spot carries" if found.spots.number == 1 else f"{found.spots.number} spots carry"
-    return f"{number} about {share} % of the load on this grid: the contact is {found.electrical.behaviour}"
+    return f"{number} {share} of the load on this grid: the contact is {found.electrical.behaviour}"
 
 
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {

@@ -89,10 +89,9 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     ticks = levels[levels <= limits[1]]
     ax, *below = [ax] if ax is not None else stacked_panels((6.3, 5.4))
     _map(result, strength, ax, label=label, limits=limits, ticks=ticks, under=True)
-    handles = [
-        Patch(facecolor=OUT_OF_RANGE, label=f"film below {limits[0]:.4g} {unit}"),
-        Patch(facecolor=BODY, label="surfaces"),
-    ]
+    handles = [Patch(facecolor=BODY, label="surfaces")]
+    if limits[0] > 0.0:
+        handles.insert(0, Patch(facecolor=OUT_OF_RANGE, label=f"film below {limits[0]:.4g} {unit}"))
     handles += [_zoom(result, (ax, panel), strength, limits) for panel in below]
     x, y = _mesh(result)
     k, j = np.unravel_index(np.argmax(strength), strength.shape)

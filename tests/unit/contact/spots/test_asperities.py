@@ -1,16 +1,18 @@
 """Asperities of solved contacts: limits, balances, and what is told about them."""
 
 import json
+import re
 
 import numpy as np
 import pytest
 
 from ehlectric import Case, solve
 from ehlectric.cases.result_key import key_of
+from ehlectric.contact.check import check_case
 from ehlectric.contact.files import load, save
 from ehlectric.contact.keys import CONTACT_KEYS
 from ehlectric.contact.spots.mechanics import Coarser
-from ehlectric.contact.spots.warnings import share_text, spot_warnings
+from ehlectric.contact.spots.warnings import about_share, share_text, spot_warnings
 from ehlectric.figures import names
 from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.results import figure, figure_names
@@ -111,6 +113,9 @@ def test_what_is_told(geometry):
     rows = {row.name: row for row in result_rows(result)}
     assert rows["electrical behaviour"].value == result.asperities.electrical.behaviour
     assert rows["minimum film thickness h_min"].text.endswith("in the boundary film")
+    assert "in the boundary film" in rows["maximum field"].text
+    assert "error of the maximum field" not in rows
+    assert "maximum field / parallel-plate field" not in rows
     spots = result.asperities.spots.number
     assert f"{spots} spots touch, {result.asperities.electrical.behaviour}" in repr(result)
     assert "where surfaces touch" in rows["discretisation error of the film"].text
@@ -137,10 +142,41 @@ def test_a_share_that_depends_on_the_grid_is_told():
         (0.23691, 0.4, "20"),
         (0.23691, None, "20"),
         (0.0, None, "0"),
+        (4e-7, 0.03, "< 0.01"),
     ],
 )
 def test_digits_of_a_share(share, coarser, text):
     assert share_text(share, coarser) == text
+
+
+def test_tiny_shares_are_told_as_bounds():
+    result = solved()
+    coarser = Coarser(1e-6, 0.1)
+    told = {one.code: one.text for one in spot_warnings(POINT, result.conditions, result.film, coarser)}
+    assert "it was less than 0.01 % on a grid with half the nodes" in told["load-share-unresolved"]
+    assert about_share(0.2369, 0.22) == "about 24 %"
+    assert not re.search(r"e-\d", " ".join(told.values()))
+
+
+@pytest.mark.parametrize("case", [LINE, POINT])
+def test_a_hardness_below_the_hertz_pressure_is_told_before_the_solution(case):
+    def codes(hardness):
+        table = case.to_dict()
+        table["contact"]["hardness"] = hardness
+        return [warning.code for warning in check_case(Case.from_dict(table)).warnings()]
+
+    assert "hardness-low" in codes(0.3e9)
+    assert "hardness-low" not in codes(7e9)
+
+
+@BOTH
+def test_titles_name_the_field_of_the_boundary_film(geometry):
+    result = solved(geometry)
+    figures = ("field_map.png", "cuts.png") if geometry == "point" else ("field_strength.png",)
+    for name in (*figures, *(("field_profiles.png",) if geometry == "line" else ())):
+        title = finding(result, name)
+        assert "where the surfaces touch, over 1 nm" in title
+        assert "Maximum" not in title
 
 
 def test_verdict_speaks_of_the_spots():
@@ -150,7 +186,7 @@ def test_verdict_speaks_of_the_spots():
     assert f"touch in {found.spots.number} spot" in verdict.text
     assert f"The contact is {found.electrical.behaviour}" in verdict.text
     # The heading of the traffic light says the same.
-    lead = {"resistive": "Metal conducts", "mixed": "Discharges expected"}[found.electrical.behaviour]
+    lead = {"resistive": "The spots conduct", "mixed": "Discharges expected"}[found.electrical.behaviour]
     assert light_of(verdict.level, verdict.text).words == lead
     rows = {row.name: row for row in result_rows(result)}
     assert "breakdown voltage" not in rows
