@@ -85,10 +85,14 @@ def mixed_film(
         )
 
     if near is not None:
+        close = [near]
         if levels[0].mesh.y.size > 1:
-            near = relieved(levels[0], near, asperities.boundary_film)
-        yield (found := solved(near, _NEAR_DAMPING))
-        if found.status == "converged" or not thorough:
+            close.insert(0, relieved(levels[0], near, asperities.boundary_film))
+        for start in close:
+            yield (found := solved(start, _NEAR_DAMPING))
+            if found.status == "converged":
+                return
+        if not thorough:
             return
     ambient = fluid.ambient_pressure
     dry = dry_contact(levels[0], dry_pressure, asperities.boundary_film, ambient)
