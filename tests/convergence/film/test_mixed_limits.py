@@ -22,10 +22,10 @@ from tests.helpers.mixed_films import (
 from tests.reference import dry_contact
 
 
-def dry_limit(film):
+def dry_limit(film, **options):
     """Pressure, gap and contact on the nodes of a film by the independent solver of dry contacts."""
     mesh, problem = film.mesh, film.problem
-    options = {"shift": problem.boundary_film, "tolerance": 1e-7}
+    options |= {"shift": problem.boundary_film, "tolerance": 1e-7}
     if mesh.y.size == 1:
         added = problem.added_gap(mesh.x, mesh.y)[:, 0]
         dry = dry_contact.line_contact(mesh.x, added, load=problem.geometry.load, **options)
@@ -87,14 +87,32 @@ def test_film_at_its_tolerance_is_that_of_a_smaller_one(table):
             levels,
             found.last.state,
             asperities=problem.asperities,
-            tolerance=1e-9,
+            tolerance=1e-12,
             max_iterations=120,
         )
     exact = MixedFilm(problem, [last])
     assert found.converged
     assert exact.converged
+    assert exact.last.steps
+    assert exact.last.final.norm < 0.01 * found.last.final.norm
     assert found.share == pytest.approx(exact.share, abs=1e-4)
     np.testing.assert_allclose(found.film_outside, exact.film_outside, rtol=1e-3)
+
+
+@pytest.mark.parametrize("hardness", ["0.8 GPa", "1 GPa"])
+def test_hard_line_at_rest_is_the_dry_contact_with_this_hardness(hardness):
+    """Both solvers hold the pressure at the hardness on the same nodes, and agree on the flattened gap."""
+    film = mixed_film(rough_line(gaussian("50 nm", "20 um"), speed=1e-6, hardness=hardness))
+    assert film.converged
+    limit = film.problem.hardness
+    pressure, gap = dry_limit(film, hardness=limit)
+    flattened = pressure > limit * (1.0 - 1e-6)
+    assert np.count_nonzero(flattened) >= 5
+    np.testing.assert_array_equal(film.pressure > limit * (1.0 - 1e-6), flattened)
+    off = np.sum(film.last.level.weights * np.abs(film.pressure - pressure)) / film.problem.geometry.load
+    assert off < 2e-3
+    inside = np.abs(film.mesh.x) < 1.0
+    assert np.mean(np.abs(film.gap - gap)[inside]) < 1e-3 * np.mean(gap[inside])
 
 
 def test_point_at_rest_is_the_dry_rough_contact():
