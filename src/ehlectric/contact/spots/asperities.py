@@ -21,6 +21,10 @@ from ehlectric.film.point import PointFilm
 UNRESOLVED_SHARE, UNRESOLVED_LOAD = 0.1, 0.005
 
 
+# Load share of asperities above which finer grids leave spots, however much their area changes.
+_NEARLY_ALL = 0.9
+
+
 @dataclass(frozen=True)
 class Asperities:
     """Asperities of a solved contact.
@@ -126,7 +130,7 @@ def asperities(
             electric=case.electric,
             discharge=case.discharge,
             semi_axes=conditions.semi_axes,
-            area_error=carried.contact_area_error,
+            area_error=None if carried.load_share > _NEARLY_ALL else carried.contact_area_error,
         ),
         balance=oil_balance(case, conditions, film),
         coarser=coarser,

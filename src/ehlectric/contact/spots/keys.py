@@ -91,7 +91,8 @@ def _electrical(capacitance: str) -> Keys:
         "behaviour": ResultKey(
             '"capacitive": no spots, or the film takes ten times their current at 10 kHz; "resistive": the '
             'spots take ten times that of the film, and time_share is at least 0.95; "mixed": all between, '
-            "and where contact_area_error is 1 or more, as a finer grid may have no spots"
+            "and where contact_area_error is 1 or more and spots carry less than 90 % of the load, as a "
+            "finer grid may have no spots"
         ),
         "time_share": ResultKey(
             "share of the time with at least one spot, 1 − (1 − f)^(spots/f) with contact_area_share f",

@@ -11,6 +11,7 @@ from ehlectric.cases.result_key import key_of
 from ehlectric.contact.check import check_case
 from ehlectric.contact.files import load, save
 from ehlectric.contact.keys import CONTACT_KEYS
+from ehlectric.contact.spots.asperities import asperities
 from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.contact.spots.warnings import about_share, share_text, spot_warnings
 from ehlectric.figures import names
@@ -36,6 +37,12 @@ def test_at_creeping_speed_smooth_surfaces_touch_in_the_whole_hertz_zone():
     )
     assert found.lambda_undeformed is None
     assert result.asperities.electrical.behaviour == "resistive"
+    # However much the area changes with the grid, the whole load does not come off the spots.
+    coarser = Coarser(load_share=1.0, contact_area_share=3.0 * found.contact_area_share)
+    inputs = (case, result.conditions, result.film)
+    again = asperities(*inputs, rq=0.0, smooth=None, coarser=coarser)
+    assert again.touching.contact_area_error == pytest.approx(2.0)
+    assert again.electrical.behaviour == "resistive"
 
 
 @BOTH
