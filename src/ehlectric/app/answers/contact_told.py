@@ -24,6 +24,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "radius-large": (),
         "ambient-pressure": _HERTZ,
         "plastic-deformation": _HERTZ,
+        "hardness-low": _HERTZ,
         "law-range": _HERTZ,
         "roelands-z": _FILM,
         "estimated-alpha": _FILM,

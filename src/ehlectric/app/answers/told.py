@@ -65,6 +65,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "radius-large": (),
         "ambient-pressure": (),
         "plastic-deformation": _FILM,
+        "hardness-low": _FILM,
         "law-range": _FILM,
         "roelands-z": _FILM,
         "estimated-alpha": _FILM,

@@ -12,16 +12,9 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.laws import WeakestLink
 from ehlectric.figures.contact.findings import AnyContact, signed, strength_limit
+from ehlectric.figures.lengths import LENGTH_AXIS, label_position, length_axis
 from ehlectric.figures.names import BREAKDOWN_FIGURE
-from ehlectric.figures.style import (
-    BLUE,
-    LENGTH_AXIS,
-    ORANGE,
-    label_position,
-    legend_above,
-    length_axis,
-    new_panels,
-)
+from ehlectric.figures.style import BLUE, ORANGE, legend_above, new_panels
 
 # Colour of the dielectric strength and of breakdown.
 STRENGTH = "#a50026"

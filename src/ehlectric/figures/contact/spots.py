@@ -24,18 +24,9 @@ from ehlectric.figures.contact.maps import (
     on_page,
     round_levels,
 )
+from ehlectric.figures.lengths import LENGTH_AXIS, in_half_widths, label_position, length_axis
 from ehlectric.figures.names import SPOTS_FIGURE
-from ehlectric.figures.style import (
-    BLUE,
-    GREY,
-    LENGTH_AXIS,
-    ORANGE,
-    axes_or_new,
-    in_half_widths,
-    label_position,
-    legend_above,
-    length_axis,
-)
+from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 
 # Share of the Hertz zone outside of the spots whose film the colours and the axis span.
 _SHOWN = 95.0

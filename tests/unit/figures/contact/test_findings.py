@@ -14,7 +14,8 @@ from ehlectric.figures.contact.findings import finding, has_spike, per_cent, pla
 from ehlectric.figures.contact.line import field_deviation, field_profiles, film, roughness
 from ehlectric.figures.contact.line_maps import field_strength
 from ehlectric.figures.contact.save import drawings_of, figure
-from ehlectric.figures.style import OUT_OF_RANGE, axes_or_new, length_axis
+from ehlectric.figures.lengths import length_axis
+from ehlectric.figures.style import OUT_OF_RANGE, axes_or_new
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.point_pages import result_of, solved
 
