@@ -252,8 +252,8 @@ def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept
 def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
     """Ten times kill -9 at a random moment: rows only become more, and the workers go too."""
     # Far more points than a fast machine solves in ten turns.
-    swept(LONG.replace("count = 100", "count = 300"))
-    number = 12 * 300
+    swept(LONG.replace("count = 100", "count = 200"))
+    number = 12 * 200
     moment, rows = random.Random(5), {}
     for turn in range(10):
         # Half of them while points are saved, half while all is being made ready.
