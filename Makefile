@@ -110,11 +110,16 @@ figures: $(VENV)/.run
 	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
 	$(BIN)/ehlectric run examples/ball_contact.toml -o $(POINT_RESULTS) --quiet
 	cp $(POINT_RESULTS)/field_map.png docs/figures
+	$(BIN)/ehlectric run examples/mixed_contact.toml -o results/mixed_contact --quiet
+	cp results/mixed_contact/spots.png docs/figures/mixed_spots.png
 	$(BIN)/ehlectric sweep examples/sweep.toml -o results/sweep --quiet
 	$(BIN)/ehlectric map results/sweep --x contact.entrainment_speed --y contact.load_per_length --quiet
 	cp results/sweep/map_discharge.breakdown_voltage.png docs/figures/breakdown_map.png
 	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS) --quiet
 	cp $(BEARING_RESULTS)/breakdown_over_speed.png docs/figures
+	$(BIN)/ehlectric sweep examples/bearing_regime_map.toml -o results/regimes --quiet
+	$(BIN)/ehlectric map results/regimes --x bearing.inner_speed --y bearing.temperature --value bearing.contact_time_share --quiet
+	cp results/regimes/map_bearing.contact_time_share.png docs/figures/bearing_regimes.png
 
 screenshots: $(VENV)/.test
 	EHLECTRIC_SCREENSHOTS=$(CURDIR)/docs/figures/app EHLECTRIC_BROWSER=required \

@@ -251,6 +251,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "radius-large": Cause("A radius above 1 m was probably given in the wrong unit."),
         "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
         "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
+        "hardness-low": Cause("The hardness of the surfaces is below the Hertz pressure."),
         "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
         "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
         "estimated-alpha": Cause(
@@ -267,6 +268,9 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         # Film
         "not-converged": Cause("The iteration of the film did not converge.", "severe"),
         "surfaces-touch": Cause("The surfaces of the computed film would touch in places."),
+        "asperities-touch": Cause("Asperities touch, carry a part of the load and conduct."),
+        "load-share-unresolved": Cause("The load share of asperities changes with the grid."),
+        "oil-not-conserved": Cause("The film makes or loses above 10 % of the oil that flows through it."),
         "thinner-than-atom": Cause("The film is thinner than an atom in places."),
         "refine-not-reached": Cause("The error of the film that was asked for was not reached."),
         "error-unknown": Cause("The discretisation error of a rough contact's film is unknown."),
@@ -277,7 +281,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "outlet-too-short": Cause("The film does not cavitate within the domain."),
         "inlet-too-short": Cause("Some of the inlet pressure builds up upstream of the domain."),
         "inlet-far-too-short": Cause("Above 20 % of the inlet pressure builds up upstream.", "severe"),
-        "domain-too-small": Cause("The domain of a point contact is too small."),
+        "domain-too-small": Cause("The domain is too small for the contact."),
         "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),

@@ -104,14 +104,68 @@ def test_changing_between_line_and_point_asks_the_command_for_each(open_page, ap
         )
 
 
+# Inputs of surfaces that touch, as they are typed.
+_OF_SPOTS = {
+    "contact.boundary_friction": "0.12",
+    "discharge.dielectric_strength": "15",
+    "discharge.length": "10",
+    "electric.resistivity": "2.2e-7",
+    "electric.tribofilm_resistance": "1e-12",
+}
+
+
+@pytest.mark.slow
+def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed(
+    open_page, app_server, tmp_path
+):
+    rough = {"surface": 1, "generator": "gaussian", "rq": "250 nm", "correlation_length": "5 um", "seed": 4}
+    table = example("rough_contact", roughness=[rough], grid__nodes=801)
+    table["contact"] |= {"load_per_length": "1.57 MN/m", "entrainment_speed": "0.05 m/s"}
+    page = open_page(app_server, address_of("/contact", table))
+    page.get_by_test_id("number-formula-minimum-film").wait_for()
+    page.get_by_test_id("group-contact-more").locator("summary").click()
+    for typed, nanometres in ((None, 1.0), ("2", 2.0)):
+        if typed is not None:
+            type_into(page, "contact.boundary_film", typed)
+            page.get_by_test_id("solve-state").filter(has_text="earlier inputs").wait_for()
+        page.get_by_test_id("solve").click()
+        wait_until_solved(page)
+        assert shown(page, "minimum-film") == pytest.approx(nanometres, rel=1e-3)
+        assert "boundary film" in page.get_by_test_id("number-minimum-film").inner_text()
+        legend = page.get_by_test_id("figure-profiles").locator(".legendtext")
+        legend.filter(has_text="surfaces touch").wait_for()
+        legend.filter(has_text="pressure of asperities").wait_for()
+        summary = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)
+        mean = 1e6 * summary["film"]["mean_thickness"]
+        assert shown(page, "central-film") == pytest.approx(mean, rel=1e-3)
+    assert "give the resistivity" in page.get_by_test_id("number-spots-spot-resistance").inner_text()
+    for group in ("contact", "voltage-and-breakdown"):
+        box = page.get_by_test_id(f"group-{group}-more")
+        if box.get_attribute("open") is None:
+            box.locator("summary").click()
+    for key, typed in _OF_SPOTS.items():
+        type_into(page, key, typed)
+    page.get_by_test_id("solve-state").filter(has_text="earlier inputs").wait_for()
+    page.get_by_test_id("solve").click()
+    wait_until_solved(page)
+    found = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)["asperities"]
+    assert found["behaviour"] in page.get_by_test_id("number-spots-behaviour").inner_text()
+    assert shown(page, "spots-spots") == found["spots"]
+    assert shown(page, "spots-contact-area") == pytest.approx(1e6 * found["contact_area"], rel=0.05)
+    assert shown(page, "spots-friction") == pytest.approx(found["boundary_friction"], rel=0.05)
+    assert shown(page, "spots-breakdown-5") == pytest.approx(found["breakdown_5"], rel=0.05)
+    assert "Ω" in page.get_by_test_id("number-spots-spot-resistance").inner_text()
+    assert overflow(page) <= 0
+
+
 def upload(page, path):
     """Upload a file of an instrument."""
     page.get_by_test_id("upload-surface").set_input_files(path)
 
 
-def statistics(page):
-    """Rows of the table of statistics, as texts."""
-    table = page.get_by_test_id("surface-statistics")
+def statistics(page, name="surface-statistics"):
+    """Rows of the table of statistics, or of another table of a surface, as texts."""
+    table = page.get_by_test_id(name)
     table.wait_for()
     return table.evaluate("t => [...t.rows].map(r => [...r.cells].map(c => c.innerText))")
 
@@ -134,6 +188,11 @@ def test_a_measured_surface_has_the_statistics_of_the_command(open_page, app_ser
         assert float(row[1].replace(" ", "")) == step["points"]
         assert float(row[column]) == pytest.approx(1e9 * step["rq"], rel=2e-3)
         assert float(row[column + 1]) == pytest.approx(1e9 * step["ra"], rel=2e-3)
+    heads, *rows_of_summits = statistics(page, "surface-summits")
+    for row, summits in zip(rows_of_summits, told["summits"], strict=True):
+        assert float(row[0]) == pytest.approx(1e6 * summits["interval"], rel=5e-3)
+        radius = row[next(number for number, head in enumerate(heads) if head.startswith("radius"))]
+        assert float(radius) == pytest.approx(1e6 * summits["summit_radius"], rel=5e-3)
     assert page.get_by_test_id("surface").locator(".js-plotly-plot").count() == len(rows)
     page.get_by_test_id("use-surface").click()
     page.get_by_test_id("surfaces-used").filter(has_text=path.name).wait_for()

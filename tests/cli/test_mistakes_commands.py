@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import numpy as np
 import pytest
 
 from ehlectric import Case
@@ -114,8 +115,9 @@ WRONG = [
     ),
     pytest.param(
         ("examples", "bering"),
-        "examples: got 'bering'; expected one of ball_bearing, ball_contact, bearing_6208, discharge, "
-        "line_contact, moving_roughness, oil_contact, roller_bearing, rough_contact, sweep, uncertainty",
+        "examples: got 'bering'; expected one of ball_bearing, ball_contact, bearing_6208, "
+        "bearing_regime_map, bearing_thin_oil, discharge, line_contact, mixed_contact, moving_roughness, "
+        "oil_contact, roller_bearing, rough_contact, sweep, uncertainty",
         id="examples",
     ),
 ]
@@ -238,6 +240,20 @@ def test_the_breakdown_of_a_contact_is_estimated_by_formula(ehlectric, files):
     table = '[discharge.strength_table]\npressure = ["0 GPa", "1 GPa"]\nstrength = ["15 V/um", "20 V/um"]\n'
     case.write_text(case.read_text().replace('[discharge]\ndielectric_strength = "15 V/um"\n', table))
     assert "breakdown_by_formula" not in json.loads(ehlectric("check", "case.toml", "--json").stdout)
+
+
+def test_lambda_of_a_rough_contact_is_estimated_by_formula(ehlectric, files):
+    """A wave has an Rq of its amplitude over the root of two; the film is that of smooth surfaces."""
+    case = files / "case.toml"
+    assert "lambda_by_formula" not in json.loads(ehlectric("check", "case.toml", "--json").stdout)
+    wave = 'generator = "sinusoid"\nwavelength = "10 um"\namplitude = "500 nm"\n'
+    case.write_text(case.read_text() + "[[roughness]]\nsurface = 1\n" + wave)
+    found = json.loads(ehlectric("check", "case.toml", "--json").stdout)
+    estimate = found["lambda_by_formula"]
+    assert estimate["rq"] == pytest.approx(500e-9 / np.sqrt(2.0), rel=0.01)
+    film = found["film_formulas"]["moes"]["central_thickness"]
+    assert estimate["lambda_ratio"] == pytest.approx(film / estimate["rq"], rel=1e-12)
+    assert ("likely to touch" in words_of(ehlectric("check", "case.toml"))) == (film < estimate["rq"])
 
 
 def test_a_folder_never_has_two_results(ehlectric, files):

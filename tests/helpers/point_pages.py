@@ -42,7 +42,11 @@ KINDS = {
     "circle": {"title": "20 N"},
     "across": {"contact": BEARING, "title": "A ball of a deep groove ball bearing 6208"},
     "along": {"contact": {"radius_x": "200 mm", "load": "60 N"}, "grid": {"nodes_y": 73}, "title": "Along"},
-    "unsolved": {"contact": BEARING | {"entrainment_speed": "0.05 m/s"}, "solver": {"max_iterations": 2}},
+    # Thinner than the boundary film the surfaces would touch, and be solved.
+    "unsolved": {
+        "contact": BEARING | {"entrainment_speed": "0.05 m/s", "boundary_film": "0.1 nm"},
+        "solver": {"max_iterations": 2},
+    },
     "gaussian": {
         "grid": {"nodes_y": 49, "wedge": "second-order"},
         "roughness": [GAUSSIAN],

@@ -131,8 +131,11 @@ def save(
         CONTACTS: csv_of(heads, (row.values() for row in rows)),
     }
     if impedance is not None:
-        columns = impedance.frequency.tolist(), impedance.magnitude.tolist(), impedance.phase.tolist()
+        columns = [impedance.frequency.tolist(), impedance.magnitude.tolist(), impedance.phase.tolist()]
         units = {"frequency": "Hz", "magnitude": "ohm", "phase_degrees": "deg"}
+        if impedance.mean is not None:
+            columns += [impedance.mean.magnitude.tolist(), impedance.mean.phase.tolist()]
+            units |= {"mean_magnitude": "ohm", "mean_phase_degrees": "deg"}
         heads = [column_head(*one) for one in units.items()]
         contents[IMPEDANCE] = csv_of(heads, zip(*columns, strict=True))
     contents[NETCDF] = content_of(result.to_xarray())

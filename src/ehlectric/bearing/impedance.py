@@ -8,6 +8,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import leaking_admittance
+from ehlectric.bearing.intermittency.admittance import mean_admittance
 from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.solution import BearingSolution, lubrication
 from ehlectric.discharge.leakage import leakage
@@ -31,11 +32,15 @@ class Impedance:
     corner : float
         Corner frequency 1/(2 pi tau) of the oil alone [Hz]. A bearing filled with oil has the same corner
         frequency; air around the films, which does not conduct, and a parallel capacitance make it lower.
+    mean : Impedance or None
+        Reciprocal of the mean admittance over the time in which contacts are open and closed; None without
+        ``bearing.contact_resistance``.
     """
 
     frequency: Array
     values: Array
     corner: float
+    mean: Impedance | None = None
 
     @property
     def magnitude(self) -> Array:
@@ -64,10 +69,13 @@ def impedance_of(solution: BearingSolution) -> Impedance | None:
     Returns
     -------
     Impedance or None
-        None without a conductivity, where surfaces touch, and for ceramic elements.
+        None without a conductivity, for ceramic elements, and where surfaces touch unless the case has the
+        resistance of a closed contact. ``values`` are those of the smooth films, as if none touched.
     """
-    tau = oil_relaxation_time(solution)
-    if tau is None or solution.conditions.ceramic or lubrication(solution) == "conducting":
+    tau, resistance = oil_relaxation_time(solution), solution.case.bearing.contact_resistance
+    if tau is None or solution.conditions.ceramic:
+        return None
+    if resistance is None and lubrication(solution) == "conducting":
         return None
     corner = 1.0 / (2.0 * np.pi * tau)
     frequency = np.geomspace(_BELOW_CORNER * corner, max(_HIGHEST, corner / _BELOW_CORNER), _COUNT)
@@ -77,4 +85,7 @@ def impedance_of(solution: BearingSolution) -> Impedance | None:
         inner, outer = ((ring.capacitance(fill), ring.oil_capacitance(fill)) for ring in position.rings)
         y = y + leaking_admittance(inner, outer, tau, frequency)
     films = y / len(solution.positions)
-    return Impedance(frequency, 1.0 / shaft_path(solution).admittance(films, frequency), corner)
+    mean = None
+    if resistance is not None:
+        mean = Impedance(frequency, 1.0 / mean_admittance(solution, tau, frequency, resistance), corner)
+    return Impedance(frequency, 1.0 / shaft_path(solution).admittance(films, frequency), corner, mean)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from ehlectric.bearing.fits.keys import CLEARANCE_KEYS
+from ehlectric.bearing.intermittency.keys import CONTACT_DUTY_KEYS, DUTY_KEYS
+from ehlectric.bearing.margin.keys import EFFECT_KEYS, MARGIN_KEYS
 from ehlectric.bearing.meter.keys import METER_KEYS
 from ehlectric.cases.oils.keys import OIL_KEYS
 from ehlectric.cases.result_key import Keys, ResultKey, under
@@ -140,6 +142,14 @@ _VOLTAGES: Keys = {
         "shaft_first_break / shaft voltage; null without a motor",
         "",
         "margin (first breakdown / shaft voltage)",
+    ),
+    "breakdown_probability": ResultKey(
+        "probability that a contact has broken down at the shaft voltage while no metallic contact shorts "
+        "the bearing, 1 − exp(−1/margin^m) with the shape m of a Weibull law, at the weakest position; "
+        "`insulating_time_share` is the share of time in which that is possible; null as margin is, and "
+        "without this law",
+        "",
+        "probability of breakdown at the shaft voltage",
     ),
     "through_margin": ResultKey(
         "shaft_through_breakdown / shaft voltage; null without a motor",
@@ -285,56 +295,6 @@ _MECHANICS: Keys = {
     "residual": ResultKey("maximum unbalanced force on ring or element / (load + centrifugal force)"),
 }
 
-_MARGIN: Keys = {
-    "level": ResultKey(
-        'colour of the verdict: "green", "yellow" where the margin may lie on either side of 1 or surfaces '
-        'may touch, "red" where breakdown is expected or surfaces touch under a voltage, or "grey" where '
-        "there is nothing to compare"
-    ),
-    "critical_speed": ResultKey(
-        "speed of the inner ring at which the margin is 1, and below which breakdown is expected; by film "
-        "formulas that are scaled to `bearing.margin` at the speed of the file, at one temperature; null "
-        "where the margin does not cross 1 between `lowest_speed` and `highest_speed`",
-        "rad/s",
-        "critical speed",
-    ),
-    "upper_critical_speed": ResultKey(
-        "speed of the inner ring above which the margin is below 1 again, up to `highest_speed`; null where "
-        "it is not",
-        "rad/s",
-        "upper critical speed",
-    ),
-    "touching_speed": ResultKey(
-        "speed of the inner ring below which the surfaces touch; null where they do not in that range",
-        "rad/s",
-        "speed below which surfaces touch",
-    ),
-    "lowest_speed": ResultKey("lower end of the speeds that were searched", "rad/s"),
-    "highest_speed": ResultKey("upper end of the speeds that were searched", "rad/s"),
-    "low": ResultKey(
-        "margin with all inputs of `[ranges]` at their unfavourable ends, 0 where the surfaces touch; null "
-        "without ranges",
-        "",
-        "margin, inputs at their unfavourable ends",
-    ),
-    "high": ResultKey(
-        "margin with all inputs of `[ranges]` at their favourable ends; null without ranges",
-        "",
-        "margin, inputs at their favourable ends",
-    ),
-    "effects": ResultKey("list of the effects of single inputs on the margin, the largest first"),
-    "left_out": ResultKey("list of what could not be computed, and why"),
-}
-
-EFFECT_KEYS: Keys = {
-    "key": ResultKey("dotted key of the input"),
-    "label": ResultKey("name of the input"),
-    "low_input": ResultKey("smaller value of the input, in the SI unit of its key"),
-    "high_input": ResultKey("larger value of the input, in the SI unit of its key"),
-    "low_margin": ResultKey("margin at `low_input`, 0 where the surfaces touch"),
-    "high_margin": ResultKey("margin at `high_input`, 0 where the surfaces touch"),
-}
-
 # Keys of a row of ``contacts``, which are also the columns of contacts.csv.
 CONTACT_KEYS: Keys = {
     "element": ResultKey("number of the element from 0, which lies on the load line"),
@@ -356,6 +316,7 @@ CONTACT_KEYS: Keys = {
         '"full film" from a lambda_ratio of 3 on; "partial film" below, where asperities touch at times; '
         '"touching" below 1, with contacts that open and close; "gap" without load'
     ),
+    **CONTACT_DUTY_KEYS,
     "capacitance": ResultKey(
         "capacitance of the contact, with `fill` around it; null for ceramic elements", "F"
     ),
@@ -386,9 +347,10 @@ BEARING_KEYS: Keys = {
     **under("lubricant", _LUBRICANT),
     **under("bearing", CLEARANCE_KEYS),
     **under("bearing", _CAPACITANCES),
+    **under("bearing", DUTY_KEYS),
     **under("bearing", _VOLTAGES),
     **under("bearing", METER_KEYS),
-    **under("margin", _MARGIN),
+    **under("margin", MARGIN_KEYS),
     **under("margin.effects", EFFECT_KEYS),
     **under("mechanics", _MECHANICS),
     "contacts": ResultKey(

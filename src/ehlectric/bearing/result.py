@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from ehlectric.bearing.intermittency.capacitive_speed import capacitive_speed
 from ehlectric.bearing.keys import BEARING_KEYS, CONTACT_KEYS
 from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
 from ehlectric.bearing.margin.verdict import bearing_verdict
@@ -140,13 +141,23 @@ class BearingResult(Shown):
         """Verdict: whether breakdown is expected at the shaft voltage, and below which speed."""
         return bearing_verdict(self.solution, self.margin_analysis)
 
+    @cached_property
+    def capacitive_speed(self) -> float | None:
+        """Speed of the inner ring from which the bearing is capacitive at its temperature [rad/s].
+
+        None where it is so at all speeds that are looked at, or at none, and for insulated bearings. It
+        solves some ten bearings with contacts from the atlas when it is first asked for.
+        """
+        return capacitive_speed(self.solution)
+
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
         verdict, analysis = self.verdict, self.margin_analysis
         summary: dict[str, Any] = {}
         for key, value in summary_of(self.solution).items():
             if key == "mechanics":
-                summary["margin"] = plain({"level": verdict.level, **analysis.summary()})
+                speed = {"capacitive_speed": self.capacitive_speed}
+                summary["margin"] = plain({"level": verdict.level, **analysis.summary(), **speed})
             summary[key] = value
             if key == "warning_codes":
                 summary["verdict"] = verdict.text

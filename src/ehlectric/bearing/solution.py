@@ -242,14 +242,22 @@ def lambda_ratio(solution: BearingSolution) -> float:
     return solution.least_film / solution.case.bearing.composite_rq
 
 
-def lubrication(solution: BearingSolution) -> str:
+def lambda_text(solution: BearingSolution) -> str:
+    """Lambda ratio with two digits, and with three near 1, where the state of lubrication changes."""
+    ratio = lambda_ratio(solution)
+    return f"{ratio:.3g}" if 0.9 < ratio < 1.1 else f"{ratio:.2g}"
+
+
+def lubrication(solution: BearingSolution, *, film_scale: float = 1.0) -> str:
     """State of lubrication: "conducting", "touching", "partial film" or "full film".
+
+    ``film_scale`` is a factor on all films, for those of a quick way that are scaled to solved ones.
 
     Below a lambda ratio of 1 contacts close and open all the time: the bearing is called "conducting", as no
     voltage is computed for it, or "touching" with ceramic elements, which insulate. Below 3 it has a "partial
     film", whose asperities touch at times, and otherwise a "full film".
     """
-    ratio = lambda_ratio(solution)
+    ratio = film_scale * lambda_ratio(solution)
     if ratio < CONDUCTING:
         return "touching" if solution.conditions.ceramic else "conducting"
     return "partial film" if ratio < PARTIAL else "full film"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import Any
 
 from ehlectric.bearing.accuracy import film_error
@@ -11,6 +12,8 @@ from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.discharges.energy import bearing_costs
 from ehlectric.bearing.discharges.leakage import shaft_leakage
 from ehlectric.bearing.impedance import oil_relaxation_time
+from ehlectric.bearing.intermittency.duty import BearingDuty, duty_of
+from ehlectric.bearing.intermittency.summary import contact_duty, duty_summary
 from ehlectric.bearing.loads.totals import mechanics_of
 from ehlectric.bearing.meter.reading import (
     film_share,
@@ -45,6 +48,7 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
     The verdict and the analysis of the margin are left out, which solve further bearings.
     """
     case, conditions, oil = solution.case, solution.conditions, solution.case.lubricant.temperature
+    duty = duty_of(solution)
     summary: dict[str, Any] = plain(
         {
             "schema": SCHEMA,
@@ -60,9 +64,9 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
                 "conductivity": conductivity_of(case.discharge, conditions.oil),
                 "film_factor": conditions.film_factor,
             },
-            "bearing": clearances_of(conditions) | _totals(solution),
+            "bearing": clearances_of(conditions) | _totals(solution, duty),
             "mechanics": mechanics_of(solution.positions[0].equilibrium),
-            "contacts": contact_rows(solution),
+            "contacts": contact_rows(solution, duty),
             "seconds": solution.seconds,
         }
     )
@@ -95,7 +99,7 @@ def clearances_of(conditions: BearingConditions[Any]) -> dict[str, float | None]
     }
 
 
-def _totals(solution: BearingSolution) -> dict[str, Any]:
+def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
     """Capacitances, voltages and error estimates of the whole bearing."""
     own, plate = capacitance(solution), plate_capacitance(solution)
     strength, shaft, across = strength_per_volt(solution), shaft_voltage(solution), film_voltage(solution)
@@ -115,8 +119,10 @@ def _totals(solution: BearingSolution) -> dict[str, Any]:
         **_outside(solution, rough),
         "lambda_ratio": lambda_ratio(solution),
         "lubrication": lubrication(solution),
+        **duty_summary(solution, duty),
         "film_factor": solution.conditions.film_factor,
-        **breaks(solution),
+        **(broken := breaks(solution)),
+        "breakdown_probability": _breakdown_probability(solution, broken["margin"]),
         "strength_per_volt": strength,
         "max_strength": None if strength is None or across is None else strength * across,
         "bearing_voltage_ratio": bearing_voltage_ratio(solution),
@@ -175,16 +181,34 @@ def breaks(solution: BearingSolution) -> dict[str, Any]:
     }
 
 
-def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
-    """Table of contacts, a row per element and ring, with the cage at its first position, SI units."""
+def _breakdown_probability(solution: BearingSolution, ratio: float | None) -> float | None:
+    """Probability that a contact has broken down at the shaft voltage, from the margin and a Weibull law.
+
+    It is 1 - exp(-(V/V_1)^m) with the shape m, the shaft voltage V and that of the first breakdown at 63.2 %,
+    V_1. None where there is no margin, or the strength does not scatter.
+    """
+    shape = solution.positions[0].shape
+    if shape is None or ratio is None:
+        return None
+    # From this exponent on the probability is 1 to the last digit.
+    exponent = min(-shape * math.log(ratio), 10.0)
+    return -math.expm1(-math.exp(exponent))
+
+
+def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> list[dict[str, Any]]:
+    """Table of contacts, a row per element and ring, with the cage at its first position, SI units.
+
+    ``duty`` is that of the solution, where it is already known.
+    """
     position, circuit, across = solution.positions[0], solution.circuits()[0], film_voltage(solution)
     at, insulates, ceramic = position.equilibrium, insulating(solution), solution.conditions.ceramic
     fill, rq = solution.case.bearing.fill, solution.case.bearing.composite_rq
+    inner_duty, outer_duty = (duty or duty_of(solution)).rings[0]
     rows = []
     for k in range(at.position.size):
-        for name, ring, share in (
-            ("inner", position.inner, circuit.inner_share),
-            ("outer", position.outer, 1.0 - circuit.inner_share),
+        for name, ring, share, asperities in (
+            ("inner", position.inner, circuit.inner_share, inner_duty),
+            ("outer", position.outer, 1.0 - circuit.inner_share, outer_duty),
         ):
             values = ring.values
             strength = share[k] * values.strength_per_volt[k] if insulates else None
@@ -203,6 +227,7 @@ def contact_rows(solution: BearingSolution) -> list[dict[str, Any]]:
                     "central_thickness": values.central_thickness[k],
                     "lambda_ratio": values.minimum_thickness[k] / rq,
                     "regime": regime(values.minimum_thickness[k] / rq, loaded=bool(ring.solved[k])),
+                    **contact_duty(asperities, k),
                     "capacitance": None if ceramic else ring.capacitance(fill)[k],
                     "voltage_share": share[k] if insulates else None,
                     "strength_per_volt": strength,

@@ -13,6 +13,8 @@ from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.discharges.energy import current_warnings
 from ehlectric.bearing.discharges.leakage import leakage_warnings
 from ehlectric.bearing.fits.warnings import class_warnings, fit_warnings
+from ehlectric.bearing.intermittency.duty import duty_of
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
 from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.shaft_voltage import film_voltage, shaft_voltage
@@ -21,7 +23,7 @@ from ehlectric.bearing.solution import (
     Position,
     capacitance_is_bound,
     insulating,
-    lambda_ratio,
+    lambda_text,
     lubrication,
 )
 from ehlectric.cases import library
@@ -258,7 +260,7 @@ def _coating_warnings(solution: BearingSolution, shaft: float | None) -> Iterato
 def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warning of surfaces that touch all or some of the time."""
     state, ceramic = lubrication(solution), solution.conditions.ceramic
-    touching = f"lambda is {lambda_ratio(solution):.2g}: surfaces"
+    touching = f"lambda is {lambda_text(solution)}: surfaces"
     if state == "conducting":
         text = (
             f"{touching} touch, and contacts close and open all the time: they discharge at a low voltage as "
@@ -268,14 +270,17 @@ def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]
         yield ResultWarning("touching", text)
     elif state == "touching":
         yield ResultWarning("touching", f"{touching} touch; only the ceramic elements insulate")
-    elif state == "partial film":
-        text = f"{touching} may touch"
-        if not ceramic:
-            text += (
-                " at times, and contacts discharge at a lower voltage as they open, which is not computed; "
+    elif state == "partial film" and ceramic:
+        yield ResultWarning("partial-film", f"{touching} may touch")
+    else:
+        duty = duty_of(solution)
+        if state == "partial film" or duty.regime != "capacitive":
+            text = (
+                f"{touching} may touch at times, and contacts discharge at a lower voltage as they open, "
+                f"which is not computed; they touch from ring to ring {time_text(duty.touching_time_share)}; "
                 "breakdown voltages are upper bounds"
             )
-        yield ResultWarning("partial-film", text)
+            yield ResultWarning("partial-film", text)
 
 
 def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.defaults import BOUNDARY_FILM
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
@@ -26,6 +27,9 @@ class Body(Table):
     radius_x: _SignedRadius | None = None
     radius_y: _SignedRadius | None = None
 
+
+# Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
+_ATOM = 5e-11
 
 # Alternative inputs by geometry: a case gives all keys of exactly one row of each group. In a line contact
 # the tables of both bodies form a row. In a point contact radii and elastic constants are in two groups.
@@ -101,6 +105,22 @@ class Contact(Table):
     ) = None
     speed_1: _Speed | None = None
     speed_2: _Speed | None = None
+    boundary_film: (
+        Annotated[float, Quantity("m", least=0.0, most=20e-9, reason="a film that adheres to the surfaces")]
+        | None
+    ) = None
+    boundary_friction: (
+        Annotated[float, Quantity("", least=0.0, most=2.0, reason="of sliding boundary films")] | None
+    ) = None
+
+    hardness: (
+        Annotated[float, Quantity("Pa", least=1e7, most=1e11, reason="that of metals is a few GPa")] | None
+    ) = None
+
+    @property
+    def touching_gap(self) -> float:
+        """Gap [m] at which the surfaces touch: the boundary film, or a thinner one than an atom for none."""
+        return max(BOUNDARY_FILM if self.boundary_film is None else self.boundary_film, _ATOM)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

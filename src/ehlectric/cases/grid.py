@@ -8,17 +8,27 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.accuracy import DEFAULT_ERROR
+from ehlectric.cases.defaults import DEFAULT_ERROR
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
 
 class Electric(Table):
-    """Potentials of the two surfaces; surface 1 is the lower one."""
+    """Potentials of the two surfaces, the lower one first, and what conducts where they touch."""
 
     potential_1: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the lower surface")] = -1.0
     potential_2: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the upper surface")] = 1.0
+    resistivity: (
+        Annotated[float, Quantity("ohm*m", least=1e-9, most=1e6, reason="of the bodies, both alike")] | None
+    ) = None
+    mean_free_path: (
+        Annotated[float, Quantity("m", least=0.0, most=1e-6, reason="of the electrons in the bodies")] | None
+    ) = None
+    tribofilm_resistance: (
+        Annotated[float, Quantity("ohm*m**2", least=0.0, most=1e6, reason="its resistivity times thickness")]
+        | None
+    ) = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -16,6 +16,7 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.coating import Coating as RingCoating
 from ehlectric.cases.bearings.fits import Fits
 from ehlectric.cases.bearings.motor import Motor
+from ehlectric.cases.bearings.summits import Summits
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
@@ -41,6 +42,9 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "contact.speed_2": ("speed of surface 2", "$u_2$"),
     "contact.temperature": ("temperature", "$T$"),
     "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
+    "contact.boundary_film": ("boundary film", r"$h_\mathrm{s}$"),
+    "contact.hardness": ("hardness", r"$H_\mathrm{v}$"),
+    "contact.boundary_friction": ("friction coefficient of boundary films", r"$\mu_\mathrm{b}$"),
     "contact.load": ("load", "$F$"),
     "contact.load_per_length": ("load per length", "$w$"),
     "contact.max_hertz_pressure": ("Hertz pressure", r"$p_\mathrm{h}$"),
@@ -52,6 +56,8 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "lubricant.viscosity": ("viscosity", r"$\eta_0$"),
     "electric.potential_1": ("potential of surface 1", "$V_1$"),
     "electric.potential_2": ("potential of surface 2", "$V_2$"),
+    "electric.resistivity": ("resistivity of the bodies", r"$\rho$"),
+    "electric.tribofilm_resistance": ("resistance of the tribofilm times its area", r"$\sigma_\mathrm{f}$"),
     "bearing.inner_speed": ("speed of the inner ring", ""),
     "bearing.radial_load": ("radial load", r"$F_\mathrm{r}$"),
     "bearing.axial_load": ("axial load", r"$F_\mathrm{a}$"),
@@ -59,6 +65,12 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "bearing.inner_ring_temperature": ("temperature of the inner ring", r"$T_\mathrm{i}$"),
     "bearing.outer_ring_temperature": ("temperature of the outer ring", r"$T_\mathrm{o}$"),
     "bearing.composite_rq": ("composite roughness", r"$R_\mathrm{q}$"),
+    "bearing.summits.density": ("density of the summits", "$n$"),
+    "bearing.summits.radius": ("radius of the summits", r"$\beta$"),
+    "bearing.summits.height_deviation": ("deviation of the summit heights", r"$\sigma_\mathrm{s}$"),
+    "bearing.summits.bandwidth": ("bandwidth of the roughness", r"$\alpha$"),
+    "bearing.summits.highest": ("height of worn summits", ""),
+    "bearing.contact_resistance": ("resistance of a closed contact", ""),
     "bearing.radial_clearance": ("radial clearance", ""),
     "bearing.clearance_class": ("clearance class", ""),
     "bearing.fits.unmounted_clearance": ("radial clearance before mounting", ""),
@@ -131,6 +143,7 @@ TABLES: Mapping[str, type[Table]] = {
     "bearing": Bearing,
     "bearing.fits": Fits,
     "bearing.coating": RingCoating,
+    "bearing.summits": Summits,
     "lubricant.temperature": OilTemperature,
     "lubricant.permittivity_table": PermittivityTable,
     "lubricant.conductivity_table": ConductivityTable,

@@ -36,6 +36,9 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "ms": ("s", 1e3),
         "s": ("s", 1.0),
         "Hz": ("Hz", 1.0),
+        "GHz": ("Hz", 1e-9),
+        "kHz": ("Hz", 1e-3),
+        "Ω": ("ohm", 1.0),
         "V": ("V", 1.0),
         "V/µm": ("V/m", 1e-6),
         "1/µm": ("1/m", 1e-6),
@@ -50,6 +53,29 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "Pa s": ("Pa*s", 1.0),
     }
 )
+
+
+# Number from which one with few digits has an exponent; below it the exponent only hides how large it is.
+_LARGE = 1e4
+
+
+def formatted(value: float, digits: str) -> str:
+    """Number as a string in a format, without an exponent where its few digits can be read without one.
+
+    Parameters
+    ----------
+    value : float
+        Number.
+    digits : str
+        Format, such as ".2g".
+
+    Examples
+    --------
+    >>> [formatted(value, ".2g") for value in (0.012, 98.6, 213.0, 41234.0)]
+    ['0.012', '99', '210', '4.1e+04']
+    """
+    text = format(value, digits)
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < _LARGE else text
 
 
 @dataclass(frozen=True)
@@ -106,7 +132,7 @@ class Row:
         """Value as a string, in the shown unit."""
         if self.value is None or isinstance(self.value, str):
             return self.value or ""
-        return format(self.value * UNITS[self.unit][1], self.digits)
+        return formatted(self.value * UNITS[self.unit][1], self.digits)
 
     @property
     def bounded(self) -> str:

@@ -101,7 +101,8 @@ def surface(
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
         from ehlectric.surfaces.rough_maps import whole_map
         from ehlectric.surfaces.rough_profiles import measured
-        from ehlectric.tables.surface import surface_table
+        from ehlectric.surfaces.summits import summit_statistics
+        from ehlectric.tables.surface import SUMMITS_NOTE, summits_table, surface_table
 
         keys = {key: value for key, value in table.items() if value is not None}
         look = figure_options(formats, style)
@@ -116,10 +117,14 @@ def surface(
             with alone_in(files[0].parent, names, locks=[FIGURE_LOCK]), styled(look["style"]):
                 files = save_surface(rough.steps, files[0], [file.suffix[1:] for file in files])
     described = rough.describe()
+    summits = summit_statistics(rough.steps[-1][1])
     if as_json:
-        typer.echo(json.dumps(described, indent=2))
+        typer.echo(json.dumps(described | {"summits": summits}, indent=2))
     else:
         print_table(surface_table(described))
+        typer.echo()
+        print_table(summits_table(summits))
+        typer.echo(SUMMITS_NOTE)
         warn(rough.warnings)
         if files:
             echo_files(files)

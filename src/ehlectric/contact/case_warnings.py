@@ -36,6 +36,7 @@ def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
     yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
+    yield from hardness_warnings(setup, conditions.max_pressure)
 
 
 def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
@@ -49,6 +50,18 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
             f"the viscosity of {1e3 * setup.oil.viscosity:.4g} mPa s is a given one, and contact.temperature "
             f"does not change it: it must be that at {celsius}; give [lubricant.temperature] or "
             "lubricant.atmospheric_law for a viscosity that follows the temperature",
+        )
+
+
+def hardness_warnings(setup: Case | Setup, pressure: float) -> Iterator[ResultWarning]:
+    """Warning about a hardness below the Hertz pressure [Pa]: bodies would yield, not only asperities."""
+    hardness = setup.contact.hardness if isinstance(setup, Case) else None
+    if hardness is not None and hardness < pressure:
+        yield ResultWarning(
+            "hardness-low",
+            f"contact.hardness is {hardness / 1e9:.3g} GPa, below the Hertz pressure of "
+            f"{pressure / 1e9:.3g} GPa: smooth surfaces alone would yield where they touch, and the film "
+            "will probably not converge; hardened bearing steel has about 7 GPa",
         )
 
 
@@ -119,6 +132,7 @@ def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Ite
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
     yield from pressure_warnings(setup.oil, conditions.max_pressure, domain, "point", POINT_PERMANENT)
+    yield from hardness_warnings(setup, conditions.max_pressure)
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:

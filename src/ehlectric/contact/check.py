@@ -5,17 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.kinds import KINDS, AnyKind
 from ehlectric.contact.memory import check_memory
-from ehlectric.contact.problems import check_tolerance
+from ehlectric.contact.problems import check_tolerance, heights_of
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.own import OF_STRENGTH, Laws
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
+
+# Places along each axis of a line and a point contact at which the heights in the Hertz zone are taken.
+_ZONE_NODES = {1: 4001, 2: 401}
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,16 @@ class PreparedContact:
     def kind(self) -> AnyKind:
         """Functions of the kind of this contact, line or point."""
         return KINDS[self.conditions.geometry]
+
+    def composite_roughness(self) -> float | None:
+        """Rq of the sum of both surfaces in the Hertz zone, undeformed [m]; None for smooth surfaces."""
+        if not self.rough:
+            return None
+        semi_axes = self.conditions.semi_axes
+        unit = np.linspace(-1.0, 1.0, _ZONE_NODES[len(semi_axes)])
+        heights = heights_of(self.rough, *(axis * unit for axis in semi_axes)).sum(axis=0)
+        distance = sum(part**2 for part in np.meshgrid(*[unit] * len(semi_axes)))
+        return float(np.std(heights[distance <= 1.0]))
 
     def warnings(self) -> Iterator[ResultWarning]:
         """Warnings before the solution: about the operating conditions and the rough surfaces."""

@@ -41,6 +41,10 @@ class Conditions:
         Half-width b [m] and Hertz pressure p_h [Pa] of the dry contact.
     curvature_share, compliance_share : float
         Surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only the reduced values are known.
+    boundary_film : float
+        Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
+    hardness : float or None
+        Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -58,6 +62,8 @@ class Conditions:
     max_pressure: float
     curvature_share: float = 0.5
     compliance_share: float = 0.5
+    boundary_film: float = 0.0
+    hardness: float | None = None
     film_factor: float = 1.0
 
     @property
@@ -115,6 +121,8 @@ def line_conditions(
     curvature_share: float = 0.5,
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
+    boundary_film: float = 0.0,
+    hardness: float | None = None,
 ) -> Conditions:
     """Compute the operating conditions of a line contact from numbers in SI units, without a case.
 
@@ -130,6 +138,9 @@ def line_conditions(
         Radii of both bodies [m], if they are known; the dry contact must be small compared to them.
     curvature_share, compliance_share, film_factor : float
         Surface 1's shares of 1/R and of 2/E', and the film factor, dimensionless; see ``Conditions``.
+    boundary_film, hardness : float
+        Gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there
+        [Pa].
 
     Returns
     -------
@@ -166,6 +177,8 @@ def line_conditions(
         max_pressure=max_pressure,
         curvature_share=curvature_share,
         compliance_share=compliance_share,
+        boundary_film=boundary_film,
+        hardness=hardness,
         film_factor=film_factor,
     )
 
@@ -194,6 +207,10 @@ class PointConditions:
         Half of the domain's width across entrainment, in semi-axes across.
     compliance_share : float
         Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
+    boundary_film : float
+        Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
+    hardness : float or None
+        Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     film_factor : float
         Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
     """
@@ -213,6 +230,8 @@ class PointConditions:
     max_pressure: float
     side: float
     compliance_share: float = 0.5
+    boundary_film: float = 0.0
+    hardness: float | None = None
     film_factor: float = 1.0
 
     @property
@@ -281,6 +300,8 @@ def point_conditions(
     side: float | None = None,
     compliance_share: float = 0.5,
     film_factor: float = 1.0,
+    boundary_film: float = 0.0,
+    hardness: float | None = None,
 ) -> PointConditions:
     """Compute the operating conditions of a point contact from numbers in SI units, without a case.
 
@@ -301,6 +322,9 @@ def point_conditions(
         Half of the domain's width, in semi-axes across; ``default_side`` if not given.
     compliance_share, film_factor : float
         Surface 1's share of 2/E', and the film factor, dimensionless; see ``PointConditions``.
+    boundary_film, hardness : float
+        Gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there
+        [Pa].
 
     Returns
     -------
@@ -339,6 +363,8 @@ def point_conditions(
         max_pressure=dry.max_pressure,
         side=default_side(dry.semi_axis_y / dry.semi_axis_x) if side is None else side,
         compliance_share=compliance_share,
+        boundary_film=boundary_film,
+        hardness=hardness,
         film_factor=film_factor,
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -13,6 +13,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.solution import Solution
+from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep, Status
@@ -82,6 +83,7 @@ def on_nodes(*grid: str) -> Variables:
             "1",
         ),
         "cavitated": ("cavitated", grid, "pressure held at ambient", "1"),
+        "contact_pressure": ("contact_pressure", grid, "part of the pressure that asperities carry", "Pa"),
     }
 
 
@@ -200,6 +202,9 @@ _NUMBERS: Mapping[str, Callable[[Any], bool]] = {
     "thin_gap_capacitance": _is_positive,
 }
 
+# Variables that only some solutions have.
+_NOT_ALWAYS = ("contact_pressure",)
+
 
 def variables(
     layout: Layout, film: Any, field: Any, roughness: Array, smooth: Mapping[str, Array] | None
@@ -211,6 +216,8 @@ def variables(
     named: dict[str, Any] = {}
     for part, table in ((film, layout.film), (field, layout.field)):
         for name, (attribute, dimensions, long_name, unit) in table.items():
+            if getattr(part, attribute) is None:
+                continue
             values = np.asarray(getattr(part, attribute))
             values = values.astype(np.int8) if values.dtype == bool else values
             named[name] = (dimensions, values, {"long_name": long_name, "units": unit})
@@ -266,6 +273,7 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
                 "summary": json.dumps(summary),
                 **as_attributes(solution.warnings),
                 "rough": json.dumps(plain(solution.rough)),
+                **({} if solution.coarser is None else {"coarser": json.dumps(vars(solution.coarser))}),
                 "film_solver": solution.film_solver,
                 "field_solver": solution.field_solver,
                 "seconds": json.dumps([solution.film_seconds, solution.field_seconds]),
@@ -292,6 +300,11 @@ def smooth_of(dataset: xr.Dataset) -> dict[str, Array] | None:
     return {name: dataset[f"smooth_{name}"].values for name in _SMOOTH}
 
 
+def coarser_of(dataset: xr.Dataset) -> Coarser | None:
+    """Asperities on a coarser grid; None if the dataset has none."""
+    return Coarser(**json.loads(dataset.attrs["coarser"])) if "coarser" in dataset.attrs else None
+
+
 def roughness_of(dataset: xr.Dataset) -> Array:
     """Roughness heights of both surfaces in a dataset [m], shape (2, nx) or (2, nx, ny)."""
     return np.stack([dataset["roughness_1"].values, dataset["roughness_2"].values])
@@ -308,7 +321,12 @@ def attributes(layout: Layout, film: Any, field: Any) -> dict[str, str]:
 def rules(layout: Layout, *, smooth: bool) -> dict[str, Rule]:
     """Rules for the variables of a dataset, which has the films of smooth surfaces too or not."""
     found = {
-        name: Rule(dims, "increasing" if name in layout.coordinates else _VALUES.get(name, "finite"), unit)
+        name: Rule(
+            dims,
+            "increasing" if name in layout.coordinates else _VALUES.get(name, "finite"),
+            unit,
+            needed=name not in _NOT_ALWAYS,
+        )
         for table in (layout.film, layout.field)
         for name, (_, dims, _, unit) in table.items()
     }
@@ -336,6 +354,9 @@ def check(layout: Layout, dataset: xr.Dataset) -> None:
     _check_field(layout, dataset)
     json_of(dataset.attrs, "seconds", partial(is_list, right=_is_time))
     json_of(dataset.attrs, "rough", partial(is_list, right=lambda item: isinstance(item, dict)))
+    if "coarser" in dataset.attrs:
+        shares = {each.name: partial(is_number, values="not negative") for each in fields(Coarser)}
+        json_of(dataset.attrs, "coarser", partial(is_table, columns=shares))
     check_warnings(dataset.attrs)
     if "laws" in dataset.attrs:
         json_of(dataset.attrs, "laws", is_laws)
@@ -373,4 +394,5 @@ def field_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
 
 def _arrays(dataset: xr.Dataset, table: Variables) -> Iterator[tuple[str, Any]]:
     for name, (attribute, *_) in table.items():
-        yield attribute, dataset[name].values
+        if name in dataset:
+            yield attribute, dataset[name].values

@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.dataset import check, field_parts, film_columns, film_parts, roughness_of, smooth_of
+from ehlectric.contact.dataset import (
+    check,
+    coarser_of,
+    field_parts,
+    film_columns,
+    film_parts,
+    roughness_of,
+    smooth_of,
+)
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.results import RESULTS, PointResult, Result
@@ -164,6 +172,7 @@ def _provenance(dataset: xr.Dataset) -> dict[str, Any]:
         "roughness": roughness_of(dataset),
         "rough": tuple(json.loads(attributes["rough"])),
         "smooth": Smooth(**smooth) if smooth else None,
+        "coarser": coarser_of(dataset),
         "warnings": of_attributes(attributes),
         "film_solver": str(attributes["film_solver"]),
         "field_solver": str(attributes["field_solver"]),

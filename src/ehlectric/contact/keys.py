@@ -5,6 +5,7 @@ from __future__ import annotations
 from ehlectric.cases.oils.keys import OIL_KEYS
 from ehlectric.cases.result_key import Keys, ResultKey, under
 from ehlectric.contact.meter.keys import METER_KEYS
+from ehlectric.contact.spots import keys as spot_keys
 from ehlectric.discharge import keys as discharge_keys
 from ehlectric.surfaces.keys import LINE_SURFACE, MAP_STATISTICS, POINT_SURFACE, PROFILE_STATISTICS
 
@@ -63,7 +64,8 @@ _FILM: Keys = {
     "residual": ResultKey("maximum scaled residual of the film equations"),
     "newton_iterations": ResultKey("Newton iterations on the finest grid; V-cycles with `--solver paper`"),
     "discretisation_error": ResultKey(
-        "estimated relative error, the larger of the errors of h_min and h(0)",
+        "estimated relative error, the larger of the errors of h_min and h(0); null if unknown, and where "
+        "the surfaces touch, so that h_min is the boundary film",
         "",
         "discretisation error of the film",
     ),
@@ -229,6 +231,7 @@ LINE_KEYS: Keys = {
     **under("field", _LINE_FIELD),
     **under("film_formulas", _FORMULAS),
     **under("seconds", _SECONDS),
+    **under("asperities", spot_keys.LINE_KEYS),
     **under("discharge", discharge_keys.LINE_KEYS),
     **under("meter", METER_KEYS),
     **under("roughness", _roughness("Hertz zone")),
@@ -244,6 +247,7 @@ POINT_KEYS: Keys = {
     **under("field", _POINT_FIELD),
     **under("film_formulas", _FORMULAS),
     **under("seconds", _SECONDS),
+    **under("asperities", spot_keys.POINT_KEYS),
     **under("discharge", discharge_keys.POINT_KEYS),
     **under("meter", METER_KEYS),
     **under("roughness", _roughness("Hertz ellipse")),

@@ -272,6 +272,8 @@ def smooth_problem(
         tolerance=setup.solver.tolerance,
         max_iterations=setup.solver.max_iterations,
         scales=scales_of(setup, conditions),
+        boundary_film=conditions.boundary_film / conditions.thickness_scale,
+        hardness=np.inf if conditions.hardness is None else conditions.hardness / conditions.max_pressure,
     )
 
 

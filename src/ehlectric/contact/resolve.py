@@ -64,6 +64,8 @@ def resolve(case: Case) -> Conditions:
         bodies=[abs(r) for r in (contact.radius_1, contact.radius_2) if r is not None],
         curvature_share=curvature_share,
         compliance_share=compliance_share,
+        boundary_film=contact.touching_gap,
+        hardness=contact.hardness,
     )
 
 
@@ -139,6 +141,8 @@ def resolve_point(case: Case) -> PointConditions:
         bodies=(_bodies(contact, "radius_x"), _bodies(contact, "radius_y")),
         side=case.grid.side,
         compliance_share=compliance_share,
+        boundary_film=contact.touching_gap,
+        hardness=contact.hardness,
     )
     try:
         case.grid.check_across(conditions.side)

@@ -68,6 +68,18 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
         )
     for check in setup.oil.film_checks:
         yield from check(film.max_pressure)
+    yield from _local_pressure(film, rough=bool(setup.roughness))
+    if not film.cavitates:
+        yield ResultWarning(
+            "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
+        )
+    # The minimum of a film whose surfaces touch is the boundary film, whatever the grid.
+    if film.contact_pressure is None:
+        yield from _discretisation(setup, film)
+
+
+def _discretisation(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
+    """Warnings about the discretisation error of a film."""
     error = film.discretisation_error
     if film.converged and error is None and setup.roughness:
         yield ResultWarning(
@@ -88,11 +100,6 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
             code, advice = "grid-far-too-coarse", "do not use this film, "
         text = f"the discretisation error of the film is estimated at {100 * error:.2g} % and may be larger"
         yield ResultWarning(code, f"{text}; {advice}use more grid.nodes")
-    yield from _local_pressure(film, rough=bool(setup.roughness))
-    if not film.cavitates:
-        yield ResultWarning(
-            "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
-        )
 
 
 def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
@@ -102,9 +109,11 @@ def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
     method needs more steps for such a film. Thinner films need a finer grid.
     """
     if setup.roughness:
+        hardness = setup.contact.hardness if isinstance(setup, Case) else None
+        soft = "" if hardness is None else "raise contact.hardness or leave it out, "
         return (
-            "lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are too few "
-            "for the roughness"
+            f"{soft}lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are "
+            "too few for the roughness"
         )
     spacing = float(film.x[1] - film.x[0]) / film.scales.length
     resolved = film.central_thickness > spacing * film.scales.thickness

@@ -63,13 +63,19 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
 
     def _headline(self) -> str:
         """Title, minimum film, maximum pressure and maximum field on one line."""
-        film = self.film
+        film, touching = self.film, self.spots
+        least = f"minimum film {amount(film.minimum_thickness, 'm')}"
+        strongest: str | None = f"maximum field ≥ {amount(self.field.max_strength, 'V/m')}"
+        if touching is not None:
+            # Minimum film and maximum field are those of the boundary film.
+            least = f"{touching.spots.number} spots touch, {touching.electrical.behaviour}"
+            strongest = f"mean film {amount(film.mean_thickness, 'm')}"
         return headline(
             self.case.title,
             f"{self.conditions.geometry} contact",
-            f"minimum film {amount(film.minimum_thickness, 'm')}",
+            least,
             f"maximum pressure {amount(film.max_pressure, 'Pa')}",
-            f"maximum field ≥ {amount(self.field.max_strength, 'V/m')}",
+            strongest,
             "converged" if self.converged else f"NOT CONVERGED ({film.status})",
             verdict=self.verdict,
         )

@@ -14,6 +14,9 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.meter.reading import Metered, MeterReading, meter_reading
 from ehlectric.contact.setup import Setup
+from ehlectric.contact.spots.asperities import Asperities, asperities
+from ehlectric.contact.spots.mechanics import Coarser, hertz_weights, weighted_rms
+from ehlectric.contact.spots.verdict import spots_verdict
 from ehlectric.discharge.assessment import Assessment, assess
 from ehlectric.discharge.verdict import Verdict, contact_verdict
 from ehlectric.errors import ResultWarning
@@ -69,6 +72,9 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         Source of each rough surface, and its statistics after each processing step, SI units.
     smooth : Smooth or None
         Same contact with smooth surfaces; None if the surfaces are smooth, or if it was not solved.
+    coarser : Coarser or None
+        Asperities of the same contact on a grid with half the nodes; None if its surfaces do not touch, or if
+        it was not solved.
     warnings : tuple of ResultWarning
         Warnings about unreliable results, each with a code and a severity.
     film_solver, field_solver : str
@@ -85,6 +91,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
     roughness: Array
     rough: tuple[dict[str, Any], ...]
     smooth: Smooth | None
+    coarser: Coarser | None
     field: FieldT
     warnings: tuple[ResultWarning, ...]
     film_solver: str
@@ -98,6 +105,14 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
     def converged(self) -> bool:
         """Whether the film converged; if it did not, no number of this result may be used."""
         return self.film.converged
+
+    @property
+    def film_error(self) -> float | None:
+        """Estimated relative error of minimum and central film thickness.
+
+        None if there is no estimate, and where the surfaces touch: the minimum is then the boundary film.
+        """
+        return self.film.discretisation_error if self.film.contact_pressure is None else None
 
     @property
     def strength_scale(self) -> float:
@@ -125,6 +140,27 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         return all(bool(axis[0] <= at <= axis[-1]) for at, axis in zip(places, self.field.axes, strict=True))
 
     @cached_property
+    def asperities(self) -> Asperities | None:
+        """Asperities of a converged contact that is rough or whose surfaces touch; None of any other."""
+        if not self.film.converged or not (self.rough or np.any(self.film.contact)):
+            return None
+        weights = hertz_weights(self.film, self.conditions.semi_axes)
+        return asperities(
+            self.case,
+            self.conditions,
+            self.film,
+            rq=weighted_rms(self.roughness.sum(axis=0), weights),
+            smooth=None if self.smooth is None else self.smooth.thickness,
+            coarser=self.coarser,
+        )
+
+    @property
+    def spots(self) -> Asperities | None:
+        """Asperities of a converged contact whose surfaces touch; None where they do not."""
+        found = self.asperities
+        return found if found is not None and found.spots.number else None
+
+    @cached_property
     def discharge(self) -> Assessment | None:
         """Assessment of the discharge; None if the case has no table ``discharge``."""
         if self.case.discharge is None:
@@ -145,12 +181,14 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
         inputs, discharge = self.case.discharge, self.discharge
         if inputs is None or discharge is None:
             return None
+        if self.spots is not None:
+            return spots_verdict(self.spots, self.field.voltage, self.warnings)
         return contact_verdict(
             inputs,
             discharge.breakdown,
             self.field.voltage,
             warnings=self.warnings,
-            error=self.film.discretisation_error,
+            error=self.film_error,
             field_error=self.field.strength_error,
             flooded=self.conditions.film_factor == 1.0,
         )

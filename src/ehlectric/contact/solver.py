@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -26,9 +26,15 @@ from ehlectric.contact.result_warnings import accuracy_warnings, film_warnings
 from ehlectric.contact.results import RESULTS, PointResult, Result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
+from ehlectric.contact.spots.mechanics import Coarser, hertz_weights, load_of, spots_of
+from ehlectric.contact.spots.warnings import spot_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.limits import field_warnings
-from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.field.line import Field
+from ehlectric.field.point import PointField
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 from ehlectric.film.state import Progress
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.own import Laws
@@ -37,6 +43,9 @@ from ehlectric.runtime.log import LOGGER
 from ehlectric.surfaces.rough_maps import RoughMap
 from ehlectric.surfaces.rough_profiles import RoughSurface
 from ehlectric.version import __version__
+
+# Smallest number of nodes along an axis on which a contact is solved once more for the error of its spots.
+_LEAST_NODES = 33
 
 
 @dataclass(frozen=True, repr=False)
@@ -261,6 +270,7 @@ def _solved(
     own, smooth = field_solvers.name == OWN.name, None
     if rough and beside_smooth:
         smooth = _smooth(contact, films, field.axes, solvers)
+    coarser = _coarser(contact, films, solvers) if film.converged and np.any(film.contact) else None
     return RESULTS[geometry](
         case=case,
         conditions=conditions,  # type: ignore[arg-type]  # their type follows from the geometry
@@ -268,18 +278,23 @@ def _solved(
         roughness=roughness,
         rough=tuple(surface.describe() for surface in rough),
         smooth=smooth,
+        coarser=coarser,
         field=field,
         warnings=(
             *kind.case_warnings(case, conditions),
             *contact.surface_warnings(films.setup),
             *films.warnings,
             *film_warnings(case, film),
+            *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(case, film, field),
-            *discharge_warnings(case.discharge, film),
-            *margin_warnings(case.discharge, conditions.semi_axes, film, field),
             *meter_warnings(case, film),
-            *field_warnings(field.max_strength, "the potentials"),
-            *(accuracy_warnings(films.setup.grid, field, estimated=own) if film.converged else ()),
+            # Where surfaces touch, the largest field is that of the boundary film.
+            *(() if film.contact_pressure is not None else _of_field(contact, film, field)),
+            *(
+                accuracy_warnings(films.setup.grid, field, estimated=own)
+                if film.converged and film.contact_pressure is None
+                else ()
+            ),
         ),
         film_solver=solvers.name,
         field_solver=field_solvers.name,
@@ -288,6 +303,16 @@ def _solved(
         version=__version__,
         date=now(),
     )
+
+
+def _of_field(
+    contact: PreparedContact, film: Film | PointFilm, field: Field | PointField
+) -> Iterator[ResultWarning]:
+    """Warnings about the largest field of a film and its breakdown."""
+    discharge = contact.case.discharge
+    yield from discharge_warnings(discharge, film)
+    yield from margin_warnings(discharge, contact.conditions.semi_axes, film, field)
+    yield from field_warnings(field.max_strength, "the potentials")
 
 
 def _logged(progress: Progress | None) -> Progress:
@@ -324,6 +349,28 @@ def _smooth(
         _on(film.axes, film.pressure, nodes),
         _on(film.axes, film.thickness, nodes),
         _on(field.axes, field.middle_strength, columns),
+    )
+
+
+def _coarser(contact: PreparedContact, films: Refined, solvers: Solvers) -> Coarser | None:
+    """Solve a contact whose surfaces touch on a grid with half the nodes along each axis.
+
+    None if this grid has fewer nodes than a case may have, or if its film does not converge.
+    """
+    kind, conditions = contact.kind, contact.conditions
+    problem = kind.film_problem(films.setup, conditions, contact.rough)
+    nodes, width = problem.nodes // 2 + 1, problem.width
+    if nodes < _LEAST_NODES:
+        return None
+    if width is not None:
+        width = replace(width, nodes=width.nodes // 2 + 1)
+    film = solvers.film[conditions.geometry](replace(problem, nodes=nodes, width=width))
+    if not film.converged:
+        return None
+    zone = hertz_weights(film, conditions.semi_axes)
+    return Coarser(
+        float(np.sum(spots_of(film).loads)) / load_of(conditions),
+        float(np.sum(zone[film.contact]) / np.sum(zone)),
     )
 
 

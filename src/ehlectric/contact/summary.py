@@ -51,6 +51,8 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
     }
     if solution.discharge is not None:
         summary["discharge"] = solution.discharge.summary()
+    if solution.asperities is not None:
+        summary["asperities"] = solution.asperities.summary()
     if solution.meter is not None:
         summary["meter"] = solution.meter.summary()
     if solution.rough:
@@ -75,11 +77,10 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "load_residual",
         "residual",
         "newton_iterations",
-        "discretisation_error",
         "max_pressure_error",
     )
-    target = {"target_error": solution.case.grid.target}
-    return {name: getattr(film, name) for name in names} | target | {"solver": solution.film_solver}
+    more = {"discretisation_error": solution.film_error, "target_error": solution.case.grid.target}
+    return {name: getattr(film, name) for name in names} | more | {"solver": solution.film_solver}
 
 
 def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:

@@ -55,6 +55,7 @@ STRENGTH_UNKNOWN = 0.2
 # Warnings of results whose margin may be lower than computed: no verdict is green with one of them.
 DOUBTS = (
     "surfaces-touch",
+    "asperities-touch",
     "thinner-than-atom",
     "tunnelling",
     "error-unknown",

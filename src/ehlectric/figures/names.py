@@ -20,7 +20,8 @@ FORMATS = ("png", "svg", "pdf")
 STYLES = ("screen", "journal")
 
 # Figures of contacts. The roughness is drawn of rough contacts only, the breakdown of contacts with a
-# dielectric strength only, and the capacitance at a meter of cases with a table meter only.
+# dielectric strength only, the capacitance at a meter of cases with a table meter only, and the spots of
+# contacts whose surfaces touch only.
 FIGURE_FILES = (
     "film.png",
     "field_strength.png",
@@ -36,6 +37,7 @@ POINT_FIGURE_FILES = (
     "cuts.png",
 )
 ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE = "roughness.png", "breakdown.png", "meter.png"
+SPOTS_FIGURE = "spots.png"
 
 # Figures of stationary contacts, line or point. Earlier versions drew the potential of line contacts too.
 ALL_FIGURES = tuple(
@@ -43,7 +45,7 @@ ALL_FIGURES = tuple(
         (
             *FIGURE_FILES,
             *POINT_FIGURE_FILES,
-            *(ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE),
+            *(ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE, SPOTS_FIGURE),
             "potential.png",
         )
     )

@@ -23,8 +23,6 @@ from matplotlib.text import Annotation
 from matplotlib.textpath import text_to_path
 from matplotlib.transforms import offset_copy
 
-from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.names import STYLES, in_formats, with_units_kept
@@ -366,31 +364,3 @@ def _side_by_side(ax: Axes) -> int:
     """Number of axes side by side in the figure of some axes."""
     spec = ax.get_subplotspec()
     return 1 if spec is None else int(spec.get_gridspec().ncols)
-
-
-def in_half_widths(result: OfContact, x: Array) -> Array:
-    """Positions [m] divided by the half-width of the contact."""
-    return x / result.conditions.half_width
-
-
-def label_position(result: OfContact, ax: Axes, axis: str = "x") -> None:
-    """Label the horizontal axis with x/b or y/b, and with the value of the half-width b."""
-    factor, unit = unit_for(result.conditions.half_width, "m", least=1.0)
-    ax.set_xlabel(f"${axis}/b$   ($b$ = {factor * result.conditions.half_width:.4g} {unit})")
-
-
-# Room that the axis of lengths above the axes takes [pt], and place of its name beside its numbers [pt].
-LENGTH_AXIS, _LENGTH_NAME = 18.0, (-4.0, 6.0)
-
-
-def length_axis(result: OfContact, ax: Axes, axis: str = "x") -> None:
-    """Add an axis above the axes with the position as a length, in micrometres or millimetres."""
-    b = result.conditions.half_width
-    factor, unit = unit_for(b * max(abs(end) for end in ax.get_xlim()), "m", least=1.0)
-    top = ax.secondary_xaxis(
-        "top", functions=(lambda x: np.asarray(x) * factor * b, lambda x: np.asarray(x) / (factor * b))
-    )
-    top.set_xlabel(f"${axis}$ [{unit}]", ha="right", va="bottom")
-    left, up = _LENGTH_NAME
-    beside = offset_copy(ax.transAxes, figure_of(ax), x=left, y=up, units="points")
-    top.xaxis.set_label_coords(0.0, 1.0, transform=beside)

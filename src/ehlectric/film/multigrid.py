@@ -86,7 +86,7 @@ class Linearised:
             poiseuille=poiseuille,
             scale=np.divide(1.0, diagonal, out=np.zeros(full_film.shape), where=full_film),
             unscale=np.where(full_film, diagonal, 0.0),
-            resolved=_resolved(level, at_faces.coefficients.eps, full_film),
+            resolved=resolved_nodes(level, at_faces.coefficients.eps, full_film),
             log_viscosity=at_faces.coefficients.log_viscosity,
         )
 
@@ -182,7 +182,10 @@ def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: s
     n, nodes = len(matrix) - 1, gap.level.nodes
     kernel = gap.level.deflection.beside(_STEPS)[:, nodes - n : nodes + n - 1]
     over_distance = (by_h.coefficients[:ALONG, part, 0].T @ kernel).reshape(-1)
-    matrix[:n, :n] = over_distance[n - 1 : n - 1 + n * (2 * n - 2)].reshape(n, 2 * n - 2)[:, :n]
+    if n == 1:
+        matrix[0, 0] = over_distance[0]
+    else:
+        matrix[:n, :n] = over_distance[n - 1 : n - 1 + n * (2 * n - 2)].reshape(n, 2 * n - 2)[:, :n]
     flat = matrix.reshape(-1)
     for row, step in zip(by_p.coefficients[:ALONG, part, 0], _STEPS, strict=True):
         first, count = max(0, -step), n - abs(step)
@@ -191,7 +194,7 @@ def _fill_of_line(matrix: Array, gap: Gap, by_p: Stencil, by_h: Stencil, part: s
             flat[start : start + count * (n + 2) : n + 2] += row[first : first + count]
 
 
-def _resolved(level: Level, eps: Array, full_film: Mask) -> Mask:
+def resolved_nodes(level: Level, eps: Array, full_film: Mask) -> Mask:
     """Mask of the nodes whose residual is passed to the coarser grids.
 
     Beside the pressure spike of a line contact eps changes by orders of magnitude from node to node. There

@@ -1,13 +1,14 @@
 """Nested iteration for the film: the initial guess on every grid is the solution on the next coarser grid.
 
-If the iteration does not converge from this guess, it starts again from the Hertz pressure. If a rough
-contact still does not converge, its roughness is raised from zero in steps (continuation).
+If the iteration does not converge from this guess, it starts again from the Hertz pressure. If it still does
+not converge, or if the film is thinner somewhere than the boundary film, the surfaces touch, and
+``ehlectric.film.mixed`` solves the film with the nodes where they do.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -17,10 +18,11 @@ from ehlectric.arrays import Array
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.newton import assess, newton
+from ehlectric.film.mixed.course import mixed_film
+from ehlectric.film.newton import newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
-from ehlectric.film.state import GridSolution, Progress, State, film_touches
+from ehlectric.film.state import GridSolution, Progress, State
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
@@ -42,18 +44,12 @@ _MOST_KEPT, _GRIDS_KEPT = 3201, 12
 # than the order of the wedge term does.
 _WARM_TOLERANCE = 1e-2
 
-# Continuation in roughness height: first and smallest increment as fractions of the full height, and the
-# tolerance of the intermediate films.
-_FIRST_RISE = 0.2
-_LEAST_RISE = 0.01
-_RISE_TOLERANCE = 1e-3
+# Multiple of the boundary film above which a smooth film that did not converge is not taken to be pierced.
+_THICK = 10.0
 
-# Smallest grids, in a line and in a point contact, that show whether a rough film collapses; and the part of
-# the roughness below which a film that collapses there is not tried on finer grids. Films that collapsed at
-# half of the roughness on the coarse grid converged on finer ones.
-_TRIAL_GRID = 801
-_TRIAL_GRID_POINT = 65
-_HOPELESS = 0.2
+# Multiple of the largest number of Newton steps from each start of a film whose surfaces may touch, on the
+# finest grid and on the coarser ones.
+_MIXED, _MIXED_COARSE = 6, 2
 
 
 def nested_iteration(
@@ -79,33 +75,75 @@ def nested_iteration(
     Notes
     -----
     If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
-    pressure. If a rough film does not converge on a coarse grid either way, its roughness is raised in steps
-    on this grid. Where the film then collapses at less than a fifth of the roughness, the finer grids are
-    left out: the iteration ends with a collapsed film.
+    pressure. Where the surfaces touch on a grid, the next finer grid starts from this film at once.
     """
     solutions = list(known)
-    tried = problem.added_gap is None or bool(known)
+    # Where rough surfaces may touch, a dry contact is a better start than the Hertz pressure.
+    rough = problem.added_gap is not None and problem.boundary_film > 0.0
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
+        coarse = solutions[-1] if solutions and solutions[-1].status == "converged" else None
         best = None
-        if solutions and solutions[-1].status == "converged":
-            best = _from_coarser(problem, levels, solutions[-1], progress)
+        if coarse is not None and not coarse.touches:
+            best = _from_coarser(problem, levels, coarse, progress)
         # A solution that nearly converged does not start again.
-        if best is None or best.final.norm > NESTED_TOLERANCE:
+        if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
             *warm_up, restarted = _from_hertz(problem, levels, progress)
             solutions.extend(warm_up)
             attempts = [restarted] if best is None else [restarted, best]
             *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
             solutions.extend(others)
+        if problem.boundary_film > 0.0 and (best is None or _is_pierced(problem, best)):
+            solutions += [] if best is None else [best]
+            *others, best = sorted(
+                _mixed(problem, levels, coarse, best, progress), key=lambda solution: -solution.final.norm
+            )
+            solutions.extend(others)
+        assert best is not None
         solutions.append(best)
-        if not tried and _is_trial_grid(problem, best):
-            tried = True
-            raised = _raise_roughness(_on_grid(problem, levels[0].mesh), progress)
-            solutions += raised.solutions
-            if raised.collapses:
-                return [*solutions, _collapsed(problem, raised.solutions[-1])]
-    if problem.added_gap is not None and solutions[-1].final.norm > NESTED_TOLERANCE:
-        solutions += _raise_roughness(problem, progress).solutions
     return solutions
+
+
+def _is_pierced(problem: FilmProblem, solution: GridSolution) -> bool:
+    """Whether the surfaces may touch: a film thinner than the boundary film, or one that has no solution.
+
+    A smooth film that is still thick may only need more Newton steps.
+    """
+    thinnest = float(solution.state.thickness.min())
+    if thinnest < problem.boundary_film:
+        return True
+    thick = problem.added_gap is None and solution.status == "stalled"
+    return solution.final.norm > NESTED_TOLERANCE and not (
+        thick and thinnest > _THICK * problem.boundary_film
+    )
+
+
+def _mixed(
+    problem: FilmProblem,
+    levels: list[Level],
+    coarse: GridSolution | None,
+    full_film: GridSolution | None,
+    progress: Progress | None,
+) -> Iterator[GridSolution]:
+    """Solutions with surfaces that touch, from a converged solution first, if there is one."""
+    level, near = levels[0], None
+    if full_film is not None and full_film.status == "converged":
+        near = full_film.state
+    elif coarse is not None:
+        near = _interpolated(level, coarse)
+    dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
+    finest = level.nodes == problem.nodes
+    yield from mixed_film(
+        problem.fluid,
+        levels,
+        dry,
+        asperities=problem.asperities,
+        film_guess=problem.thickness_guess,
+        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        max_iterations=(_MIXED if finest else _MIXED_COARSE) * problem.max_iterations,
+        progress=progress,
+        near=near,
+        thorough=finest,
+    )
 
 
 def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
@@ -193,85 +231,6 @@ def _line_levels(
     return tuple(hierarchy(nodes, inlet=inlet, outlet=outlet, geometry=geometry, wedge_order=wedge_order))
 
 
-def _is_trial_grid(problem: FilmProblem, solution: GridSolution) -> bool:
-    """Whether a rough film failed on a grid that is coarse, but fine enough to show that it collapses."""
-    nodes = solution.level.nodes
-    least = _TRIAL_GRID if problem.width is None else _TRIAL_GRID_POINT
-    return least <= nodes < problem.nodes and solution.final.norm > NESTED_TOLERANCE
-
-
-def _on_grid(problem: FilmProblem, mesh: Mesh) -> FilmProblem:
-    """Film problem on another grid of the nested iteration."""
-    width = problem.width
-    while width is not None and width.y.size > mesh.y.size:
-        width = width.coarser()
-    return replace(problem, nodes=mesh.x.size, width=width)
-
-
-def _collapsed(problem: FilmProblem, coarse: GridSolution) -> GridSolution:
-    """Solution of a collapsed film on the finest grid, interpolated from a coarser grid.
-
-    The film is lifted until a thousandth of its central thickness is left where the surfaces would touch.
-    """
-    level = levels_of(problem, roughness=1.0)[0]
-    state = _interpolated(level, coarse)
-    centre, least = at_centre(level.mesh, state.thickness), float(state.thickness.min())
-    # With a lift of d, least + d is a thousandth of centre + d.
-    state = State.of(level, state.pressure, state.h00 + (1e-3 * centre - least) / (1.0 - 1e-3))
-    return GridSolution(level, state, assess(problem.fluid, level, state), (), "diverged")
-
-
-@dataclass(frozen=True)
-class _Raised:
-    """Solutions with raised roughness, and the largest part of the roughness at which the film converged.
-
-    The part is None if the smooth film did not converge.
-    """
-
-    solutions: list[GridSolution]
-    part: float | None
-
-    @property
-    def collapses(self) -> bool:
-        """Whether the film gets too thin far below the full roughness, although the smooth film converged."""
-        last = self.solutions[-1]
-        touches = film_touches(last.level.mesh, last.state.thickness)
-        return self.part is not None and self.part < _HOPELESS and touches
-
-
-def _raise_roughness(problem: FilmProblem, progress: Progress | None) -> _Raised:
-    """Solutions with the roughness raised in steps from zero to its full height (continuation).
-
-    The first solutions are those of smooth surfaces. Each converged solution is the initial guess of the
-    next. An increment that does not converge is halved. The continuation ends if the smallest increment does
-    not converge; the last solution is then not converged.
-    """
-    solutions = nested_iteration(replace(problem, added_gap=None), progress)
-    best, reached, step = solutions[-1], 0.0, _FIRST_RISE
-    while best.status == "converged" and reached < 1.0:
-        part = min(1.0, reached + step)
-        levels = levels_of(problem, roughness=part)
-        start = State.of(levels[0], best.state.pressure, best.state.h00)
-        start = start.lifted(0.3 * float(best.state.thickness.min()))
-        solution = _solve_grid(
-            problem if part == 1.0 else replace(problem, tolerance=_RISE_TOLERANCE),
-            levels,
-            start,
-            progress,
-            spike=True,
-        )
-        if solution.status == "converged":
-            best, reached, step = solution, part, 1.5 * step
-        elif step > _LEAST_RISE:
-            step *= 0.5
-            continue
-        solutions.append(solution)
-        if solution.status != "converged":
-            break
-    smooth = best.status == "converged" or reached > 0.0
-    return _Raised(solutions, reached if smooth else None)
-
-
 def _solve_grid(
     problem: FilmProblem,
     levels: list[Level],
@@ -315,14 +274,23 @@ def _from_coarser(
 
 def _interpolated(level: Level, coarse: GridSolution) -> State:
     """State on a grid with the pressure of a coarser grid, interpolated by a monotone cubic."""
-    of = coarse.level.mesh
+    pressure = _finer(level, coarse.level.mesh, coarse.state.pressure)
+    if not coarse.touches:
+        return State.of(level, pressure, coarse.state.h00)
+    contact = np.asarray(coarse.state.contact_pressure)
+    contact = np.clip(_finer(level, coarse.level.mesh, contact), 0.0, pressure)
+    return State.of(level, pressure, coarse.state.h00, contact)
+
+
+def _finer(level: Level, of: Mesh, values: Array) -> Array:
+    """Nodal values on a grid from those on a coarser mesh, interpolated by a monotone cubic."""
     if level.nodes == 2 * of.x.size - 1:
-        pressure = halved(coarse.state.pressure)
+        finer = halved(values)
     else:
-        pressure = PchipInterpolator(of.x, coarse.state.pressure, axis=0)(level.mesh.x)
+        finer = PchipInterpolator(of.x, values, axis=0)(level.mesh.x)
     if of.y.size > 1:
-        pressure = PchipInterpolator(of.whole_y, of.mirrored(pressure), axis=1)(level.mesh.y)
-    return State.of(level, pressure, coarse.state.h00)
+        finer = PchipInterpolator(of.whole_y, of.mirrored(finer), axis=1)(level.mesh.y)
+    return finer
 
 
 def halved(values: Array) -> Array:

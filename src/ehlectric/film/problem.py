@@ -11,6 +11,7 @@ from ehlectric.arrays import Array
 from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, Width
+from ehlectric.film.mixed.touching import Asperities
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,11 @@ class FilmProblem:
         estimate is as small. By default the film is solved on ``nodes`` only.
     most_nodes : int
         Largest number of nodes along x of a refined grid.
+    boundary_film : float
+        Thickness H_s of the boundary film at which the surfaces touch, dimensionless. With zero they cannot
+        touch: a film that would be pierced does not converge.
+    hardness : float
+        Largest pressure over p_h where the surfaces touch; above it asperities are flattened.
     """
 
     fluid: Fluid
@@ -95,6 +101,13 @@ class FilmProblem:
     edge_pressure: Callable[[Array, Array], Array] | None = None
     target_error: float | None = None
     most_nodes: int = 10_000_001
+    boundary_film: float = 0.0
+    hardness: float = np.inf
+
+    @property
+    def asperities(self) -> Asperities:
+        """Boundary film and hardness of asperities that touch."""
+        return Asperities(self.boundary_film, self.hardness)
 
     @property
     def order(self) -> int:

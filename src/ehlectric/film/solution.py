@@ -47,6 +47,9 @@ class FilmSolution(Values):
         thickness.
     load_residual : float
         abs(load carried/load applied - 1), dimensionless.
+    contact_pressure : ndarray or None
+        Part of the pressure [Pa] that asperities carry where the surfaces touch, zero elsewhere. None where
+        the surfaces do not touch.
     reynolds_residual : ndarray or None
         Residual of the Reynolds equation, scaled to a pressure over p_h. It is zero in the full film and not
         negative where the film is cavitated. None for an instant of a transient film.
@@ -77,6 +80,7 @@ class FilmSolution(Values):
     scales: Scales
     status: Status
     load_residual: float
+    contact_pressure: Array | None = None
     reynolds_residual: Array | None = None
     residual: float | None = None
     newton_iterations: int | None = None
@@ -89,6 +93,14 @@ class FilmSolution(Values):
     def converged(self) -> bool:
         """Whether the residual is below the tolerance."""
         return self.status == "converged"
+
+    @property
+    def contact(self) -> Mask:
+        """Nodes where the surfaces touch, as a mask of the shape of the film."""
+        if self.contact_pressure is None:
+            return np.zeros(self.thickness.shape, dtype=bool)
+        touching: Mask = self.contact_pressure > 0.0
+        return touching
 
     @property
     def minimum_thickness(self) -> float:
@@ -125,9 +137,11 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
     scales, coarser = problem.scales, found.coarser
     steps = tuple(step for solution in found.solutions for step in solution.steps)
     x, values = _nodal(found, shaped)
+    touching = values.pop("contact_pressure")
     return FilmSolution(
         x=scales.length * x,
         **values,
+        contact_pressure=touching if finest.touches else None,
         scales=scales,
         status=film_status(finest.status, finest.level.mesh, finest.state.thickness),
         load_residual=abs(finest.final.load) / finest.level.load,
@@ -178,7 +192,8 @@ def _values(scales: Scales, solution: GridSolution, outer: Array | float) -> dic
         "thickness": scales.thickness * state.thickness,
         "deflection": scales.thickness * (solution.level.deflection(state.pressure) + outer),
         "density": final.coefficients.density,
-        "cavitated": ~final.full_film,
+        "cavitated": ~final.full_film & ~state.touching,
+        "contact_pressure": scales.pressure * np.broadcast_to(state.contact_pressure, state.pressure.shape),
         "reynolds_residual": final.scaled,
     }
 
@@ -186,10 +201,11 @@ def _values(scales: Scales, solution: GridSolution, outer: Array | float) -> dic
 def pressure_of(scales: Scales, state: State, full_film: Mask) -> Array:
     """Pressure of a state [Pa], shape (nx, ny), nowhere below ambient.
 
-    ``full_film`` marks the nodes with a full film; the pressure at all other nodes is ambient.
+    ``full_film`` marks the nodes with a full film; where there is none and the surfaces do not touch, the
+    pressure is ambient.
     """
     pressure = np.maximum(scales.pressure * state.pressure, scales.ambient_pressure)
-    return np.where(full_film, pressure, scales.ambient_pressure)
+    return np.where(full_film | state.touching, pressure, scales.ambient_pressure)
 
 
 def film_status(status: Status, mesh: Mesh, thickness: Array) -> Status:

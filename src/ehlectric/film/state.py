@@ -50,21 +50,34 @@ class State:
     Attributes
     ----------
     pressure : ndarray, shape (nx, ny)
-        Pressure P.
+        Pressure P; where the surfaces touch, that of the oil and of the asperities together.
     h00 : float
         Rigid displacement H00.
     thickness : ndarray, shape (nx, ny)
         Film thickness H, which follows from P and H00.
+    contact_pressure : ndarray, shape (nx, ny), or float
+        Part of P that asperities carry; zero where the surfaces do not touch.
     """
 
     pressure: Array
     h00: float
     thickness: Array
+    contact_pressure: Array | float = 0.0
 
     @classmethod
-    def of(cls, level: Level, pressure: Array, h00: float) -> State:
+    def of(cls, level: Level, pressure: Array, h00: float, contact_pressure: Array | float = 0.0) -> State:
         """State with a pressure P (nx, ny) and a rigid displacement H00 on a grid."""
-        return cls(pressure, h00, Gap.of(level, pressure, h00).thickness)
+        return cls(pressure, h00, Gap.of(level, pressure, h00).thickness, contact_pressure)
+
+    @property
+    def touching(self) -> Mask:
+        """Nodes where asperities carry a part of the pressure, shape (nx, ny)."""
+        return np.broadcast_to(np.asarray(self.contact_pressure) > 0.0, self.pressure.shape)
+
+    @property
+    def oil_pressure(self) -> Array:
+        """Pressure of the oil, shape (nx, ny)."""
+        return self.pressure - self.contact_pressure
 
     def lifted(self, smallest: float) -> State:
         """State with H00 raised, if necessary, so that H is at least ``smallest`` everywhere."""
@@ -137,6 +150,11 @@ class GridSolution:
     final: Residual
     steps: tuple[NewtonStep, ...]
     status: Status
+
+    @property
+    def touches(self) -> bool:
+        """Whether asperities carry a part of the load at some node."""
+        return bool(np.any(self.state.touching))
 
 
 def film_touches(mesh: Mesh, thickness: Array) -> bool:

@@ -24,6 +24,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.characteristics import mass_after, stationary_mass, step_levels
 from ehlectric.film.levels import Level
+from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import assess, newton
 from ehlectric.film.problem import FilmProblem
@@ -204,6 +205,8 @@ class UnsteadyFilm:
         starts = self._starts(levels, history, step)
         limits = [_FEW_ITERATIONS, _MANY_ITERATIONS][-len(starts) :]
         for (start, spike), iterations in zip(starts, limits, strict=True):
+            if history.now.state.touching.any():
+                break
             solution = newton(
                 self.problem.fluid,
                 levels,
@@ -217,10 +220,28 @@ class UnsteadyFilm:
             krylov = sum(one.krylov_iterations for one in solution.steps)
             effort += Effort(len(solution.steps), krylov)
             if solution.status == "converged":
-                final = solution.final
-                density, mass = final.coefficients.density, mass_after(solution)
-                return Instant(time, solution.state, mass, density, final.full_film), effort
+                if float(solution.state.thickness.min()) < self.problem.boundary_film:
+                    break
+                return _instant(time, solution), effort
+        if self.problem.boundary_film > 0.0:
+            solution = self._touching(levels, history)
+            effort += Effort(len(solution.steps), sum(one.krylov_iterations for one in solution.steps))
+            if solution.status == "converged":
+                return _instant(time, solution), effort
         return None, effort
+
+    def _touching(self, levels: list[Level], history: History) -> GridSolution:
+        """Film after a time step in which the surfaces touch or part, from the last film."""
+        last = history.now.state
+        return mixed_newton(
+            self.problem.fluid,
+            levels,
+            State.of(levels[0], last.pressure, last.h00, last.contact_pressure),
+            asperities=self.problem.asperities,
+            tolerance=max(self.problem.tolerance, STEP_TOLERANCE),
+            max_iterations=_MANY_ITERATIONS,
+            first_damping=0.0,
+        )
 
     def _starts(self, levels: list[Level], history: History, step: float) -> list[tuple[State, bool]]:
         """Initial guesses of a time step: the last film and, unless it is too thin, the extrapolated film.
@@ -249,3 +270,9 @@ class UnsteadyFilm:
         mesh = self.level.mesh
         added = self._moving_gap(now.time + step, mesh.x, mesh.y)
         return step_levels(self._levels, (now.mass, before.mass), (step, now.time - before.time), added)
+
+
+def _instant(time: float, solution: GridSolution) -> Instant:
+    """Instant after a time step that was solved."""
+    density, full_film = solution.final.coefficients.density, solution.final.full_film
+    return Instant(time, solution.state, mass_after(solution), density, full_film)

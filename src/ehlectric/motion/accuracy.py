@@ -8,6 +8,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.film.estimates import MINIMUM_ORDER
+from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.stored_run import MotionRun
 
 # The minimum counts as near its lowest value over time up to this multiple of it.
@@ -46,10 +47,11 @@ class RunErrors:
 def run_errors(run: MotionRun) -> RunErrors | None:
     """Discretisation errors of a run; None if its companion did not converge at all steps, or it has none.
 
-    Runs of earlier versions have no companion.
+    Runs of earlier versions have no companion. A run whose surfaces touch has no errors either: its minimum
+    is the boundary film, and its load share is compared with that of the companion.
     """
     names = ("lowest_thickness", "coarse_lowest_thickness", "central_thickness", "coarse_central_thickness")
-    if any(name not in run.dataset for name in names):
+    if any(name not in run.dataset for name in names) or TouchHistory.of(run) is not None:
         return None
     lowest, coarse_lowest, central, coarse_central = (run.values(name)[::2] for name in names)
     if lowest.size < 2 or not np.all(np.isfinite(coarse_lowest)):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.accuracy.moving_patch import MovingFilm
@@ -16,6 +17,7 @@ from ehlectric.film.estimates import lowest
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.unsteady import History, Instant
+from ehlectric.motion.asperities import Toucher
 from ehlectric.motion.contact import TransientContact
 from ehlectric.runtime.threads import quiet_solution
 
@@ -25,7 +27,7 @@ STRIDE = 2
 
 @dataclass(frozen=True)
 class KeyFilms:
-    """Film thicknesses by which a run is compared with its companion.
+    """Film thicknesses and load share of asperities by which a run is compared with its companion.
 
     Attributes
     ----------
@@ -33,16 +35,19 @@ class KeyFilms:
         Minimum film thickness between the nodes [m]; NaN where the companion has no film.
     central : float
         Film thickness at the centre of the contact [m]; NaN where the companion has no film.
+    load_share : float
+        Part of the load that asperities carry; NaN where the companion has no film.
     """
 
     lowest: float = math.nan
     central: float = math.nan
+    load_share: float = math.nan
 
     @classmethod
-    def of(cls, mesh: Mesh, instant: Instant, scale: float) -> KeyFilms:
+    def of(cls, mesh: Mesh, instant: Instant, scale: float, load_share: float = math.nan) -> KeyFilms:
         """Key film thicknesses of an instant on its mesh, from the scale of the film thickness [m]."""
         thickness = instant.state.thickness
-        return cls(scale * lowest(mesh, thickness), scale * at_centre(mesh, thickness))
+        return cls(scale * lowest(mesh, thickness), scale * at_centre(mesh, thickness), load_share)
 
 
 class Companion:
@@ -60,6 +65,7 @@ class Companion:
     def __init__(self, contact: TransientContact) -> None:
         self._step = STRIDE * contact.schedule.step
         self._scale = contact.problem.scales.thickness
+        self._contact = contact
         self._moving = MovingFilm(on_every_second_node(contact.problem), contact.moving_gap)
 
     def start(self) -> History | None:
@@ -109,7 +115,12 @@ class Companion:
         """Key film thicknesses after a step of the run; NaN between two steps and without a film."""
         if history is None or step % STRIDE:
             return KeyFilms()
-        return KeyFilms.of(self._moving.film.level.mesh, history.now, self._scale)
+        share = self._toucher.at(history.now.state).load_share
+        return KeyFilms.of(self._moving.film.level.mesh, history.now, self._scale, share)
+
+    @cached_property
+    def _toucher(self) -> Toucher:
+        return Toucher(self._contact, self._moving.film.level.mesh)
 
 
 def on_every_second_node(problem: FilmProblem) -> FilmProblem:

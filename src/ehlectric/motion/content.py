@@ -47,6 +47,13 @@ _KEY_FILMS = {
     "coarse_lowest_thickness": "finite or NaN",
     "coarse_central_thickness": "not negative or NaN",
 }
+# Variables over the time steps of runs whose surfaces touch.
+_TOUCHES = {
+    "asperity_load_share": "not negative",
+    "contact_area_share": "not negative",
+    "spots": "whole",
+    "coarse_asperity_load_share": "not negative or NaN",
+}
 _FRAMES = {
     "frame_time": ("increasing", "s"),
     "frame_step": ("increasing", "1"),
@@ -115,6 +122,7 @@ def _rules(axes: tuple[str, ...], *, stationary: bool) -> dict[str, Rule]:
         found |= {f"stationary_{name}": Rule(axes, *what) for name, what in _MAPS.items()}
     # Runs of earlier versions have no estimate of errors.
     found |= {name: Rule(("step",), values, "m", needed=False) for name, values in _KEY_FILMS.items()}
+    found |= {name: Rule(("step",), values, "1", needed=False) for name, values in _TOUCHES.items()}
     found["max_strength_error"] = Rule(("frame",), "not negative or NaN", "1", needed=False)
     return found
 

@@ -20,6 +20,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError
 from ehlectric.film.unsteady import History
+from ehlectric.motion.asperities import AREA_SHARE, COARSE_SHARE, LOAD_SHARE, SPOTS
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.kinds import AnyKind
@@ -66,6 +67,13 @@ _MAPS = {
     "roughness_2": ("roughness of surface 2, out of the body", "m"),
     "cavitated": ("cavitated: pressure at ambient", "1"),
 }
+# Variables over the time steps that only runs have whose surfaces touch.
+_TOUCHES = {
+    LOAD_SHARE: ("part of the load that asperities carry", "1"),
+    AREA_SHARE: ("part of the Hertz zone in which the surfaces touch", "1"),
+    SPOTS: ("number of spots in which the surfaces touch", "1"),
+    COARSE_SHARE: ("part of the load that asperities carry in the companion, NaN between its steps", "1"),
+}
 # Variables that a line contact does not have.
 _OF_POINTS = ("minimum_y", "max_strength_y")
 
@@ -84,6 +92,7 @@ class Row:
         """Values of the last time step of a history, with the film thicknesses of the companion there."""
         contact, instant = solver.contact, history.now
         extremes, films = solver.extremes(instant), solver.key_films(instant)
+        touch = solver.touch(instant)
         values: dict[str, float] = {
             "time": instant.time * contact.schedule.time,
             "minimum_thickness": extremes.minimum_thickness,
@@ -96,6 +105,10 @@ class Row:
             "newton_iterations": history.effort.newton,
             "krylov_iterations": history.effort.krylov,
             "halvings": history.effort.halvings,
+            LOAD_SHARE: touch.load_share,
+            AREA_SHARE: touch.area_share,
+            SPOTS: touch.spots,
+            COARSE_SHARE: coarse.load_share,
         }
         return cls(values | _place("minimum", extremes.minimum_position))
 
@@ -201,8 +214,10 @@ class MotionFile:
         recorded = file.variables["frame_step"][: int(file.attrs["frames"])]
         frame = int(np.searchsorted(recorded, step))
         resize(file, {"step": step + 1, "frame": frame + 1})
+        if any(row.values[name] > 0.0 for row in rows for name in (SPOTS, COARSE_SHARE)):
+            _add_touches(file, step + 1 - len(rows))
         for name in file.variables:
-            if name in _STEPS:
+            if name in _STEPS or name in _TOUCHES:
                 file.variables[name][step + 1 - len(rows) :] = [row.values[name] for row in rows]
         for name, value in (*maps.items(), *numbers.items()):
             file.variables[name][frame] = value
@@ -321,6 +336,18 @@ def _add(
         storage = {"chunks": (_CHUNK,)}
     variable = file.create_variable(name, tuple(dimensions), kind, data=values, **storage)
     variable.attrs["long_name"], variable.attrs["units"] = about
+
+
+def _add_touches(file: Any, before: int) -> None:
+    """Create the variables of asperities where a file has none; the steps ``before`` have no spots."""
+    if SPOTS in file.variables:
+        return
+    for name, about in _TOUCHES.items():
+        _add(file, name, ("step",), about)
+        file.variables[name][:before] = 0.0
+    # The companion had no spots either where it had a film.
+    missing = np.isnan(file.variables["coarse_lowest_thickness"][:before])
+    file.variables[COARSE_SHARE][:before] = np.where(missing, math.nan, 0.0)
 
 
 def _state(file: Any) -> tuple[Any, int]:

@@ -56,7 +56,7 @@ _FILM: Keys = {
     "max_pressure_time": ResultKey("time of max_pressure", "s"),
     "discretisation_error": ResultKey(
         "estimated relative discretisation error, of grid and time steps together: the larger of "
-        "minimum_thickness_error and central_thickness_error; null if unknown",
+        "minimum_thickness_error and central_thickness_error; null if unknown, and where surfaces touch",
         "",
         "discretisation error of the film",
     ),
@@ -93,6 +93,30 @@ _FIELD: Keys = {
     ),
     "local_maxima_quantiles": ResultKey(
         "5, 50 and 95 % quantiles of the local maxima of the field strength; null if there are none", "V/m"
+    ),
+}
+_ASPERITIES: Keys = {
+    "load_share_mean": ResultKey(
+        "share of asperities in the load, mean over the steps",
+        "",
+        "mean load share of asperities",
+        r"$L_\mathrm{a}$",
+    ),
+    "load_share_mean_coarser": ResultKey(
+        "load_share_mean on every second node with twice the time step; null if this is not known"
+    ),
+    "load_share_largest": ResultKey("largest share of asperities in the load, of all steps"),
+    "load_share_largest_time": ResultKey("time of load_share_largest; null if nothing touches", "s"),
+    "contact_area_share_mean": ResultKey(
+        "part of the Hertz zone in which the surfaces touch, mean over the steps",
+        "",
+        "mean real contact area / Hertz area",
+    ),
+    "spots_mean": ResultKey("number of spots, mean over the steps", "", "mean number of spots"),
+    "time_share": ResultKey("share of the steps with at least one spot", "", "share of time with a spot"),
+    "steps": ResultKey(
+        "number of time steps since `covered_from`, on which means and time_share rest; an asperity in the "
+        "contact stays there for many steps, so that neighbouring steps are not independent"
     ),
 }
 _DISCHARGE: Keys = {
@@ -138,6 +162,7 @@ def _keys(capacitance: str, surface: Keys) -> Keys:
         **under("film", _FILM),
         **under("field", _FIELD),
         **under("field", _capacitances(capacitance)),
+        **under("asperities", _ASPERITIES),
         "discharge": ResultKey("null without a constant `dielectric_strength`"),
         **under("discharge", _DISCHARGE),
         "stationary": ResultKey(
@@ -171,8 +196,8 @@ def _stationary(capacitance: str) -> Keys:
         "max_strength": ResultKey("maximum field strength", "V/m"),
         "capacitance": ResultKey("capacitance of the field range", capacitance),
         "discretisation_error": ResultKey(
-            "relative discretisation error of the stationary film; that of the moving film is "
-            "`film.discretisation_error`"
+            "relative discretisation error of the stationary film, null where its surfaces touch; that of "
+            "the moving film is `film.discretisation_error`"
         ),
     }
 

@@ -21,6 +21,9 @@ from ehlectric.film.unsteady import History, Instant
 _OVER_MESH = ("pressure", "thickness", "mass", "density", "free")
 _NUMBERS = ("t", "h00")
 
+# Variable over the mesh that a file has from the first instant on whose surfaces touch.
+_TOUCHING = "contact_pressure"
+
 # Number of places that are written alternately.
 _PLACES = 2
 
@@ -46,6 +49,11 @@ def keep(file: Any, history: History, frame: int, *, group: str = _FINE) -> None
     if group not in file.groups:
         _create(file, group, history.now.state.pressure.shape)
     variables, place = file.groups[group].variables, frame % _PLACES
+    if _TOUCHING in values or _TOUCHING in variables:
+        values.setdefault(_TOUCHING, np.zeros_like(values["pressure"]))
+        if _TOUCHING not in variables:
+            _add(file.groups[group], _TOUCHING)
+            variables = file.groups[group].variables
     for name, array in values.items():
         variables[name][place] = array
     variables["checksum"][place] = _checksum(values)
@@ -74,7 +82,8 @@ def kept(file: Any, frames: int, *, group: str = _FINE) -> History | None:
         If the file has no such group, or not all its variables.
     """
     variables, place = file.groups[group].variables, (frames - 1) % _PLACES
-    values = {name: np.asarray(variables[name][place]) for name in (*_OVER_MESH, *_NUMBERS)}
+    names = [*_OVER_MESH, *_NUMBERS, *([_TOUCHING] if _TOUCHING in variables else [])]
+    values = {name: np.asarray(variables[name][place]) for name in names}
     if not frames or _checksum(values) != int(variables["checksum"][place]):
         return None
     return History(now=_instant(values, 0), before=_instant(values, 1))
@@ -84,9 +93,13 @@ def _create(file: Any, name: str, shape: tuple[int, ...]) -> None:
     group = file.create_group(name)
     group.dimensions = {"place": _PLACES, "instant": 2, "along": shape[0], "across": shape[1]}
     for variable in (*_OVER_MESH, *_NUMBERS):
-        over = ("along", "across") if variable in _OVER_MESH else ()
-        group.create_variable(variable, ("place", "instant", *over), _type_of(variable))
+        _add(group, variable)
     group.create_variable("checksum", ("place",), "i8")
+
+
+def _add(group: Any, variable: str) -> None:
+    over = () if variable in _NUMBERS else ("along", "across")
+    group.create_variable(variable, ("place", "instant", *over), _type_of(variable))
 
 
 def _type_of(name: str) -> str:
@@ -96,7 +109,7 @@ def _type_of(name: str) -> str:
 def _checksum(values: Mapping[str, Array]) -> int:
     """CRC-32 of the values, in the order and with the types of the file."""
     total = 0
-    for name in (*_OVER_MESH, *_NUMBERS):
+    for name in (*_OVER_MESH, *_NUMBERS, *([_TOUCHING] if _TOUCHING in values else [])):
         total = zlib.crc32(np.ascontiguousarray(values[name], dtype=_type_of(name)).tobytes(), total)
     return total
 
@@ -104,7 +117,7 @@ def _checksum(values: Mapping[str, Array]) -> int:
 def _values_of(history: History) -> dict[str, Array]:
     """Values of both instants by the names of their variables, the last instant first."""
     instants = history.now, history.before
-    return {
+    values = {
         "pressure": np.stack([instant.state.pressure for instant in instants]),
         "thickness": np.stack([instant.state.thickness for instant in instants]),
         "mass": np.stack([instant.mass for instant in instants]),
@@ -113,9 +126,14 @@ def _values_of(history: History) -> dict[str, Array]:
         "t": np.array([instant.time for instant in instants]),
         "h00": np.array([instant.state.h00 for instant in instants]),
     }
+    if any(instant.state.touching.any() for instant in instants):
+        over = [np.broadcast_to(each.state.contact_pressure, each.mass.shape) for each in instants]
+        values[_TOUCHING] = np.stack(over)
+    return values
 
 
 def _instant(values: Mapping[str, Array], k: int) -> Instant:
-    state = State(values["pressure"][k], float(values["h00"][k]), values["thickness"][k])
+    touching = values[_TOUCHING][k] if _TOUCHING in values else 0.0
+    state = State(values["pressure"][k], float(values["h00"][k]), values["thickness"][k], touching)
     full = values["free"][k].astype(bool)
     return Instant(float(values["t"][k]), state, values["mass"][k], values["density"][k], full)

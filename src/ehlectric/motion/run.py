@@ -195,5 +195,5 @@ def _numbers(still: Result | PointResult) -> dict[str, Any] | None:
         "max_pressure": still.film.max_pressure,
         "max_strength": still.field.max_strength,
         "capacitance": still.field.capacitance,
-        "discretisation_error": still.film.discretisation_error,
+        "discretisation_error": still.film_error,
     }

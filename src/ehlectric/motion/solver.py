@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.solution import FilmSolution, pressure_of
 from ehlectric.film.unsteady import History, Instant
+from ehlectric.motion.asperities import Touch, Toucher
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
 from ehlectric.runtime.threads import quiet_solution
@@ -141,7 +143,16 @@ class TransientSolver:
 
     def key_films(self, instant: Instant) -> KeyFilms:
         """Film thicknesses of an instant that are compared with those of the companion."""
-        return KeyFilms.of(self._moving.film.level.mesh, instant, self.contact.problem.scales.thickness)
+        mesh, scale = self._moving.film.level.mesh, self.contact.problem.scales.thickness
+        return KeyFilms.of(mesh, instant, scale)
+
+    def touch(self, instant: Instant) -> Touch:
+        """Asperities at an instant."""
+        return self._toucher.at(instant.state)
+
+    @cached_property
+    def _toucher(self) -> Toucher:
+        return Toucher(self.contact, self._moving.film.level.mesh)
 
     def film(self, instant: Instant) -> Film | PointFilm:
         """Film at an instant, SI units."""
@@ -163,7 +174,10 @@ def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film |
         thickness=shaped(scales.thickness * state.thickness),
         deflection=shaped(scales.thickness * level.deflection(state.pressure)),
         density=shaped(instant.density),
-        cavitated=shaped(~instant.full_film),
+        cavitated=shaped(~instant.full_film & ~state.touching),
+        contact_pressure=(
+            shaped(scales.pressure * np.asarray(state.contact_pressure)) if state.touching.any() else None
+        ),
         scales=scales,
         status="converged",
         load_residual=abs(load / level.load - 1.0),

@@ -14,7 +14,9 @@ from ehlectric.contact.result_warnings import FIELD_ERROR, inaccurate_field, unk
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.accuracy import run_errors
+from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.motion.warnings import touch_warnings
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import of_attributes, texts_and_codes
 
@@ -66,13 +68,12 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "version": str(attributes["version"]),
         "title": run.case.title,
         "converged": complete,
-        **texts_and_codes(
-            [*of_attributes(attributes), *_halved(run), *_inaccurate_film(run), *_inaccurate(run)]
-        ),
+        **texts_and_codes([*of_attributes(attributes), *_halved(run), *_unreliable(run)]),
         "inputs": run.case.to_dict(),
         "motion": _course(run),
         "film": _film(run),
         "field": _field(run),
+        "asperities": _asperities(TouchHistory.whole(run)),
         "discharge": _discharge(run),
         "stationary": json.loads(attributes["stationary"]),
         "beside_stationary": _beside(run),
@@ -81,6 +82,16 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
     }
     summary: dict[str, Any] = plain(results)
     return summary
+
+
+def _unreliable(run: MotionRun) -> Iterator[ResultWarning]:
+    """Warnings about film and field, or about the asperities of a run whose surfaces touch."""
+    touching = TouchHistory.of(run)
+    if touching is None:
+        yield from _inaccurate_film(run)
+        yield from _inaccurate(run)
+    else:
+        yield from touch_warnings(touching)
 
 
 def _halved(run: MotionRun) -> Iterator[ResultWarning]:
@@ -154,6 +165,20 @@ def _course(run: MotionRun) -> dict[str, Any]:
         "newton_per_step": float(dataset["newton_iterations"].values.sum()) / max(steps, 1),
         "krylov_per_step": float(dataset["krylov_iterations"].values.sum()) / max(steps, 1),
         "halvings": int(dataset["halvings"].values.sum()),
+    }
+
+
+def _asperities(found: TouchHistory) -> dict[str, Any]:
+    largest = int(np.argmax(found.load_share))
+    return {
+        "load_share_mean": found.mean_share,
+        "load_share_mean_coarser": found.coarser,
+        "load_share_largest": found.load_share[largest],
+        "load_share_largest_time": found.time[largest] if np.any(found.spots) else None,
+        "contact_area_share_mean": np.mean(found.area_share[found.counted]),
+        "spots_mean": np.mean(found.spots[found.counted]),
+        "time_share": found.time_share,
+        "steps": found.steps,
     }
 
 

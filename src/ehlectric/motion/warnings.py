@@ -1,4 +1,4 @@
-"""Warnings about a contact with moving roughness, known before its first time step."""
+"""Warnings about a contact with moving roughness: known before its first time step, and of its spots."""
 
 from __future__ import annotations
 
@@ -8,8 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
+from ehlectric.contact.spots.warnings import about_share
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
+from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.contact import TransientContact
 from ehlectric.surfaces.warnings import LEAST_IN_SHAPE, shortest_wave
 
@@ -55,7 +58,7 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
             "comparison with the moving roughness; try more grid.nodes"
         )
         yield ResultWarning("stationary-not-converged", text)
-    elif (error := still.film.discretisation_error) is not None and error > 0.01:
+    elif (error := still.film_error) is not None and error > 0.01:
         text = (
             f"the discretisation error of the film with stationary roughness is estimated at "
             f"{100.0 * error:.2g} %; use more grid.nodes"
@@ -97,6 +100,42 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
             f"in {fewest:.2g} steps, and the ripples of the film are probably wrong by 2 % or more; use "
             f"at least {enough} motion.steps",
         )
+
+
+def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
+    """Warnings about a run whose surfaces touch: what it means, and a load share not resolved.
+
+    Parameters
+    ----------
+    found : TouchHistory
+        Asperities over the time steps of the run.
+
+    Yields
+    ------
+    ResultWarning
+        That the surfaces touch, and where so that their load share depends on the grid or is not known on a
+        coarser one.
+    """
+    share, coarser = found.mean_share, found.coarser
+    short = "; the roughness never fills the Hertz zone, and these are shares of the whole run: take more "
+    yield ResultWarning(
+        "asperities-touch",
+        f"the surfaces touch at {100.0 * found.time_share:.3g} % of {found.steps} time steps, and asperities "
+        f"carry {about_share(share, coarser)} of the load on average: the film conducts there, and the "
+        "minimum film, the maximum field and the breakdown voltage are those of the boundary film; use the "
+        "values of asperities" + ("" if found.filled else f"{short}motion.passes"),
+    )
+    if coarser is None:
+        grids = "is not known on every second node with twice the time step"
+    elif abs(found.share_change) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
+        grids = f"was {about_share(coarser, share)} on every second node with twice the time step"
+    else:
+        return
+    yield ResultWarning(
+        "load-share-unresolved",
+        f"the mean load share of the asperities depends on the grid: it {grids}; use more grid.nodes and "
+        "compare",
+    )
 
 
 def _passed(contact: TransientContact, surface: int) -> float:

@@ -126,8 +126,9 @@ LIMITS = (
     ),
     Limit(
         "roughness",
-        "The roughness of the surfaces is in the film, as far as the grid resolves it. The film is a full "
-        "film: contacts of asperities carry no load and no current.",
+        "The roughness of the surfaces is in the film, as far as the grid resolves it. Where asperities "
+        "touch, their load share and the number of their spots depend on the grid. Heat and wear of spots "
+        "are left out.",
         _rough,
     ),
     Limit(
@@ -154,6 +155,13 @@ LIMITS = (
         "mechanics of the bearing",
         "Loads are those of dry contacts between rigid rings. Tilt, flexible rings, cage forces, skidding, "
         "spin and gravity are left out.",
+        _is_bearing,
+    ),
+    Limit(
+        "contacts of asperities",
+        "The share of time in which contacts short the bearing is a fit of one test rig, or that of ideal "
+        "Gaussian summits without wear. Contacts are independent of each other. How long a contact stays "
+        "closed and at which voltage it discharges as it opens are left out.",
         _is_bearing,
     ),
     Limit(

@@ -25,6 +25,7 @@ from ehlectric.sweep.inputs import Sweep
 
 if TYPE_CHECKING:
     from ehlectric.bearing.result import BearingResult
+    from ehlectric.contact.check import PreparedContact
     from ehlectric.contact.conditions import Conditions, PointConditions
     from ehlectric.discharge.verdict import Verdict
     from ehlectric.sweep.plan import Planned
@@ -104,11 +105,39 @@ def _check_contact(case: Case) -> Meaning:
     if estimate is not None:
         summary["breakdown_by_formula"] = estimate
         rows += _breakdown_rows(estimate)
+    lambda_ratio = _lambda_by_formula(contact)
+    if lambda_ratio is not None:
+        summary["lambda_by_formula"] = lambda_ratio
+        rows += _lambda_rows(lambda_ratio)
     if case.motion is not None:
         schedule = TransientContact.of(case, contact.rough).schedule
         summary["motion"] = schedule.described()
         rows += schedule_rows(schedule, contact.conditions.entrainment_speed)
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
+
+
+def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | None:
+    """Film of smooth surfaces by a formula over the undeformed roughness; None for smooth surfaces."""
+    from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
+    from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
+    from ehlectric.surfaces.profiles import FLAT
+
+    rq = contact.composite_roughness()
+    if rq is None or rq < FLAT:
+        return None
+    line = contact.conditions.geometry == "line"
+    formulas: Mapping[str, Any] = LINE_FORMULAS if line else POINT_FORMULAS
+    formula = formulas["moes" if line else "nijenbanning_venner_moes"]
+    film = formula(contact.conditions.contact).central_thickness
+    return {"formula": formula.name, "central_thickness": film, "rq": rq, "lambda_ratio": film / rq}
+
+
+def _lambda_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
+    ratio = estimate["lambda_ratio"]
+    yield Row("combined Rq", estimate["rq"], "nm", ", in the Hertz zone, undeformed", digits=".3g")
+    likely = "are likely to touch" if ratio < 1.0 else "may touch" if ratio < 3.0 else "hardly touch"
+    note = f", central film ({estimate['formula']}) / combined Rq: the surfaces {likely}"
+    yield Row("lambda ratio by formula", ratio, note=note, digits=".2g")
 
 
 def _breakdown_by_formula(

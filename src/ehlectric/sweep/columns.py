@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 # Keys of the summary whose values are texts that may differ between points.
-_TEXTS = ("bearing.lubrication", "bearing.first_break_at")
+_TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
 
 # Variables of a point besides its inputs and results, with their attributes in the CF conventions.
 _OWN = {

@@ -44,7 +44,8 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     -------
     Verdict or None
         Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
-        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green or red where
+        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where the
+        margin of a contact is that of a boundary film, as its asperities touch. Nor is it green or red where
         the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by
         its warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces
         touch at all points of a bearing with a motor, yellow where they touch at some or without a motor, and
@@ -67,7 +68,16 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
     ]
     if missing:
         sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
-    level: Level = "red" if below == known.size else "yellow" if below or missing else "green"
+    touching = sum(
+        math.isfinite(margin) and any(one.code == "asperities-touch" for one in point.warnings)
+        for point, margin in zip(results.points, usable, strict=True)
+    )
+    if touching:
+        sentences.append(
+            f"At {touching} of the points the surfaces touch: spots conduct, and the margin is that of the "
+            "boundary film; use the asperities of these points."
+        )
+    level: Level = "red" if below == known.size else "yellow" if below or missing or touching else "green"
     if doubts:
         level = "yellow"
     return Verdict(level, " ".join([*sentences, *doubts, *_assumptions(results)]), lowest)

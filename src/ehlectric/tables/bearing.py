@@ -14,6 +14,7 @@ from ehlectric.cases.row import Bound, Row, amount, amount_row, rows_of
 from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.sweep.labels import Scale, scale_for
+from ehlectric.tables.bearing_asperities import duty_rows
 from ehlectric.tables.bearing_bounds import bounds_of
 from ehlectric.tables.bearing_meter import outside_rows, shaft_rows
 
@@ -137,6 +138,7 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
         _lambda_ratio(totals),
         *rows_of(BEARING_KEYS, summary, films),
         Row("computing time", summary["seconds"], "s", digits=".3g"),
+        *duty_rows(summary),
         Row("capacitance"),
         *rows_of(BEARING_KEYS, summary, capacitances, bounds),
         *outside_rows(summary),
@@ -309,6 +311,12 @@ def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:
     if margin is None:
         return
     yield Row("margin (first breakdown / shaft voltage)", margin, alarm=margin < 1.0, bound="≤")
+    # Results of earlier versions lack this key.
+    probability = summary["bearing"].get("breakdown_probability")
+    if probability is not None:
+        note = ", while the films insulate"
+        bound = bounds_of(summary).get("bearing.breakdown_probability", "")
+        yield Row("breakdown at the shaft voltage", probability, "%", note, digits=".2g", bound=bound)
     if analysis is None:
         return
     if analysis["low"] is not None:

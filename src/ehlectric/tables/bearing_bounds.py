@@ -20,8 +20,9 @@ _AT_MOST = (
     "shaft_through_breakdown",
 )
 
-# Field strengths, which are higher in thinner films. The shaft voltage falls with the film, but less than it.
-_AT_LEAST = ("strength_per_volt", "max_strength")
+# Field strengths and the probability of breakdown, which are higher in thinner films. The shaft voltage falls
+# with the film, but less than it.
+_AT_LEAST = ("strength_per_volt", "max_strength", "breakdown_probability")
 
 # Capacitances of ceramic elements whose own capacitance is not given.
 _CERAMIC = ("capacitance", "capacitance_oil", "capacitance_air", "shaft_capacitance")
@@ -47,7 +48,7 @@ def bounds_of(summary: Mapping[str, Any]) -> dict[str, Bound]:
     if "shaft-leaks" in codes:
         # The oil discharges the shaft, whose voltage is lower then, and so may be the field.
         at_most += ["shaft_voltage", "film_voltage"]
-        at_least.remove("max_strength")
+        at_least = ["strength_per_volt"]
     bounds: dict[str, Bound] = {f"bearing.{name}": "≤" for name in at_most}
     for name in at_least:
         bounds[f"bearing.{name}"] = "≥"

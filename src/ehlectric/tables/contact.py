@@ -16,6 +16,7 @@ from ehlectric.formulas.film_line import regime as line_regime
 from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
 from ehlectric.formulas.film_point import regime as point_regime
 from ehlectric.lubricant.oil import Oil
+from ehlectric.tables.asperities import asperity_rows
 from ehlectric.tables.discharge import discharge_rows
 from ehlectric.tables.meter import meter_rows
 
@@ -167,7 +168,8 @@ def result_rows(result: Result | PointResult) -> list[Row]:
         Values in SI units.
     """
     rows = [*_status(result), *condition_rows(result.conditions, result.field.voltage, result.case.oil)]
-    rows += [*_dry_contact(result.conditions), *_film(result), *_roughness(result), *_field(result)]
+    rows += [*_dry_contact(result.conditions), *_film(result), *_roughness(result), *asperity_rows(result)]
+    rows += _field(result)
     return [*rows, *discharge_rows(result), *meter_rows(result), *_formulas(result)]
 
 
@@ -181,7 +183,7 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     film = result.film
     zone = "Hertz zone" if isinstance(result, Result) else "Hertz ellipse"
     yield Row("film")
-    at = _at(result, film.minimum_position)
+    at = _at(result, film.minimum_position) + _where(result)
     yield Row("minimum film thickness h_min", film.minimum_thickness, "µm", at)
     yield Row("central film thickness", film.central_thickness, "µm")
     yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
@@ -189,8 +191,10 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     nodes = " x ".join(str(count) for count in film.thickness.shape)
     target = result.case.grid.target
     asked = "" if target is None else f", {100.0 * target:g} % asked"
-    name, error = "discretisation error of the film", film.discretisation_error
+    name, error = "discretisation error of the film", result.film_error
     grid = f", {nodes} nodes{asked}"
+    if film.contact_pressure is not None:
+        grid = f"where surfaces touch{grid}"
     yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
     steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
     after = f"after {film.newton_iterations} {steps}"
@@ -213,6 +217,11 @@ def _at(result: Result | PointResult, position: float | tuple[float, float]) -> 
     return f" at x/b = {position / result.conditions.half_width:.4g}"
 
 
+def _where(result: Result | PointResult) -> str:
+    """Note of a value in the boundary film; empty where the surfaces do not touch."""
+    return "" if result.spots is None else ", in the boundary film"
+
+
 def _roughness(result: Result | PointResult) -> Iterator[Row]:
     """Rows of the roughness within the Hertz zone; none for smooth surfaces."""
     if not result.rough:
@@ -222,7 +231,8 @@ def _roughness(result: Result | PointResult) -> Iterator[Row]:
     for k, rq in ((1, roughness.rq_1), (2, roughness.rq_2)):
         yield Row(f"Rq of surface {k}", rq, "nm", ", in the Hertz zone", digits=".3g")
     if roughness.lambda_ratio is not None:
-        about = ", minimum film / combined Rq"
+        least = "minimum film" if result.spots is None else "boundary film"
+        about = f", {least} / combined Rq"
         yield Row("lambda ratio", roughness.lambda_ratio, note=about, digits=".3g")
     if roughness.lambda_ratio_smooth is not None:
         about = ", smooth film / combined Rq"
@@ -233,21 +243,30 @@ def _roughness(result: Result | PointResult) -> Iterator[Row]:
 
 def _field(result: Result | PointResult) -> Iterator[Row]:
     field = result.field
-    at = _at(result, field.max_strength_position)
+    at = _at(result, field.max_strength_position) + _where(result)
     if result.rough:
         at += f", {field.max_strength_wall}"
     yield Row("electric field")
-    yield Row("maximum field", field.max_strength, "V/µm", at, bound="≥")
-    name, error = "error of the maximum field", field.strength_error
+    if result.spots is None:
+        yield Row("maximum field", field.max_strength, "V/µm", at, bound="≥")
+        yield from _accuracy_of_maximum(result)
+    else:
+        # The voltage over a given gap: nothing of it is computed, and no error is to be stated.
+        yield Row("maximum field", field.max_strength, "V/µm", at, digits=".3g")
+    if isinstance(result, Result):
+        yield from _line_field(result)
+    else:
+        yield from _point_field(result)
+
+
+def _accuracy_of_maximum(result: Result | PointResult) -> Iterator[Row]:
+    """Rows of the error of the maximum field, and of its ratio to that of parallel plates."""
+    name, error = "error of the maximum field", result.field.strength_error
     yield Row(name, "unknown") if error is None else Row(name, error, "%", digits=".1g")
     name = "maximum field / parallel-plate field"
     yield Row(name, result.max_dimensionless, note="(parallel plates: V/h_min)", digits=".4f")
     if result.thin_gap_error is not None:
         yield Row("error of the estimate V/h_min", result.thin_gap_error, "%", digits=".2g")
-    if isinstance(result, Result):
-        yield from _line_field(result)
-    else:
-        yield from _point_field(result)
 
 
 def _line_field(result: Result) -> Iterator[Row]:
@@ -271,12 +290,29 @@ def _formulas(result: Result | PointResult) -> Iterator[Row]:
     yield Row("film thickness by published formulas")
     formulas = _FORMULAS[result.conditions.geometry]
     for key, name, value in _by_formula(formulas, result.formulas()):
-        difference = 100.0 * (value / getattr(result.film, key) - 1.0)
-        beside = f", {difference:+.0f} % vs. solved film" if result.converged else ""
-        yield Row(name, value, "µm", beside)
-    yield Row("usual difference from a solved film", "up to 40", "%")
+        yield Row(name, value, "µm", _beside_formula(result, key, value))
+    if result.spots is None:
+        yield Row("usual difference from a solved film", "up to 40", "%")
+    else:
+        yield Row(
+            "difference from the solved film", "none: surfaces touch", note=", formulas are of smooth ones"
+        )
     yield Row("run")
     yield Row("computing time", result.film_seconds + result.field_seconds, "s", digits=".2g")
+
+
+def _beside_formula(result: Result | PointResult, key: str, value: float) -> str:
+    """Note with the difference of a film by formula from the solved one, or from that of smooth surfaces.
+
+    Where surfaces touch, the minimum film is the boundary film, and the centre may lie in a spot.
+    """
+    if not result.converged:
+        return ""
+    if result.spots is None:
+        return f", {100.0 * (value / getattr(result.film, key) - 1.0):+.0f} % vs. solved film"
+    if result.smooth is None or key != "minimum_thickness":
+        return ""
+    return f", {100.0 * (value / result.smooth.minimum_thickness - 1.0):+.0f} % vs. film of smooth surfaces"
 
 
 # Names of the zones of a point contact, and rows of the grid by the geometry of the contact.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
@@ -25,11 +26,15 @@ def discharge_rows(result: Result | PointResult) -> Iterator[Row]:
     if discharge is None:
         return
     yield Row("discharge")
-    yield from _zone(discharge.zone, result.conditions.half_width)
+    # Where surfaces touch, this is the breakdown of the boundary film; that around the spots is with them.
+    touching, costs = result.spots is not None, discharge.costs
+    if not touching:
+        yield from _zone(discharge.zone, result.conditions.half_width)
     yield from _capacitances(discharge.capacitances, _CAPACITANCE[result.conditions.geometry])
-    yield from _costs(discharge.costs)
+    yield from _costs(replace(costs, breakdown_energy=None) if touching else costs)
     yield from _leakage(discharge.leakage)
-    yield from _breakdown(discharge.breakdown, result.field.voltage)
+    if not touching:
+        yield from _breakdown(discharge.breakdown, result.field.voltage)
 
 
 def _breakdown(breakdown: Breakdown, applied: float) -> Iterator[Row]:

@@ -8,6 +8,7 @@ from typing import Any
 from ehlectric.cases.case import Case
 from ehlectric.cases.row import Bound, Row, rows_of, value_at
 from ehlectric.contact.kinds import KINDS
+from ehlectric.contact.spots.warnings import share_text
 from ehlectric.motion.keys import LINE_KEYS
 from ehlectric.motion.schedule import Schedule
 from ehlectric.tables.contact import condition_rows
@@ -25,6 +26,9 @@ _AT_LEAST = (
     "beside_stationary.maximum_strength_stationary",
 )
 _BOUNDS: Mapping[str, Bound] = {key: "≤" if key in _AT_MOST else "≥" for key in (*_AT_MOST, *_AT_LEAST)}
+
+# Heading after whose rows those of asperities come.
+_LAST_OF_RUN = "electric field"
 
 
 def schedule_rows(schedule: Schedule, entrainment_speed: float) -> Iterator[Row]:
@@ -78,6 +82,8 @@ def run_rows(summary: Mapping[str, Any]) -> list[Row]:
     for heading, entries in _entries(summary):
         found = list(rows_of(LINE_KEYS, shown, entries, _BOUNDS))
         rows += [Row(heading), *found] if found else []
+        if heading == _LAST_OF_RUN:
+            rows += _touching_rows(summary)
     return rows
 
 
@@ -86,6 +92,10 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
     steps, peaks = summary["motion"]["steps"], summary["field"]["local_maxima"]
     film_at, field_at = _time(summary, "film.minimum_time"), _time(summary, "field.max_strength_time")
     breakdown_at = _time(summary, "discharge.breakdown_time")
+    if _touches(summary):
+        film_at, field_at, breakdown_at = (
+            f"{at}, in the boundary film" for at in (film_at, field_at, breakdown_at)
+        )
     yield (
         "motion of the roughness",
         (("duration of the motion", "motion.duration", "ms", f", {steps} time steps"),),
@@ -102,7 +112,7 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
         ),
     )
     yield (
-        "electric field",
+        _LAST_OF_RUN,
         (
             ("maximum field, moving roughness", "field.max_strength", "V/µm", field_at),
             ("error of the maximum field", "field.max_strength_error", "%"),
@@ -137,6 +147,31 @@ def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str,
             ("computing time", "seconds", "s"),
         ),
     )
+
+
+def _touches(summary: Mapping[str, Any]) -> bool:
+    """Whether the surfaces touch at one time step; summaries of earlier versions say nothing of it."""
+    return bool("asperities" in summary and summary["asperities"]["load_share_largest"] > 0.0)
+
+
+def _touching_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the asperities that touch; none where the surfaces do not touch at any time."""
+    if not _touches(summary):
+        return
+    found = summary["asperities"]
+    share, coarser = found["load_share_mean"], found["load_share_mean_coarser"]
+    on_half = ", not known on a coarser grid"
+    if coarser is not None:
+        on_half = f", {share_text(coarser, share)} % on half the nodes"
+    name, largest_at = "load share of the asperities", _time(summary, "asperities.load_share_largest_time")
+    yield Row("asperities that touch")
+    yield Row(f"{name}, mean", share_text(share, coarser), "%", on_half)
+    yield Row(f"{name}, largest", found["load_share_largest"], "%", largest_at, digits=".2g")
+    of = ", of the Hertz zone"
+    yield Row("real contact, mean", found["contact_area_share_mean"], "%", of, digits=".2g")
+    yield Row("number of spots, mean", found["spots_mean"], digits=".3g")
+    of = f" of {found['steps']} evaluated time steps"
+    yield Row("time with at least one spot", found["time_share"], "%", of, digits=".3g")
 
 
 def _time(summary: Mapping[str, Any], key: str) -> str:

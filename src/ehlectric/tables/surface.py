@@ -1,8 +1,8 @@
-"""Table of a rough surface: its statistics after every processing step."""
+"""Tables of a rough surface: its statistics after every processing step, and its summits."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.table import Table
@@ -29,6 +29,27 @@ _MAP_COLUMNS = (
     ("max.\nslope", "largest_slope", ".2g"),
 )
 
+# Columns of the summits: head, key, factor to the shown unit, and format.
+_SUMMIT_COLUMNS = (
+    ("interval\n[µm]", "interval", 1e6, ".3g"),
+    ("m0\n[nm²]", "m0", 1e18, ".3g"),
+    ("m2\n[1e-6]", "m2", 1e6, ".3g"),
+    ("m4\n[1/mm²]", "m4", 1e-6, ".3g"),
+    ("band-\nwidth", "bandwidth", 1.0, ".3g"),
+    ("summits\n[1/mm²]", "summit_density", 1e-6, ".3g"),
+    ("radius\n[µm]", "summit_radius", 1e6, ".3g"),
+    ("height dev.\n[nm]", "summit_deviation", 1e9, ".3g"),
+    ("slope\nx/y", "slope_ratio", 1.0, ".2f"),
+)
+
+# Title of the table of the summits, and sentences below it.
+SUMMITS_TITLE = "spectral moments and summits after the last step"
+SUMMITS_NOTE = (
+    "Bandwidth, density and radius belong to the sampling interval: name it with the numbers. They hold for "
+    "Gaussian heights (skewness 0, kurtosis 3). A dash stands where no isotropic Gaussian surface has the "
+    "bandwidth, below 1.5."
+)
+
 
 def surface_table(surface: dict[str, Any]) -> Table:
     """Table of a profile or map: its source and size, and its statistics after every processing step."""
@@ -42,6 +63,26 @@ def surface_table(surface: dict[str, Any]) -> Table:
     for row in rows:
         table.add_row(*row)
     return table
+
+
+def summits_table(summits: Sequence[Mapping[str, float | None]]) -> Table:
+    """Table of spectral moments and summits, a row for each sampling interval; a dash for no summits."""
+    table = Table(title=SUMMITS_TITLE, title_justify="left", box=None, padding=(0, 1, 0, 0))
+    heads, rows = summits_rows(summits)
+    for head in heads:
+        table.add_column(Text(head), justify="right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def summits_rows(
+    summits: Sequence[Mapping[str, float | None]],
+) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Heads of the moments and summits with their units, and a row for every sampling interval."""
+    columns = [column for column in _SUMMIT_COLUMNS if column[1] in summits[0]]
+    rows = [tuple(_summit(row[key], factor, how) for _, key, factor, how in columns) for row in summits]
+    return tuple(head for head, *_ in columns), rows
 
 
 def size_text(surface: Mapping[str, Any]) -> str:
@@ -74,6 +115,11 @@ def _size(size: list[int] | None) -> str:
     if size is None:
         return ""
     return " x ".join(str(count) for count in size if count > 1 or len(size) == 1) + " points"
+
+
+def _summit(value: float | None, factor: float, how: str) -> str:
+    """Number of a table of summits in its shown unit; a dash where there is none."""
+    return "\N{EN DASH}" if value is None else format(value * factor, how)
 
 
 def _statistic(value: float, how: str) -> str:

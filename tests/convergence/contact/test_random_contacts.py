@@ -34,6 +34,8 @@ def test_every_contact_is_solved(paper_case, wedge):
             {
                 "contact.load_per_length": load,
                 "contact.entrainment_speed": speed,
+                # Some films are thinner than a molecule: the oil carries them all the same.
+                "contact.boundary_film": 0.0,
                 "grid.nodes": 1601,
                 "grid.wedge": wedge,
             }

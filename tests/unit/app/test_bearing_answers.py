@@ -99,6 +99,7 @@ def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
         "margin": ("≤", ratio_text(totals["margin"])),
         # The films are isothermal, fully flooded and smooth.
         "lambda": ("≤", f"{totals['lambda_ratio']:.3g}"),
+        "regime": ("", totals["regime"]),
         "critical-speed": ("", "…"),
     }
     note = quick.number("capacitance").note
@@ -107,7 +108,11 @@ def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
     assert "upper bound: isothermal" in quick.number("first-break").note
 
 
-def test_the_critical_speed_comes_with_the_whole_answer(whole, summary):
+def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
+    assert "capacitive" not in quick.number("regime").note
+    speed = rpm(summary["margin"]["capacitive_speed"])
+    # Real films are thinner than these, and touch up to higher speeds.
+    assert whole.number("regime").note.endswith(f"from ≥ {float(f'{speed:.3g}'):g} rpm")
     found = whole.number("critical-speed")
     critical = rpm(summary["margin"]["critical_speed"])
     assert (found.known, found.bound) == (True, "≥")

@@ -10,13 +10,16 @@ from ehlectric import Case
 from ehlectric.app.answers.contact_told import CONTACT_PLACES
 from ehlectric.app.compute.contact import (
     check_contact,
+    contact_case,
     cuts_of,
     solve_at_once,
     solve_contact,
     view_of,
 )
 from ehlectric.app.fields.contact import geometry_of, groups_of, switched
+from ehlectric.app.fields.defaults import default_of
 from ehlectric.app.fields.rules import changed
+from ehlectric.app.fields.words import written_text
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import contact_start
 from ehlectric.contact.solver import solve
@@ -173,6 +176,7 @@ def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
 def test_places_of_warnings_are_numbers_of_a_contact(tmp_path):
     shown = {one.key for one in solved_coarsely(tmp_path).numbers}
     shown |= {one.key for one in check_contact(table_of("ball_contact"), str(tmp_path)).numbers}
+    shown |= {one.key for one in view_of(solve(touching_case("line"))).spots}
     assert {name for names in CONTACT_PLACES.values() for name in names} <= shown
 
 
@@ -186,6 +190,112 @@ def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
     told = [*view.warnings, *(one for shown in view.numbers for one in shown.warnings)]
     assert [one.code for one in told if one.severity != "note"] == []
     assert view.level != "grey"
+
+
+def touching_case(geometry, **tables):
+    """Rough contact on a coarse grid whose surfaces touch."""
+    rough = {"surface": 1, "generator": "gaussian", "rq": "250 nm", "seed": 4}
+    slow = {"entrainment_speed": "0.01 m/s", "boundary_friction": 0.12}
+    if geometry == "line":
+        table = table_of("rough_contact", contact=slow, grid={"nodes": 801})
+        table["roughness"] = [rough | {"correlation_length": "5 um"}]
+    else:
+        table = table_of("ball_contact", contact=slow, grid=SMALL)
+        table["roughness"] = [rough | {"correlation_length": "60 um"}]
+    for key, values in tables.items():
+        table[key] = table.get(key, {}) | values
+    return Case.from_dict(table)
+
+
+def spot(view, key):
+    (found,) = (one for one in view.spots if one.key == key)
+    return found
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
+    discharge = {"dielectric_strength": "15 V/um"} | ({"length": "10 mm"} if geometry == "line" else {})
+    result = solve(touching_case(geometry, discharge=discharge, electric={"resistivity": "2.2e-7 ohm m"}))
+    view, summary = view_of(result), result.summary()["asperities"]
+    size, per = ("µm", 1e6) if geometry == "line" else ("µm²", 1e12)
+    capacitance = ("nF/m", 1e9) if geometry == "line" else ("pF", 1e12)
+    assert spot(view, "behaviour").text == summary["behaviour"]
+    assert spot(view, "spots").text == str(summary["spots"])
+    for key, name, unit, factor in (
+        ("contact-area", "contact_area", size, per),
+        ("friction", "boundary_friction", "", 1.0),
+        ("capacitance-outside", "capacitance_outside", *capacitance),
+        ("breakdown-1", "breakdown_1", "V", 1.0),
+        ("breakdown-5", "breakdown_5", "V", 1.0),
+        ("breakdown-50", "breakdown_50", "V", 1.0),
+    ):
+        shown = spot(view, key)
+        assert (shown.unit, float(shown.text)) == (unit, pytest.approx(factor * summary[name], rel=0.05)), key
+    # The load share has the digits that the grid leaves, and its change beside it.
+    share, before = summary["load_share"], summary["load_share_coarser"]
+    shown = spot(view, "load-share")
+    assert float(shown.text) == pytest.approx(100.0 * share, abs=max(100.0 * abs(share - before), 0.1))
+    assert f"{100.0 * abs(share - before):.2g} percentage points" in shown.note
+    prefixes = {"Ω": 1.0, "mΩ": 1e-3, "µΩ": 1e-6, "kΩ": 1e3}
+    shown = spot(view, "spot-resistance")
+    assert float(shown.text) * prefixes[shown.unit] == pytest.approx(summary["resistance"], rel=0.05)
+    assert shown.bound == ("≤" if geometry == "line" else "")
+
+
+def test_resistance_of_spots_says_what_it_needs():
+    metal = {"resistivity": "2.2e-7 ohm m"}
+    for given, told in (({}, "resistivity"), (metal, "length of the contact")):
+        shown = spot(view_of(solve(touching_case("line", electric=given))), "spot-resistance")
+        assert (shown.text, told in shown.note) == ("not known", True)
+
+
+def test_breakdown_around_spots_by_a_weibull_law():
+    law = {"scale": "15 V/um", "shape": 8.0, "reference_area": "1e-8 m^2"}
+    result = solve(touching_case("point", discharge={"weibull": law}, electric={"potential_2": "1 V"}))
+    view, summary = view_of(result), result.summary()["asperities"]
+    shown = spot(view, "breakdown-outside")
+    assert float(shown.text) == pytest.approx(summary["breakdown_voltage"], rel=0.05)
+    shown = spot(view, "breakdown-probability")
+    assert float(shown.text) == pytest.approx(100.0 * summary["breakdown_probability"], rel=0.05)
+
+
+def test_surfaces_that_do_not_touch_have_no_spots():
+    case = touching_case("line", contact={"entrainment_speed": "20 m/s"})
+    result = solve(case)
+    assert result.rough
+    assert result.converged
+    assert result.spots is None
+    assert view_of(result).spots == ()
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+@pytest.mark.parametrize(
+    ("key", "typed", "value"),
+    [
+        ("contact.hardness", "7", 7e9),
+        ("contact.boundary_friction", "0.12", 0.12),
+        ("electric.resistivity", "2.2e-7", 2.2e-7),
+        ("electric.mean_free_path", "8", 8e-9),
+        ("electric.tribofilm_resistance", "1e-9 Ω m²", 1e-9),
+    ],
+)
+def test_fields_of_surfaces_that_touch_reach_the_case(geometry, key, typed, value, tmp_path):
+    field = field_of(geometry, key)
+    text = field.from_text(written_text(field, typed))
+    inputs = changed(contact_start(geometry), {key: text})
+    table, name = key.split(".")
+    assert getattr(getattr(contact_case(inputs.table, ""), table), name) == pytest.approx(value)
+    check_contact(dict(inputs.table), str(tmp_path))
+    other = switched(inputs, contact_start("point" if geometry == "line" else "line"))
+    assert other.value(key) == text
+
+
+def test_length_of_a_line_contact_is_left_when_it_becomes_a_point():
+    line = changed(contact_start("line"), {"discharge.length": field_of("line", "discharge.length").at(0.5)})
+    point = switched(line, contact_start("point"))
+    assert point.value("discharge.length") is None
+    assert point.value("discharge.dielectric_strength") == line.value("discharge.dielectric_strength")
+    assert contact_case(point.table, "").discharge.length is None
 
 
 def test_warning_about_the_domain_stands_beside_the_films(tmp_path):
@@ -252,8 +362,10 @@ def test_change_of_geometry_keeps_what_both_have(tmp_path):
     assert point.value("contact.load") == "20 N"
     assert point.value("contact.load_per_length") is None
     assert point.value("grid.error") == "2 %"
+    assert check_contact(dict(point.table), str(tmp_path)).geometry == "point"
     back = switched(point, line)
     assert back.value("contact.load_per_length") == "1.57 MN/m"
+    assert back.value("discharge.length") == line.value("discharge.length")
     assert check_contact(dict(back.table), str(tmp_path)).geometry == "line"
 
 
@@ -278,3 +390,21 @@ def test_every_way_of_a_field_is_a_valid_case(geometry, tmp_path):
             assert field.way(inputs) == place
             check_contact(dict(inputs.table), str(tmp_path))
     assert len(fields) > 3
+
+
+def field_of(geometry, key):
+    (found,) = (one for group in groups_of(geometry) for one in group.fields if one.key == key)
+    return found
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_boundary_film_of_a_form_is_that_of_the_command(geometry):
+    inputs = contact_start(geometry)
+    field = field_of(geometry, "contact.boundary_film")
+    # What the form shows where nothing is given is what the solver takes.
+    default = contact_case(inputs.table, "").contact.touching_gap
+    assert 1e-9 * field.number(default_of(inputs, field.key)) == pytest.approx(default)
+    typed = changed(inputs, {field.key: field.from_text("2.5")})
+    assert contact_case(typed.table, "").contact.touching_gap == pytest.approx(2.5e-9)
+    other = "point" if geometry == "line" else "line"
+    assert switched(typed, contact_start(other)).value(field.key) == "2.5 nm"

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
+from ehlectric.app.compute.contact import view_of
 from ehlectric.app.figures.cuts import point_cuts
 from ehlectric.app.figures.line import line_figures
 from ehlectric.app.figures.look import values
 from ehlectric.app.figures.point import point_figures, reach_of
 from ehlectric.contact.solver import solve
+from tests.conftest import PAPER_CONTACT
 from tests.helpers.places import EXAMPLES
 
 
@@ -29,6 +31,26 @@ def point():
 def long_point():
     changes = {"grid.nodes": 97, "contact.radius_y": 0.08}
     return solve(Case.from_toml(EXAMPLES / "ball_contact.toml").replace(changes))
+
+
+# Surfaces so rough that they touch: heights [m] and correlation length [m].
+_ROUGH = {"surface": 1, "generator": "gaussian", "seed": 4}
+
+
+@pytest.fixture(scope="module")
+def touching_line():
+    contact = PAPER_CONTACT | {"load_per_length": 1.57e6, "entrainment_speed": 0.05}
+    rough = {**_ROUGH, "rq": 2.5e-7, "correlation_length": 5e-6}
+    table = {"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 801}}
+    return solve(Case.from_dict({**table, "roughness": [rough], "discharge": {"dielectric_strength": 15e6}}))
+
+
+@pytest.fixture(scope="module")
+def touching_point():
+    case = Case.from_toml(EXAMPLES / "ball_contact.toml").replace(
+        {"grid.nodes": 65, "contact.entrainment_speed": 0.05, "discharge.dielectric_strength": 15e6}
+    )
+    return solve(case.replace(roughness=({**_ROUGH, "rq": 1.5e-7, "correlation_length": 15e-6},)))
 
 
 def by_name(figures):
@@ -216,3 +238,64 @@ def test_values_that_are_no_numbers_are_not_drawn(line, point):
 def test_values_have_digits_and_gaps():
     assert values([1.23456789, np.nan, 0.0, -1e-9, np.inf], 4) == [1.235, None, 0.0, -1e-9, None]
     assert values(np.array([[1.0, 2.0]])) == [[1.0, 2.0]]
+
+
+def test_spots_of_a_line_contact_are_drawn_where_its_film_touches(touching_line):
+    film = touching_line.film
+    assert film.converged
+    assert film.contact.any()
+    shown = by_name(line_figures(touching_line))["profiles"]
+    written(shown)
+    spots = trace(shown, "surfaces touch")
+    assert spots["x"] == pytest.approx(1e6 * film.x[film.contact], rel=1e-6)
+    # The film is drawn in µm, although it is 1 nm thick at the spots.
+    assert spots["y"] == pytest.approx([1e-3] * len(spots["x"]), rel=1e-4)
+    asperities = trace(shown, "pressure of asperities")
+    assert max(asperities["y"]) == pytest.approx(film.contact_pressure.max() / 1e9, rel=1e-6)
+    assert np.count_nonzero(asperities["y"]) == film.contact.sum()
+    # The field in the boundary film would make that of the oil a line at zero.
+    top = shown.plot["layout"]["yaxis3"]["range"][1]
+    assert top < 0.5 * max(max(trace(shown, f"field at surface {k}")["y"]) for k in (1, 2))
+    assert "boundary film of 1 nm" in shown.caption
+
+
+def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touching_point):
+    film = touching_point.film
+    assert film.converged
+    assert film.contact.any()
+    shown = by_name(point_figures(touching_point))
+    i, j = np.nonzero(film.contact)
+    for name in ("film-map", "pressure-map", "field-map"):
+        written(shown[name])
+        spots = trace(shown[name], "surfaces touch")
+        found = set(zip(spots["x"], spots["y"], strict=True))
+        assert found == set(zip(np.round(1e6 * film.x[i], 6), np.round(1e6 * film.y[j], 6), strict=True))
+    reach = reach_of(touching_point)
+    for cut in point_cuts(touching_point, *(1e-6 * at for at in reach.at)):
+        written(cut)
+        most = max(trace(cut, "pressure of asperities")["y"])
+        assert most == pytest.approx(film.contact_pressure.max() / 1e9, rel=1e-6)
+        assert min(trace(cut, "surfaces touch")["y"]) == pytest.approx(1.0, rel=1e-4)
+    assert reach.first == "the spot of the highest pressure"
+
+
+def test_surfaces_that_do_not_touch_have_no_spots(line, point):
+    drawn = [*line_figures(line), *point_figures(point), *point_cuts(point, 0.0, 0.0)]
+    names = {one.get("name") for shown in drawn for one in shown.plot["data"]}
+    assert not names & {"surfaces touch", "pressure of asperities"}
+    assert reach_of(point).first == "the smallest film"
+
+
+def test_numbers_of_surfaces_that_touch_say_so(touching_line, touching_point):
+    for result in (touching_line, touching_point):
+        numbers = {one.key: one for one in view_of(result).numbers}
+        assert numbers["minimum-film"].text == "1"
+        assert numbers["minimum-film"].unit == "nm"
+        assert "boundary film" in numbers["minimum-film"].note
+        factor = {"nm": 1e9, "µm": 1e6}[numbers["central-film"].unit]
+        mean = factor * result.film.mean_thickness
+        assert float(numbers["central-film"].text) == pytest.approx(mean, rel=1e-3)
+        assert numbers["central-film"].label == "Mean film"
+        assert "boundary film" in numbers["max-field"].note
+        assert "metal may conduct" in numbers["breakdown-voltage"].note
+        assert numbers["breakdown-voltage"].bound == "≤"

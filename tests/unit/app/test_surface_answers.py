@@ -77,6 +77,22 @@ def test_parameters_of_a_map_are_those_of_the_command(name):
     assert answer.described == json.loads(command(FILES[name], "--map", *OPTIONS).stdout)
 
 
+@pytest.mark.parametrize(("case", "options"), [(LINE, []), (POINT, ["--map"])])
+def test_table_of_summits_has_the_words_of_the_command(case, options):
+    file = FILES["x3p"]
+    table = look({"surface": 1, "file": str(file)}, case, str(file.parent)).summits
+    assert all(len(row) == len(table.heads) for row in table.rows)
+    printed = CliRunner().invoke(app, ["surface", str(file), *options]).stdout
+    for row in table.rows:
+        assert list(row) in [line.split() for line in printed.splitlines()]
+    assert " ".join(table.note.split()) in " ".join(printed.split())
+
+
+def test_an_exact_shape_has_no_summits():
+    waves = {"surface": 2, "generator": "sinusoid", **FIRST_VALUES["sinusoid"]}
+    assert look(waves, LINE, "").summits is None
+
+
 @pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("case", [LINE, POINT])
 def test_figures_are_json_of_a_bounded_size(name, case):

@@ -14,6 +14,7 @@ from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio
 from ehlectric.bearing.solution import lambda_ratio, plate_capacitance
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.tables.bearing import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, with_values
 
 
@@ -290,6 +291,25 @@ def test_a_weibull_strength_is_that_of_all_contacts(rollers):
     certain = BearingResult(dataclasses.replace(rollers.solution, positions=(position,))).breaks()
     assert first < certain["first_break"]
     assert weibull.breaks()["through_breakdown"] == certain["through_breakdown"]
+
+
+def test_probability_of_breakdown_at_the_shaft_voltage(rollers):
+    """From the rows of the only position: no contact breaks down with the product of exp(-(V_k/V_k1)^m)."""
+    position = rollers.solution.positions[0]
+    one = dataclasses.replace(position, shape=8.0)
+    weibull = BearingResult(dataclasses.replace(rollers.solution, positions=(one,)))
+    summary = weibull.summary()
+    found, shaft = summary["bearing"]["breakdown_probability"], summary["bearing"]["shaft_voltage"]
+    used = [shaft * row["voltage_share"] / row["breakdown_voltage"] for row in weibull.contacts()]
+    intact = np.prod([np.exp(-(part**8.0)) for part in used])
+    assert 0.0 < found < 1.0
+    assert found == pytest.approx(1.0 - intact, rel=1e-9, abs=0.0)
+    (row,) = (row for row in total_rows(summary) if row.name == "breakdown at the shaft voltage")
+    assert float(row.shown) == pytest.approx(100.0 * found, rel=0.05)
+    assert "while the films insulate" in row.note
+    # Without scatter, and without a voltage, there is no probability.
+    assert rollers.summary()["bearing"]["breakdown_probability"] is None
+    assert with_motor(weibull, None).summary()["bearing"]["breakdown_probability"] is None
 
 
 def test_a_contact_that_is_not_converged(rollers):

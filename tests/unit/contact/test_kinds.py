@@ -55,7 +55,7 @@ def case_of(geometry, **tables):
 def conditions_of(geometry, lubricant, speed_factor=1.0, film_factor=1.0):
     """Conditions of the cases above from their numbers."""
     contact = case_of(geometry).contact
-    given = {"reduced_modulus": 226e9, "film_factor": film_factor}
+    given = {"reduced_modulus": 226e9, "film_factor": film_factor, "boundary_film": contact.touching_gap}
     given["entrainment_speed"] = speed_factor * contact.entrainment_speed
     if geometry == "line":
         return line_conditions(lubricant, reduced_radius=14.1e-3, load_per_length=4e5, **given)

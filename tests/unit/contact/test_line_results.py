@@ -253,16 +253,17 @@ def test_paper_result_needs_no_warning(paper_result):
 
 
 @pytest.mark.slow
-def test_roughness_higher_than_the_film_is_raised_in_vain(paper_case):
-    """The smooth film is solved; with ever smaller rises of the roughness there is a height with none."""
+def test_roughness_higher_than_the_film_touches(paper_case):
+    """The smooth film stands beside it; the minimum is the boundary film, and its error is not known."""
     rough = {"surface": 2, "generator": "gaussian", "rq": "400 nm", "correlation_length": "5 um", "seed": 1}
     changes = {"contact.max_hertz_pressure": "1 GPa", "contact.entrainment_speed": 0.2, "grid.nodes": 801}
     result = solve(paper_case.replace(changes | {"roughness": [rough]}))
-    assert not result.converged
+    assert result.converged
     assert result.smooth is not None
-    assert result.smooth.minimum_thickness < 200e-9
-    assert result.film.discretisation_error is None
-    assert any("do not use this film" in text for text in map(str, result.warnings))
+    assert 1e-9 < result.smooth.minimum_thickness < 200e-9
+    assert result.film.minimum_thickness == pytest.approx(1e-9, rel=1e-6)
+    assert result.summary()["film"]["discretisation_error"] is None
+    assert "asperities-touch" in [warning.code for warning in result.warnings]
 
 
 def test_the_caller_may_ask_for_a_solution_or_nothing(paper_case):

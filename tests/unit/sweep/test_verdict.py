@@ -104,6 +104,14 @@ def test_contacts_have_their_own_margin():
     assert verdict.text.endswith("Below about 2 m/s the margin is below 1: breakdown is expected.")
 
 
+def test_margins_of_boundary_films_are_named_and_leave_no_green_verdict():
+    axes, touch = {"contact.entrainment_speed": (1.0, 4.0)}, {"codes": ["asperities-touch"]}
+    for margins, level in (([2.0, 3.0], "yellow"), ([0.1, 0.2], "red")):
+        verdict = sweep_verdict(sweep(axes, margins, case=CONTACT, at_0=touch))
+        assert verdict.level == level
+        assert "At 1 of the points the surfaces touch: spots conduct" in verdict.text
+
+
 def test_points_without_a_margin_leave_no_green_verdict():
     speeds, margins = (1.0, 10.0, 100.0, 200.0, 400.0), [None, None, 1.5, 0.5, 2.0]
     verdict = sweep_verdict(

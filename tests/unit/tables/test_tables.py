@@ -21,6 +21,7 @@ from tests.conftest import PAPER_CONTACT
 from tests.helpers.moving_cases import moving
 from tests.helpers.point_pages import result_of
 from tests.helpers.sweep_models import breakdown, grid
+from tests.unit.contact.spots.cases import solved
 
 # Words that no other text on lubrication or on electric breakdown uses in this sense.
 PRIVATE = re.compile(
@@ -128,6 +129,20 @@ def test_formulas_are_compared_with_the_solved_film():
     solved, formula = result.film.minimum_thickness, result.formulas()["pan_hamrock"].minimum_thickness
     expected = f"{formula * 1e6:.4g} µm, {100 * (formula / solved - 1):+.0f} % vs. solved film"
     assert named["minimum film (Pan-Hamrock)"] == expected
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_formulas_are_not_compared_with_a_boundary_film(geometry):
+    result = solved(geometry)
+    named = texts(result_rows(result))
+    assert not any("vs. solved film" in text for text in named.values())
+    assert "surfaces touch" in named["difference from the solved film"]
+    assert "boundary film" in named["lambda ratio"]
+    name = "pan_hamrock" if geometry == "line" else "chittenden"
+    least = {"line": "minimum film (Pan-Hamrock)", "point": "minimum film (Chittenden et al.)"}[geometry]
+    change = 100.0 * (result.formulas()[name].minimum_thickness / result.smooth.minimum_thickness - 1.0)
+    assert named[least].endswith(f", {change:+.0f} % vs. film of smooth surfaces")
+    assert named[least.replace("minimum", "central")].endswith("µm")
 
 
 def test_a_run_says_when_film_and_field_are_at_their_worst(moved):

@@ -85,11 +85,13 @@ class Reach:
     x, y : tuple of float
         Ends of the range, in ``unit``.
     at : tuple of float
-        Point of the minimum film, in ``unit``.
+        First point, such as that of the minimum film, in ``unit``.
     unit : str
         Unit of the positions, as the figures have it.
     turned : bool
         Whether the maps have y along the page.
+    first : str
+        Words for what is at ``at``.
     """
 
     x: tuple[float, float]
@@ -97,6 +99,7 @@ class Reach:
     at: tuple[float, float]
     unit: str
     turned: bool = False
+    first: str = "the smallest film"
 
 
 @dataclass(frozen=True)
@@ -123,6 +126,8 @@ class ContactView:
         Figures of the cuts through one point of a point contact.
     reach : Reach or None
         Range of these points; None for a line contact.
+    spots : tuple of Number
+        Numbers of the spots in which the surfaces touch; none where they do not touch.
     """
 
     title: str
@@ -136,3 +141,4 @@ class ContactView:
     figures: tuple[Shown, ...] = field(repr=False)
     cuts: tuple[Shown, ...] = field(default=(), repr=False)
     reach: Reach | None = None
+    spots: tuple[Number, ...] = ()

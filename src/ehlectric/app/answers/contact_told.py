@@ -24,6 +24,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "radius-large": (),
         "ambient-pressure": _HERTZ,
         "plastic-deformation": _HERTZ,
+        "hardness-low": _HERTZ,
         "law-range": _HERTZ,
         "roelands-z": _FILM,
         "estimated-alpha": _FILM,
@@ -38,6 +39,9 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Film
         "not-converged": _SOLVED,
         "surfaces-touch": ("minimum-film", *_BREAKDOWN),
+        "asperities-touch": ("minimum-film", "capacitance", *_FIELD),
+        "load-share-unresolved": ("load-share",),
+        "oil-not-conserved": _FILM,
         "thinner-than-atom": ("minimum-film", *_FIELD),
         "refine-not-reached": _FILM,
         "error-unknown": ("minimum-film",),

@@ -29,6 +29,28 @@ class StepFigure:
 
 
 @dataclass(frozen=True)
+class SummitsTable:
+    """Spectral moments and summits of a surface, as ``ehlectric surface`` prints them.
+
+    Attributes
+    ----------
+    title : str
+        What the numbers belong to.
+    heads : tuple of str
+        Heads of the columns, with units.
+    rows : tuple of tuple of str
+        Row for every sampling interval.
+    note : str
+        What a reader must know to use the numbers.
+    """
+
+    title: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    note: str
+
+
+@dataclass(frozen=True)
 class SurfaceAnswer:
     """Rough surface and its processing steps.
 
@@ -50,6 +72,8 @@ class SurfaceAnswer:
         Warnings about the file, the steps and the grid.
     lines : mapping of str to int
         Number of rows and of columns of a map from a file; empty for other surfaces.
+    summits : SummitsTable or None
+        Moments and summits after the last processing step; None for an exact shape.
     """
 
     kind: str
@@ -60,3 +84,4 @@ class SurfaceAnswer:
     figures: tuple[StepFigure, ...]
     warnings: tuple[Told, ...]
     lines: Mapping[str, int]
+    summits: SummitsTable | None = None

@@ -7,8 +7,11 @@ from typing import Any
 
 from ehlectric.app.answers.bearing import PENDING, RANGE_FOLLOWS, Difference, Number, Table
 from ehlectric.app.answers.told import Told, beside
+from ehlectric.bearing.intermittency.duty import CAPACITIVE
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import Row, amount
+from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.tables.bearing import total_rows
 
@@ -47,7 +50,7 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
     Returns
     -------
     tuple of Number
-        Capacitance, first breakdown, shaft voltage, margin, lambda ratio and critical speed.
+        Capacitance, first breakdown, shaft voltage, margin, lambda ratio, critical speed and regime.
     """
     found = (
         _capacitance(summary, told),
@@ -56,6 +59,7 @@ def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: 
         _margin(summary, told),
         _lambda(summary, told),
         _critical_speed(summary, told, whole=whole),
+        _regime(summary, told),
     )
     return found if summary["converged"] else tuple(map(_unusable, found))
 
@@ -125,6 +129,9 @@ def _margin(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
         return Number(name, label, "none", note=why, known=False, told=near)
     analysis = summary.get("margin")
     note = "upper bound; first breakdown / shaft voltage, breakdown below 1"
+    probability = totals.get("breakdown_probability")
+    if probability is not None:
+        note += f"; breakdown with a probability of {100.0 * probability:.2g} % while films insulate"
     if analysis is not None and analysis["low"] is not None:
         low, high = ratio_text(analysis["low"]), ratio_text(analysis["high"])
         note = f"{low} to {high} within the stated ranges; {note}"
@@ -141,6 +148,21 @@ def _lambda(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
     note = f"{STATES[totals['lubrication']]}; {film}"
     text = f"{totals['lambda_ratio']:.3g}"
     return Number("lambda", "Lambda ratio, minimum", text, bound, note, told=beside(told, "lambda"))
+
+
+def _regime(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
+    """Electrical regime in one word, with the share of time in which contacts short the bearing."""
+    totals = summary["bearing"]
+    note = f"contacts short it {time_text(totals['contact_time_share'])}"
+    if totals["contact_time_share"] == 0.0 and totals["touching_time_share"] > 0.0:
+        note = "ceramic elements or a coating insulate"
+    speed = (summary.get("margin") or {}).get("capacitive_speed")
+    if speed is not None:
+        # Thinner films touch up to higher speeds.
+        bound = "≥ " if film_is_bound(summary) else ""
+        seldom = f"shorted at most {100.0 * CAPACITIVE:g} % of the time"
+        note += f"; capacitive ({seldom}) from {bound}{rpm_text(speed)} rpm"
+    return Number("regime", "Regime", totals["regime"], note=note, told=beside(told, "regime"))
 
 
 def _critical_speed(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> Number:

@@ -14,13 +14,15 @@ from ehlectric.app.answers.figure import Shown
 from ehlectric.app.answers.told import Told, beside
 from ehlectric.app.compute.cases import case_of
 from ehlectric.app.compute.lines import lines_of
+from ehlectric.app.compute.numbers import number_of
+from ehlectric.app.compute.touching import spot_numbers
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.cuts import point_cuts
 from ehlectric.app.figures.lengths import Lengths
 from ehlectric.app.figures.line import line_figures
 from ehlectric.app.figures.point import point_figures, reach_of
+from ehlectric.app.figures.touching import spot_position, touches
 from ehlectric.cases.case import Case
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.discharge.verdict import STRENGTH_UNKNOWN, doubts_of, lead_of, level_of, ratio_text
@@ -112,31 +114,26 @@ def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:
     formula, name = _SHOWN_FORMULA[geometry]
     film = summary["film_formulas"][formula]
     note = f"by formula: {name}, up to 40 % off"
-    found = [_number("hertz-pressure", "Hertz pressure", hertz["max_pressure"], "Pa")]
+    found = [number_of("hertz-pressure", "Hertz pressure", hertz["max_pressure"], "Pa")]
     if geometry == "line":
-        found.append(_number("half-width", "Half-width b", hertz["half_width"], "m", least=1.0))
+        found.append(number_of("half-width", "Half-width b", hertz["half_width"], "m", least=1.0))
     else:
         for key, label in (("semi_axis_x", "Semi-axis b, along"), ("semi_axis_y", "Semi-axis a, across")):
-            found.append(_number(key.replace("_", "-"), label, hertz[key], "m", least=1.0))
+            found.append(number_of(key.replace("_", "-"), label, hertz[key], "m", least=1.0))
     found += [
-        _number("minimum-film", "Minimum film", film["minimum_thickness"], "m", note),
-        _number("central-film", "Central film", film["central_thickness"], "m", note),
+        number_of("minimum-film", "Minimum film", film["minimum_thickness"], "m", note),
+        number_of("central-film", "Central film", film["central_thickness"], "m", note),
         Number("moes-m", "Load parameter M", f"{groups['moes_m']:.4g}"),
         Number("moes-l", "Material parameter L", f"{groups['moes_l']:.4g}"),
     ]
     estimate = summary.get("breakdown_by_formula")
     if estimate is not None:
         by = f"by formula: {estimate['formula']}, up to 40 % off; {_BOUND}"
-        breakdown = _number("breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by)
+        breakdown = number_of(
+            "breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by
+        )
         found.append(replace(breakdown, bound="≤"))
     return found
-
-
-def _number(key: str, label: str, value: float, unit: str, note: str = "", least: float = 0.1) -> Number:
-    if unit == "V":
-        return Number(key, label, f"{value:.4g}", unit, note)
-    factor, shown_unit = unit_for(abs(value), unit, least=least)
-    return Number(key, label, f"{factor * value:.4g}", shown_unit, note)
 
 
 _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
@@ -245,7 +242,8 @@ def view_of(result: Result | PointResult) -> ContactView:
     """Answer of a solved contact."""
     level, text = _verdict(result)
     numbers = _result_numbers(result) if result.converged else []
-    keys = {number.key for number in numbers}
+    spots = spot_numbers(result)
+    keys = {number.key for number in (*numbers, *spots)}
     whole = result if isinstance(result, PointResult) and result.converged else None
     return ContactView(
         title=result.case.title,
@@ -254,10 +252,11 @@ def view_of(result: Result | PointResult) -> ContactView:
         level=level,
         text=text,
         numbers=_with_warnings(numbers, result.warnings),
+        spots=_with_warnings(spots, result.warnings),
         rows=lines_of(result_rows(result)),
         warnings=_others(result.warnings, keys),
         figures=point_figures(result) if isinstance(result, PointResult) else line_figures(result),
-        cuts=() if whole is None else point_cuts(whole, *whole.film.minimum_position),
+        cuts=() if whole is None else point_cuts(whole, *spot_position(whole)),
         reach=None if whole is None else reach_of(whole),
     )
 
@@ -274,7 +273,35 @@ def _verdict(result: Result | PointResult) -> tuple[str, str]:
 
 def _result_numbers(result: Result | PointResult) -> list[Number]:
     film, field, discharge = result.film, result.field, result.discharge
-    error = film.discretisation_error
+    touching = touches(result)
+    at = f"at {_voltage(result)}, {_IN_SPOTS}" if touching else f"at {_voltage(result)}"
+    found = [
+        *(_touching_films(result) if touching else _films(result)),
+        number_of("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
+        number_of("max-field", "Maximum field", field.max_strength, "V/m", at),
+    ]
+    over = f"{_OVER}, with the boundary film as an insulator" if touching else _OVER
+    if isinstance(result, PointResult):
+        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e12:.4g}", "pF", over)
+    else:
+        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e9:.4g}", "nF/m", over)
+    found.append(capacitance)
+    if discharge is not None and discharge.breakdown_voltage is not None:
+        breakdown = number_of("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
+        if touching:
+            breakdown = replace(
+                breakdown, bound="≤", note=f"{_IN_SPOTS}; metal may conduct there at any voltage"
+            )
+        elif _is_flooded(result):
+            breakdown = replace(breakdown, bound="≤", note=_BOUND)
+        found.append(breakdown)
+    return found
+
+
+def _films(result: Result | PointResult) -> list[Number]:
+    """Minimum and central film with their error, beside those of a formula."""
+    film = result.film
+    error = result.film_error
     known = "discretisation error unknown" if error is None else f"discretisation error {100 * error:.2g} %"
     key, name = _SHOWN_FORMULA[result.conditions.geometry]
     formula = result.formulas()[key]
@@ -282,21 +309,24 @@ def _result_numbers(result: Result | PointResult) -> list[Number]:
         f"{name}: {100.0 * (getattr(formula, of) / getattr(film, of) - 1.0):+.0f} %"
         for of in ("minimum_thickness", "central_thickness")
     )
-    found = [
-        _number("minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"),
-        _number("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
-        _number("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
-        _number("max-field", "Maximum field", field.max_strength, "V/m", f"at {_voltage(result)}"),
+    return [
+        number_of(
+            "minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"
+        ),
+        number_of("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
     ]
-    if isinstance(result, PointResult):
-        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e12:.4g}", "pF", _OVER)
-    else:
-        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e9:.4g}", "nF/m", _OVER)
-    found.append(capacitance)
-    if discharge is not None and discharge.breakdown_voltage is not None:
-        breakdown = _number("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
-        found.append(replace(breakdown, bound="≤", note=_BOUND) if _is_flooded(result) else breakdown)
-    return found
+
+
+def _touching_films(result: Result | PointResult) -> list[Number]:
+    """Films of surfaces that touch: the boundary film, and the mean film, as a spot may be in the middle."""
+    film = result.film
+    mean = "in the dry contact, spots and gaps between them"
+    return [
+        number_of(
+            "minimum-film", "Minimum film", film.minimum_thickness, "m", "surfaces touch: boundary film"
+        ),
+        number_of("central-film", "Mean film", film.mean_thickness, "m", mean),
+    ]
 
 
 def _voltage(result: Result | PointResult) -> str:
@@ -312,6 +342,9 @@ _BOUND = "isothermal, fully flooded film"
 
 
 _OVER = "over the field range"
+
+# Note on numbers of the thinnest film where the surfaces touch.
+_IN_SPOTS = "in the boundary film, where the surfaces touch"
 
 
 def _with_warnings(numbers: Iterable[Number], warnings: Iterable[ResultWarning]) -> tuple[Number, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.answers.surface import StepFigure, SurfaceAnswer
+from ehlectric.app.answers.surface import StepFigure, SummitsTable, SurfaceAnswer
 from ehlectric.app.answers.told import Told
 from ehlectric.app.compute.cases import with_own_files
 from ehlectric.app.compute.surface_told import plainly, too_rough
@@ -30,8 +30,9 @@ from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile
 from ehlectric.surfaces.rough_maps import RoughMap, measured_map
 from ehlectric.surfaces.rough_profiles import RoughSurface, measured
+from ehlectric.surfaces.summits import summit_statistics
 from ehlectric.surfaces.voids import without_void_borders
-from ehlectric.tables.surface import size_text, statistics_rows
+from ehlectric.tables.surface import SUMMITS_NOTE, SUMMITS_TITLE, size_text, statistics_rows, summits_rows
 
 # Memory that the reading and the processing of a surface may take beyond that of the process [bytes].
 _MEMORY = 3e9
@@ -133,6 +134,8 @@ def _answer(
         assert domain is not None
         shape = StepFigure("in the domain", _shape_figure(rough, domain), "Heights of the shape")
         return SurfaceAnswer("shape", described, "exact shape", (), (), (shape,), warnings, {})
+    summits = summit_statistics(rough.steps[-1][1])
+    described["summits"] = plain(summits)
     heads, rows = statistics_rows(described)
     read = rough.surface_read
     names = [name for name, _ in rough.steps]
@@ -150,7 +153,14 @@ def _answer(
         for number, (name, (_, step), row) in enumerate(zip(names, rough.steps, rows, strict=True))
     )
     kind = "map" if of_map else "profile"
-    return SurfaceAnswer(kind, described, size_text(described), heads, tuple(rows), figures, warnings, lines)
+    return SurfaceAnswer(
+        kind, described, size_text(described), heads, tuple(rows), figures, warnings, lines, _summits(summits)
+    )
+
+
+def _summits(summits: Sequence[Mapping[str, Any]]) -> SummitsTable:
+    heads, rows = summits_rows(summits)
+    return SummitsTable(SUMMITS_TITLE, heads, tuple(rows), SUMMITS_NOTE)
 
 
 def _label(name: str, row: tuple[str, ...]) -> str:

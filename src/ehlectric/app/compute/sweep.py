@@ -61,6 +61,7 @@ _RESULTS = {
         "bearing.capacitance",
         "bearing.shaft_voltage",
         "bearing.lambda_ratio",
+        "bearing.contact_time_share",
         "bearing.through_breakdown",
         "bearing.max_strength",
         "bearing.discharge_energy",

@@ -252,7 +252,36 @@ FILM = Group(
             ),
         ),
         Field("bearing.fill", "Part filled with oil", "%", 0.0, 100.0, when=_part, strict=True),
+        _number(
+            "bearing.contact_resistance",
+            "Resistance of a closed contact",
+            "ohm",
+            (0.01, 100.0),
+            log=True,
+            optional=True,
+        ),
     ),
+)
+
+SUMMITS = Group(
+    "Summits of the roughness",
+    (
+        _number("bearing.summits.density", "Summits per area", "1/mm^2", (100.0, 1e6), log=True),
+        _number("bearing.summits.radius", "Radius of the summits", "um", (0.5, 500.0), log=True),
+        _number(
+            "bearing.summits.height_deviation",
+            "Deviation of their heights",
+            "um",
+            (0.005, 1.0),
+            log=True,
+            optional=True,
+        ),
+        _number("bearing.summits.bandwidth", "Or their bandwidth", "", (1.5, 100.0), log=True, optional=True),
+        _number("bearing.summits.highest", "Worn to this height", "", (1.0, 6.0), optional=True),
+    ),
+    table="bearing.summits",
+    start={"density": "2000 1/mm^2", "radius": "50 um"},
+    note=f"{_ASSUMED} ehlectric surface prints those of a measured surface.",
 )
 
 COATING = Group(
@@ -343,4 +372,4 @@ BREAKDOWN = Group(
 
 REPORT = Group("Title", (Field("title", "Title of the case", kind="text"),), opened=False)
 
-BEARING_GROUPS = (GEOMETRY, OPERATION, OIL, FILM, CLEARANCE, MOTOR, BREAKDOWN, COATING, REPORT)
+BEARING_GROUPS = (GEOMETRY, OPERATION, OIL, FILM, CLEARANCE, MOTOR, BREAKDOWN, COATING, SUMMITS, REPORT)

@@ -96,6 +96,34 @@ _SPEEDS = (
         120.0,
         note="of an oil that depends on it",
     ),
+    Field(
+        "contact.boundary_film",
+        "Boundary film",
+        "nm",
+        0.5,
+        5.0,
+        note="gap at which the surfaces touch",
+        optional=True,
+    ),
+    Field(
+        "contact.hardness",
+        "Hardness of the surfaces",
+        "GPa",
+        1.0,
+        20.0,
+        log=True,
+        note="none: elastic",
+        optional=True,
+    ),
+    Field(
+        "contact.boundary_friction",
+        "Friction of boundary films",
+        "",
+        0.01,
+        0.3,
+        note="coefficient where the surfaces touch and slide",
+        optional=True,
+    ),
 )
 
 _PRESSURE = Field("contact.max_hertz_pressure", "Hertz pressure", "GPa", 0.2, 4.0, when=_no)
@@ -181,6 +209,53 @@ _FIELD = Group(
             log=True,
             note="an assumption; none is published for films",
         ),
+        Field(
+            "electric.resistivity",
+            "Resistivity of the bodies",
+            "ohm m",
+            1e-8,
+            1e-5,
+            log=True,
+            note="of spots where the surfaces touch",
+            optional=True,
+        ),
+        Field(
+            "electric.mean_free_path",
+            "Mean free path of electrons",
+            "nm",
+            0.0,
+            100.0,
+            note="matters for spots of that size",
+            optional=True,
+        ),
+        Field(
+            "electric.tribofilm_resistance",
+            "Resistance of a tribofilm times its area",
+            "ohm m^2",
+            1e-12,
+            1e-3,
+            log=True,
+            note="resistivity times thickness",
+            optional=True,
+        ),
+    ),
+)
+
+# Spots of a line contact are strips, whose resistance depends on their length.
+_FIELD_OF_LINE = replace(
+    _FIELD,
+    fields=(
+        *_FIELD.fields,
+        Field(
+            "discharge.length",
+            "Length of the contact",
+            "mm",
+            0.1,
+            100.0,
+            log=True,
+            note="for the resistance of strips that touch",
+            optional=True,
+        ),
     ),
 )
 
@@ -225,7 +300,7 @@ def _grid(label: str, ends: tuple[float, float], nodes: int, *more: Field) -> Gr
 
 
 _GROUPS: Mapping[str, tuple[Group, ...]] = {
-    "line": (_LINE, _OIL, _FIELD, _MATERIALS, _grid("Nodes", (201.0, 12801.0), 3201)),
+    "line": (_LINE, _OIL, _FIELD_OF_LINE, _MATERIALS, _grid("Nodes", (201.0, 12801.0), 3201)),
     "point": (_POINT, _OIL, _FIELD, _MATERIALS, _grid("Nodes along each side", (65.0, 513.0), 257, _SIDE)),
 }
 
@@ -239,6 +314,9 @@ _SHARED_CONTACT = (
     "speed_2",
     "temperature",
     "max_hertz_pressure",
+    "boundary_film",
+    "hardness",
+    "boundary_friction",
     *(f"body_{k}.{key}" for k in (1, 2) for key in (_MODULUS, _RATIO)),
 )
 
@@ -273,5 +351,8 @@ def switched(inputs: Inputs, start: Inputs) -> Inputs:
     table = {key: value for key, value in start.table.items() if key not in left}
     table |= {key: inputs.table[key] for key in _SHARED if key in inputs.table}
     found = Inputs({**table, "title": f"{geometry_of(start).capitalize()} contact"})
+    # A point contact has no length, and a line contact gets back the one it had before.
+    if found.value("discharge") is not None:
+        found = found.changed({"discharge.length": start.value("discharge.length")})
     given = {f"contact.{name}": inputs.value(f"contact.{name}") for name in _SHARED_CONTACT}
     return changed(found, {key: value for key, value in given.items() if value is not None})

@@ -6,9 +6,12 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
 from ehlectric.app.inputs import Inputs
-from ehlectric.cases.accuracy import DEFAULT_ERROR
+from ehlectric.cases.defaults import BOUNDARY_FILM, DEFAULT_ERROR
 
 _DEFAULTS = {
+    "contact.boundary_film": f"{1e9 * BOUNDARY_FILM:g} nm",
+    "electric.mean_free_path": "0 nm",
+    "electric.tribofilm_resistance": "0 ohm m^2",
     "bearing.element_material": "steel",
     "bearing.ring_material": "steel",
     "bearing.radial_load": "0 N",

@@ -22,6 +22,7 @@ ALTERNATIVES: tuple[Rows, ...] = (
     (("bearing.radial_clearance",), ("bearing.clearance_class",), ("bearing.fits.unmounted_clearance",)),
     (("bearing.radial_clearance",), ("bearing.fits",)),
     (("bearing.coating.strength",), ("bearing.coating.breakdown_voltage",)),
+    (("bearing.summits.height_deviation",), ("bearing.summits.bandwidth",)),
     (("lubricant.viscosity",), ("lubricant.temperature",), ("lubricant.atmospheric_law",)),
     (("lubricant.density",), ("lubricant.temperature",)),
     (("lubricant.temperature.kinematic_viscosity_40",), ("lubricant.temperature.iso_vg",)),

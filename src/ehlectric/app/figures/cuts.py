@@ -11,6 +11,8 @@ from ehlectric.app.figures.lengths import BEFORE, BEHIND, Lengths
 from ehlectric.app.figures.line import strength_limit
 from ehlectric.app.figures.look import BLUE, GREY, ORANGE, PURPLE, RED
 from ehlectric.app.figures.stack import Along, Curve, Panel, names_of, stack
+from ehlectric.app.figures.touching import ASPERITIES, BEYOND, SPOTS, field_scale, film_scale, touches
+from ehlectric.arrays import Array, Mask
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 from ehlectric.formulas.hertz_point import point_pressure
@@ -49,13 +51,15 @@ def _cut(result: PointResult, along: str, at: float) -> Shown:
     pair = (unscaled, fixed) if first else (fixed, unscaled)
     hertz = conditions.max_pressure * point_pressure(*pair, conditions.ratio)
     to_p, pressure_unit = unit_for(max(film.max_pressure, conditions.max_pressure), "Pa")
-    to_h, film_unit = unit_for(film.central_thickness, "m")
+    to_h, film_unit = unit_for(film_scale(result), "m")
+    spots = _spots(result, k, first=first)
     panels = [
         Panel(
             "pressure",
             pressure_unit,
             [
                 Curve("pressure", x, to_p * pressure, BLUE),
+                *(Curve(ASPERITIES, x, to_p * asperities, RED, width=1.2) for asperities, _ in spots),
                 Curve("dry contact (Hertz)", x, to_p * hertz, GREY, "dash", 1.5),
             ],
             1.05 * to_p * max(film.max_pressure, conditions.max_pressure),
@@ -63,7 +67,10 @@ def _cut(result: PointResult, along: str, at: float) -> Shown:
         Panel(
             "film thickness",
             film_unit,
-            [Curve("film thickness", x, to_h * thickness, ORANGE)],
+            [
+                Curve("film thickness", x, to_h * thickness, ORANGE),
+                *(Curve(SPOTS, x[on], to_h * thickness[on], RED, dots=True) for _, on in spots),
+            ],
             2.5 * to_h * max(film.central_thickness, film.mean_thickness),
         ),
         _field_panel(result, m, first=first),
@@ -79,10 +86,23 @@ def _cut(result: PointResult, along: str, at: float) -> Shown:
         title,
         f"{title}. Over {along} in {lengths.unit}: {', '.join(names_of(panels))}.",
         stack(Along(along, lengths.unit, window, () if edge is None else (-edge, edge)), panels),
-        "This cut is outside of the dry contact."
-        if edge is None
-        else f"Dashed lines: edges of the dry contact on this cut, {along} = ±{edge:.4g} {lengths.unit}.",
+        " ".join(filter(None, [_told_of_edge(edge, along, lengths.unit), *([BEYOND] if spots else [])])),
     )
+
+
+def _told_of_edge(edge: float | None, along: str, unit: str) -> str:
+    if edge is None:
+        return "This cut is outside of the dry contact."
+    return f"Dashed lines: edges of the dry contact on this cut, {along} = ±{edge:.4g} {unit}."
+
+
+def _spots(result: PointResult, k: int, *, first: bool) -> list[tuple[Array, Mask]]:
+    """Pressure of asperities [Pa] on a cut, and its nodes at which surfaces touch; empty without spots."""
+    film = result.film
+    if film.contact_pressure is None or not touches(result):
+        return []
+    both = film.contact_pressure, film.contact
+    return [(both[0][:, k], both[1][:, k]) if first else (both[0][k], both[1][k])]
 
 
 def _edge(semi: float, off: float) -> float | None:
@@ -91,13 +111,13 @@ def _edge(semi: float, off: float) -> float | None:
 
 
 def _field_panel(result: PointResult, index: int, *, first: bool) -> Panel:
-    field = result.field
-    factor, unit = unit_for(field.max_strength, "V/m")
+    field, scale = result.field, field_scale(result)
+    factor, unit = unit_for(scale, "V/m")
     x = Lengths.of(result).factor * (field.x if first else field.y)
     most = np.max(field.strength, axis=-1)
     along, inner = (array[:, index] if first else array[index] for array in (most, field.inner))
     curves = [Curve("maximum field across the film", x[inner], factor * along[inner], RED)]
-    limit, top = strength_limit(result), factor * field.max_strength
+    limit, top = strength_limit(result), factor * scale
     if limit is not None:
         strength = factor * (limit[:, index] if first else limit[index])
         curves.append(Curve("dielectric strength", x[inner], strength[inner], PURPLE, "longdash", 1.5))

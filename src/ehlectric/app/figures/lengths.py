@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ehlectric.app.figures.touching import film_scale, touches
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 
@@ -41,11 +42,12 @@ def is_turned(result: PointResult) -> bool:
 def main_numbers(result: Result | PointResult) -> str:
     """Sentence with minimum film, maximum pressure and maximum field of a solved contact."""
     film = result.film
-    to_h, length = unit_for(film.central_thickness, "m")
+    least = "The surfaces touch: minimum film" if touches(result) else "Minimum film"
+    to_h, length = unit_for(film_scale(result), "m")
     to_p, pressure = unit_for(film.max_pressure, "Pa")
     to_e, strength = unit_for(result.field.max_strength, "V/m")
     return (
-        f"Minimum film {to_h * film.minimum_thickness:.4g} {length}, maximum pressure "
+        f"{least} {to_h * film.minimum_thickness:.4g} {length}, maximum pressure "
         f"{to_p * film.max_pressure:.4g} {pressure}, maximum field "
         f"{to_e * result.field.max_strength:.4g} {strength}."
     )

@@ -24,6 +24,15 @@ from ehlectric.app.figures.look import (
     values,
 )
 from ehlectric.app.figures.stack import Along, Curve, Panel, names_of, stack
+from ehlectric.app.figures.touching import (
+    ASPERITIES,
+    BEYOND,
+    SPOTS,
+    field_scale,
+    film_scale,
+    told_of_spots,
+    touches,
+)
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
@@ -71,12 +80,17 @@ def _profiles(result: Result) -> Shown:
     if result.converged:
         panels.append(_field(result, factor))
     told = f"Over x in {unit}: {', '.join(names_of(panels))}."
+    notes = (
+        f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{b:.4g} {unit}.",
+        told_of_spots(result),
+        BEYOND if result.converged and touches(result) else "",
+    )
     return Shown(
         "profiles",
         "Pressure, film and field along entrainment",
         f"{told} {main_numbers(result)}" if result.converged else f"{told} The film did not converge.",
         stack(along, panels, converged=result.converged),
-        f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{b:.4g} {unit}.",
+        " ".join(filter(None, notes)),
     )
 
 
@@ -85,9 +99,13 @@ def _pressure(result: Result, to_x: float) -> Panel:
     largest = max(film.max_pressure, conditions.max_pressure)
     factor, unit = unit_for(largest, "Pa")
     hertz = conditions.max_pressure * line_pressure(film.x / conditions.half_width)
-    kept = thinned([film.pressure, hertz], _INTERVALS)
+    asperities = film.contact_pressure if touches(result) else None
+    drawn = [film.pressure, hertz, *([] if asperities is None else [asperities])]
+    kept = thinned(drawn, _INTERVALS)
     x = to_x * film.x[kept]
     curves = [Curve("pressure", x, factor * film.pressure[kept], BLUE)]
+    if asperities is not None:
+        curves.append(Curve(ASPERITIES, x, factor * asperities[kept], RED, width=1.2))
     if result.smooth is not None:
         smooth = factor * result.smooth.pressure[kept]
         curves.insert(0, Curve("pressure, smooth surfaces", x, smooth, GREY, width=1.2))
@@ -96,8 +114,8 @@ def _pressure(result: Result, to_x: float) -> Panel:
 
 
 def _film(result: Result, to_x: float) -> Panel:
-    film = result.film
-    factor, unit = unit_for(film.central_thickness, "m")
+    film, scale = result.film, film_scale(result)
+    factor, unit = unit_for(scale, "m")
     kept = thinned([film.thickness], _INTERVALS)
     x = to_x * film.x[kept]
     curves = [Curve("film thickness", x, factor * film.thickness[kept], ORANGE)]
@@ -105,15 +123,19 @@ def _film(result: Result, to_x: float) -> Panel:
         smooth = factor * result.smooth.thickness[kept]
         curves.insert(0, Curve("film, smooth surfaces", x, smooth, GREY, width=1.2))
     at, least = to_x * film.minimum_position, factor * film.minimum_thickness
-    if result.converged:
+    if touches(result):
+        # Every interval of the curve keeps its least film, and so a node of every spot that can be seen.
+        spots = kept[film.contact[kept]]
+        curves.append(Curve(SPOTS, to_x * film.x[spots], factor * film.thickness[spots], RED, dots=True))
+    elif result.converged:
         name = f"minimum film, {least:.4g} {unit}"
         curves.append(Curve(name, np.array([at]), np.array([least]), ORANGE, mark=True))
-    return Panel("film thickness", unit, curves, 3.0 * factor * film.central_thickness)
+    return Panel("film thickness", unit, curves, 3.0 * factor * scale)
 
 
 def _field(result: Result, to_x: float) -> Panel:
-    field = result.field
-    factor, unit = unit_for(field.max_strength, "V/m")
+    field, scale = result.field, field_scale(result)
+    factor, unit = unit_for(scale, "V/m")
     walls = field.strength[:, 0], field.strength[:, -1]
     kept = thinned([*walls, field.middle_strength], _INTERVALS)
     # The end faces of the field's domain disturb the field beside them.
@@ -125,10 +147,12 @@ def _field(result: Result, to_x: float) -> Panel:
         Curve("field at mid-film", x, factor * field.middle_strength[kept], GREY, "dot", 1.5),
     ]
     limit = strength_limit(result)
-    top = factor * field.max_strength
+    top = factor * scale
     if limit is not None:
         curves.append(Curve("dielectric strength", x, factor * limit[kept], PURPLE, "longdash", 1.5))
         top = min(2.0 * top, max(top, factor * float(np.min(limit))))
+    if touches(result):
+        return Panel("field strength", unit, curves, 1.08 * top)
     name = f"maximum field, {factor * field.max_strength:.4g} {unit}"
     at, most = np.array([to_x * field.max_strength_position]), np.array([factor * field.max_strength])
     curves.append(Curve(name, at, most, RED, mark=True))
@@ -147,8 +171,9 @@ def _section(result: Result) -> Shown:
     """Map of the field in the film, over position and height."""
     field, conditions = result.field, result.conditions
     to_x, unit = (lengths := Lengths.of(result)).factor, lengths.unit
-    to_z, height = unit_for(result.film.central_thickness, "m")
-    to_e, strength = unit_for(field.max_strength, "V/m")
+    scale = field_scale(result)
+    to_z, height = unit_for(film_scale(result), "m")
+    to_e, strength = unit_for(scale, "V/m")
     most = np.max(field.strength, axis=1)
     kept = thinned([most], _COLUMNS // 2)
     x, walls = to_x * field.x[kept], to_z * field.y[kept]
@@ -162,7 +187,7 @@ def _section(result: Result) -> Shown:
         "y": values(z),
         "z": values(_rows(z, walls, to_e * field.strength[kept]), 4),
         "zmin": to_e * low,
-        "zmax": to_e * field.max_strength,
+        "zmax": to_e * scale,
         "colorscale": FIELD_COLOURS,
         "colorbar": {"title": {"text": strength}, "thickness": 12},
         "hovertemplate": f"x = %{{x:.5g}} {unit}<br>height %{{y:.4g}} {height}<br>"
@@ -184,7 +209,8 @@ def _section(result: Result) -> Shown:
         f"{main_numbers(result)}",
         plot(traces, height=420, **layout),
         f"Heights are stretched. The colours begin at the smallest field of the dry contact, "
-        f"{to_e * low:.3g} {strength}. Values between nodes are interpolated; the maximum is a node's own.",
+        f"{to_e * low:.3g} {strength}. Values between nodes are interpolated; the maximum is a node's own."
+        + (f" {BEYOND}" if touches(result) else ""),
     )
 
 

@@ -11,6 +11,7 @@ from ehlectric.app.figures.look import BLUE, GREEN, GREY, ORANGE, RED, Plot, plo
 from ehlectric.app.figures.look import values as listed
 from ehlectric.app.figures.motion import MARGIN, Unit, axis_name, stacked, units
 from ehlectric.arrays import Array
+from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import breakdown_voltages
 
@@ -25,7 +26,7 @@ _PANEL, _REST = 130, 60
 
 
 def history(run: MotionRun) -> Plot:
-    """Figure of minimum film, maximum field and breakdown voltage over time.
+    """Figure of minimum film, maximum field, breakdown voltage and load share of asperities over time.
 
     The field is solved at the recorded instants, which are dots. Between them it follows from the minimum
     film at every time step, as in the summary. Time steps that did not converge and were halved are marked.
@@ -44,6 +45,9 @@ def history(run: MotionRun) -> Plot:
         # Breakdown voltage and maximum field are inversely proportional.
         between = voltages[0] * recorded[1][0] / field.strength
         lines.append(("breakdown voltage", GREEN, (1.0, "V"), between, voltages))
+    touching = TouchHistory.of(run)
+    if touching is not None:
+        lines.append(("load share of asperities", ORANGE, (100.0, "%"), touching.load_share, None))
     traces, titles = [], []
     for number, (name, colour, suited, values, solved) in enumerate(lines):
         look = {"yaxis": axis_name(number)}

@@ -24,6 +24,16 @@ from ehlectric.app.figures.look import (
     values,
 )
 from ehlectric.app.figures.rotated import film_surface
+from ehlectric.app.figures.touching import (
+    BEYOND,
+    SPOTS,
+    field_scale,
+    film_scale,
+    spot_marks,
+    spot_position,
+    told_of_spots,
+    touches,
+)
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
@@ -39,8 +49,12 @@ def reach_of(result: PointResult) -> Reach:
     """Range of the points through which the contact can be cut, with the minimum film as the first."""
     lengths, field = Lengths.of(result), result.field
     ends = [tuple(lengths.factor * float(axis[end]) for end in (0, -1)) for axis in (field.x, field.y)]
-    x, y = (lengths.factor * at for at in result.film.minimum_position)
-    return Reach((ends[0][0], ends[0][1]), (ends[1][0], ends[1][1]), (x, y), lengths.unit, is_turned(result))
+    x, y = (lengths.factor * at for at in spot_position(result))
+    turned, first = (
+        is_turned(result),
+        "the spot of the highest pressure" if touches(result) else "the smallest film",
+    )
+    return Reach((ends[0][0], ends[0][1]), (ends[1][0], ends[1][1]), (x, y), lengths.unit, turned, first)
 
 
 def point_figures(result: PointResult) -> tuple[Shown, ...]:
@@ -75,6 +89,7 @@ class _Map:
     values: Array
     limits: tuple[float, float]
     colours: Any
+    # Legend of the marked extreme; empty for a map of spots, which are marked in its place.
     marked: str
     mark: tuple[float, float]
     caption: str
@@ -82,7 +97,7 @@ class _Map:
 
 def _film_map(result: PointResult) -> Shown:
     film = result.film
-    factor, unit = unit_for(film.central_thickness, "m")
+    factor, unit = unit_for(film_scale(result), "m")
     inside = result.zones["hertz"](film.x[:, np.newaxis], film.y)
     highest = factor * float(np.percentile(film.thickness[inside], 100.0 - _THICKER))
     least = factor * film.minimum_thickness
@@ -98,9 +113,9 @@ def _film_map(result: PointResult) -> Shown:
             factor * film.thickness,
             (least, max(highest, 1.001 * least)),
             FILM_COLOURS,
-            f"minimum film, {least:.4g} {unit}",
+            "" if touches(result) else f"minimum film, {least:.4g} {unit}",
             (x, y),
-            f"Film above {highest:.3g} {unit} has the last colour.",
+            f"Film above {highest:.3g} {unit} has the last colour. {told_of_spots(result)}".strip(),
         ),
     )
 
@@ -131,7 +146,8 @@ def _pressure_map(result: PointResult) -> Shown:
 
 def _field_map(result: PointResult) -> Shown:
     field = result.field
-    factor, unit = unit_for(field.max_strength, "V/m")
+    scale = field_scale(result)
+    factor, unit = unit_for(scale, "V/m")
     most = np.max(field.strength, axis=-1)
     inside = result.zones["hertz"](field.x[:, np.newaxis], field.y)
     low = factor * float(np.min(most[inside])) if inside.any() else 0.0
@@ -145,11 +161,12 @@ def _field_map(result: PointResult) -> Shown:
             field.x,
             field.y,
             factor * most,
-            (low, factor * field.max_strength),
+            (low, factor * scale),
             FIELD_COLOURS,
-            f"maximum field, {factor * field.max_strength:.4g} {unit}",
+            "" if touches(result) else f"maximum field, {factor * field.max_strength:.4g} {unit}",
             (x, y),
-            f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour.",
+            f"Field below {low:.3g} {unit}, outside of the dry contact, has the first colour."
+            + (f" {BEYOND}" if touches(result) else ""),
         ),
     )
 
@@ -183,14 +200,16 @@ def _drawn(result: PointResult, what: _Map) -> Shown:
     marked = {"x": [float(across_at)], "y": [float(down_at)], "name": name, "hoverinfo": "skip"}
     marker = {"symbol": "x-thin", "size": 11, "line": {"color": RED, "width": 3}}
     mark = {"type": "scatter", "mode": "markers", "marker": marker, "showlegend": True, **marked}
+    marks = [*spot_marks(result, lengths.factor, turned=turned), *([mark] if name else [])]
     figure = plot(
-        [trace, mark] if result.converged else [trace],
+        [trace, *marks] if result.converged else [trace],
         height=_height(across, down),
         converged=result.converged,
         shapes=_shapes(result, lengths),
         **_plane(result, names, lengths, (across, down)),
     )
-    said = f": {name}. A click, or the sliders below, choose the point of the cuts."
+    extreme = name or f"{SPOTS} at the marked nodes"
+    said = f": {extreme}. A click, or the sliders below, choose the point of the cuts."
     if not result.converged:
         said = ". The film did not converge."
     return Shown(
@@ -259,7 +278,7 @@ def _levels(low: float, high: float) -> dict[str, float]:
 def _shapes(result: PointResult, lengths: Lengths) -> list[dict[str, Any]]:
     """Edge of the dry contact, and the lines of the cuts, the third and the fourth."""
     b, a = (lengths.factor * length for length in result.conditions.semi_axes)
-    at = [lengths.factor * place for place in result.film.minimum_position]
+    at = [lengths.factor * place for place in spot_position(result)]
     (across, down), (across_at, down_at) = ((a, b), at[::-1]) if is_turned(result) else ((b, a), at)
     cut = {"color": RED, "width": 1}
     ellipse = {"type": "circle", "x0": -across, "x1": across, "y0": -down, "y1": down}

@@ -9,6 +9,7 @@ import numpy as np
 from ehlectric.app.answers.figure import Shown
 from ehlectric.app.figures.lengths import Lengths, is_turned, main_numbers
 from ehlectric.app.figures.look import FIELD_COLOURS, INK, Plot, kept_nodes, plot, values
+from ehlectric.app.figures.touching import field_scale, film_scale
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 
@@ -19,8 +20,8 @@ _MOST = 129
 def film_surface(result: PointResult) -> Shown:
     """Film thickness as a surface over the columns of the field, coloured by the field."""
     lengths, field = Lengths.of(result), result.field
-    to_h, film_unit = unit_for(result.film.central_thickness, "m")
-    to_e, unit = unit_for(field.max_strength, "V/m")
+    to_h, film_unit = unit_for(film_scale(result), "m")
+    to_e, unit = unit_for(field_scale(result), "V/m")
     gap, most = field.z[:, :, -1] - field.z[:, :, 0], np.max(field.strength, axis=-1)
     extremes = [np.unravel_index(np.argmin(gap), gap.shape), np.unravel_index(np.argmax(most), most.shape)]
     kept = [kept_nodes(size, _MOST, [int(one[k]) for one in extremes]) for k, size in enumerate(gap.shape)]
@@ -35,7 +36,7 @@ def film_surface(result: PointResult) -> Shown:
         "z": values(height, 6),
         "surfacecolor": values(colour, 6),
         "cmin": low,
-        "cmax": to_e * field.max_strength,
+        "cmax": to_e * field_scale(result),
         "colorscale": FIELD_COLOURS,
         "colorbar": {"title": {"text": f"field<br>{unit}"}, "thickness": 12, "len": 0.7},
         "hovertemplate": f"x = %{{x:.4g}} {lengths.unit}<br>y = %{{y:.4g}} {lengths.unit}<br>"
@@ -63,7 +64,7 @@ def _points(result: PointResult, lengths: Lengths, to_h: float, to_e: float) -> 
     They have different lengths, as both may be at the same place.
     """
     film, field = result.film, result.field
-    units = unit_for(film.central_thickness, "m")[1], unit_for(field.max_strength, "V/m")[1]
+    units = unit_for(film_scale(result), "m")[1], unit_for(field_scale(result), "V/m")[1]
     gap = field.z[:, :, -1] - field.z[:, :, 0]
     i, j = np.unravel_index(np.argmax(np.max(field.strength, axis=-1)), gap.shape)
     least = (*film.minimum_position, film.minimum_thickness)
@@ -92,7 +93,7 @@ def _points(result: PointResult, lengths: Lengths, to_h: float, to_e: float) -> 
 def _top(result: PointResult) -> float:
     """End of the axis of heights, in their unit; the film is far thicker around the contact."""
     film = result.film
-    return 1.8 * unit_for(film.central_thickness, "m")[0] * max(film.central_thickness, film.mean_thickness)
+    return 1.8 * unit_for(film_scale(result), "m")[0] * max(film.central_thickness, film.mean_thickness)
 
 
 def _scene(result: PointResult, lengths: Lengths, unit: str) -> Plot:

@@ -33,6 +33,8 @@ class Curve:
         Width of the line [px].
     mark : bool
         Whether it is a single marked point, with its value as text.
+    dots : bool
+        Whether it is many points without a line.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Curve:
     dash: str = "solid"
     width: float = 2.0
     mark: bool = False
+    dots: bool = False
 
 
 @dataclass(frozen=True)
@@ -139,6 +142,8 @@ def _trace(curve: Curve, panel: Panel, axis_name: str, *, converged: bool) -> di
     if curve.mark:
         marker = {"color": "rgba(0,0,0,0)", "size": 9, "line": {"color": colour, "width": 2}}
         return trace | {"mode": "markers", "marker": marker, "hoverinfo": "skip"}
+    if curve.dots:
+        return trace | {"mode": "markers", "marker": {"color": colour, "size": 4}, "hoverinfo": "skip"}
     trace |= {"mode": "lines", "line": {"color": colour, "dash": curve.dash, "width": curve.width}}
     return trace | {"hovertemplate": f"%{{y:.4g}} {panel.unit}<extra>{curve.name}</extra>"}
 

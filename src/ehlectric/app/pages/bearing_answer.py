@@ -19,7 +19,7 @@ from ehlectric.app.pages.bearing_parts import (
 )
 from ehlectric.app.pages.parts import lines_html
 
-_NUMBERS = ("capacitance", "first-break", "shaft-voltage", "margin", "lambda", "critical-speed")
+_NUMBERS = ("capacitance", "first-break", "shaft-voltage", "margin", "lambda", "critical-speed", "regime")
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("breakdown", "capacitance")
 
 

@@ -31,6 +31,7 @@ _GEOMETRIES = {"line": "Line contact", "point": "Point contact"}
 
 # Numbers of the short answer.
 _SHORT = ("minimum-film", "breakdown-voltage")
+_SHORT_OF_SPOTS = ("behaviour", "breakdown-5")
 
 # Places of the movie among the cards of the answer, while surfaces move and at rest.
 _MOVIE_FIRST, _MOVIE_LAST = 1, 3
@@ -217,10 +218,11 @@ class ContactPage:
     def _show_short(self, answer: ContactCheck | ContactView, what: str = "") -> None:
         """Show the short answer of a narrow screen."""
         shown = light_shown(answer.level, answer.text)
+        spots = answer.spots if isinstance(answer, ContactView) else ()
         texts = [
             " ".join(filter(None, [one.label.lower(), one.bound, one.text, one.unit]))
-            for one in answer.numbers
-            if one.key in _SHORT
+            for one in spots or answer.numbers
+            if one.key in (_SHORT_OF_SPOTS if spots else _SHORT)
         ]
         self._strip.show(answer.level, f"{shown.words} {what}".strip(), texts, bound=shown.bound)
         self._strip.dim(dimmed=False)

@@ -161,6 +161,9 @@ class ContactViewBox:
         with self._words:
             light(view.level, view.text)
             number_cards(view.numbers)
+            if view.spots:
+                heading("Where the surfaces touch", 3)
+                number_cards(view.spots, prefix="spots-")
             warnings(view.warnings)
         self._show_figures(self._plots, self._figures, view.figures)
         self._show_figures(self._cut_plots, self._cuts, view.cuts)
@@ -193,7 +196,8 @@ class ContactViewBox:
             return
         with self._choice:
             heading("Cuts through a point", 3)
-            ui.label("Click on a map, or move the sliders. At first: the smallest film.").classes("note")
+            said = f"Click on a map, or move the sliders. At first: {reach.first}."
+            ui.label(said).classes("note")
             for name, ends, at in (("x", reach.x, reach.at[0]), ("y", reach.y, reach.at[1])):
                 self._sliders[name] = CutSlider(name, ends, at, reach.unit, self._slid)
 

@@ -22,6 +22,8 @@ _BESIDE_FILMS = (
     "motor.",
     "discharge.conductivity",
     "bearing.composite_rq",
+    "bearing.summits",
+    "bearing.contact_resistance",
     "bearing.fill",
     "bearing.parallel_capacitance",
     "bearing.coating",

@@ -7,13 +7,15 @@ from collections.abc import Iterable, Iterator
 from ehlectric.bearing.accuracy import error_text, film_error
 from ehlectric.bearing.breakdown import Breakdown, breakdown_of
 from ehlectric.bearing.discharges.leakage import leakage_warnings, shaft_leakage
+from ehlectric.bearing.intermittency.duty import duty_of
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import Intervals, SpeedRange
 from ehlectric.bearing.meter.reading import film_share, shaft_path
 from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.bearing.shaft_voltage import shaft_voltage
-from ehlectric.bearing.solution import BearingSolution, lambda_ratio, lubrication
+from ehlectric.bearing.solution import BearingSolution, lambda_text, lubrication
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import amount
@@ -68,9 +70,7 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
         return Verdict("grey", refused or "No verdict: a contact of the bearing is not converged.")
     state = lubrication(solution)
     if solution.conditions.ceramic:
-        touching = (
-            f" Surfaces touch (lambda ratio {lambda_ratio(solution):.2g})." if state == "touching" else ""
-        )
+        touching = f" Surfaces touch (lambda ratio {lambda_text(solution)})." if state == "touching" else ""
         return Verdict(
             "grey",
             "No verdict: the ceramic elements insulate, and their own breakdown is not computed." + touching,
@@ -79,9 +79,9 @@ def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verd
         # A thinner film than one that breaks down is not safer.
         return Verdict(
             "yellow" if solution.case.motor is None else "red",
-            f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_ratio(solution):.2g}), "
-            f"and contacts are intermittent. {_OPENING}, and no voltage is computed for that. This is no "
-            "protection: current passes, and arcs are likely.",
+            f"Discharges likely: surfaces touch {_at(solution)} (lambda ratio {lambda_text(solution)}), "
+            f"and contacts are intermittent; they short the bearing {_time(solution)}. {_OPENING}, and no "
+            "voltage is computed for that. This is no protection: current passes, and arcs are likely.",
         )
     breakdown, shaft = breakdown_of(solution), shaft_voltage(solution)
     if breakdown is None:
@@ -190,10 +190,11 @@ def _strength_is_open(solution: BearingSolution) -> bool:
 
 def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:
     """Sentences for which the margin may be lower than it is computed to be."""
-    if lubrication(solution) == "partial film":
+    if lubrication(solution) == "partial film" or duty_of(solution).regime != "capacitive":
         yield (
-            f"Surfaces may touch at times (lambda ratio {lambda_ratio(solution):.2g}), and contacts are "
-            f"intermittent: voltages are upper bounds. {_OPENING}, which is not computed."
+            f"Surfaces may touch at times (lambda ratio {lambda_text(solution)}), and contacts are "
+            f"intermittent: voltages are upper bounds. {_OPENING}, which is not computed. An element touches "
+            f"both rings {_time(solution)}."
         )
     if solution.case.ranges and analysis.low is None:
         yield "The range of the margin could not be computed from the stated ranges of inputs."
@@ -259,6 +260,11 @@ def _interval(low: float | None, high: float | None) -> str:
     if high is None:
         return f"above about {rpm_text(low)} rpm"
     return f"between about {rpm_text(low)} and {rpm_text(high)} rpm"
+
+
+def _time(solution: BearingSolution) -> str:
+    """Share of time in which an element touches both rings, as text."""
+    return time_text(duty_of(solution).touching_time_share)
 
 
 def _at(solution: BearingSolution) -> str:

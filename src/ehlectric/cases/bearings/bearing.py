@@ -12,6 +12,7 @@ from pydantic import AfterValidator, BeforeValidator, model_validator
 from ehlectric.cases import library
 from ehlectric.cases.bearings.coating import Coating
 from ehlectric.cases.bearings.fits import PLAY, TEMPERATURE, Fits
+from ehlectric.cases.bearings.summits import Summits
 from ehlectric.cases.library.clearance import (
     BORE,
     ClearanceClass,
@@ -31,6 +32,7 @@ _Length = Annotated[float, BORE]
 _Groove = Annotated[float, Quantity("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
 _Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
 _Parallel = Annotated[float, Quantity("F", least=0.0, most=1e-3, reason="of cage, shields and wiring")]
+_Ohm = Annotated[float, Quantity("ohm", above=0.0, most=1e9, reason="of one contact with metallic spots")]
 _Load = Annotated[float, Quantity("N", least=0.0, most=1e8, reason="on the inner ring")]
 
 # Keys that only ball bearings have, and keys that only roller bearings have.
@@ -140,6 +142,8 @@ class Bearing(Table):
     inner_ring_temperature: Annotated[float, TEMPERATURE] | None = None
     outer_ring_temperature: Annotated[float, TEMPERATURE] | None = None
     composite_rq: Annotated[float, Quantity("m", above=0.0, most=1e-4, reason="of both surfaces together")]
+    summits: Summits | None = None
+    contact_resistance: _Ohm | None = None
     fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"
     parallel_capacitance: _Parallel | None = None
     coating: Coating | None = None

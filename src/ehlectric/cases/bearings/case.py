@@ -13,6 +13,7 @@ from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.coating import COATING_ALTERNATIVES
 from ehlectric.cases.bearings.discharge import BearingDischarge
 from ehlectric.cases.bearings.motor import Motor
+from ehlectric.cases.bearings.summits import SUMMIT_ALTERNATIVES
 from ehlectric.cases.bearings.ways import Contacts
 from ehlectric.cases.changes import Groups, displace, flattened, nested, set_keys
 from ehlectric.cases.depth import refuse_deep
@@ -39,6 +40,7 @@ _ALTERNATIVES: dict[str, Groups] = {
         (("radial_clearance",), ("clearance_class",), ("fits.unmounted_clearance",)),
         (("radial_clearance",), ("fits",)),
         COATING_ALTERNATIVES,
+        SUMMIT_ALTERNATIVES,
     ),
     "lubricant": (
         (("viscosity",), ("temperature",)),

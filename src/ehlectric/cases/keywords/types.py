@@ -47,6 +47,12 @@ class LineKeys(TypedDict, total=False):
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
     temperature : float, str or quantity
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
+    boundary_film : float, str or quantity
+        Gap at which the surfaces touch [m].
+    hardness : float, str or quantity
+        Largest pressure where the surfaces touch [Pa].
+    boundary_friction : float, str or quantity
+        Friction coefficient where the surfaces touch and slide, dimensionless.
     """
 
     reduced_radius: Value
@@ -62,6 +68,9 @@ class LineKeys(TypedDict, total=False):
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value
+    boundary_film: Value
+    hardness: Value
+    boundary_friction: Value
 
 
 class PointKeys(TypedDict, total=False):
@@ -82,6 +91,12 @@ class PointKeys(TypedDict, total=False):
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
     temperature : float, str or quantity
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
+    boundary_film : float, str or quantity
+        Gap at which the surfaces touch [m].
+    hardness : float, str or quantity
+        Largest pressure where the surfaces touch [Pa].
+    boundary_friction : float, str or quantity
+        Friction coefficient where the surfaces touch and slide, dimensionless.
     """
 
     radius_x: Value
@@ -96,6 +111,9 @@ class PointKeys(TypedDict, total=False):
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value
+    boundary_film: Value
+    hardness: Value
+    boundary_friction: Value
 
 
 class BearingKeys(TypedDict, total=False):
@@ -125,6 +143,10 @@ class BearingKeys(TypedDict, total=False):
         Absolute temperatures of the oil and of the rings [K]; write "70 degC" for degrees Celsius.
     composite_rq : float, str or quantity
         Rq of both surfaces together [m].
+    summits : mapping
+        Table of the summits of the roughness.
+    contact_resistance : float, str or quantity
+        Resistance of one contact while its asperities touch [Ohm].
     fill : str or float
         "oil" or "air" around the films, or the part filled with oil, from 0 to 1.
     film_factor : float or str
@@ -163,6 +185,8 @@ class BearingKeys(TypedDict, total=False):
     inner_ring_temperature: Value
     outer_ring_temperature: Value
     composite_rq: Value
+    summits: Keys
+    contact_resistance: Value
     fill: float | str
     film_factor: float | str
     fits: Keys

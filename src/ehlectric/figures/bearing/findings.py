@@ -10,9 +10,11 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.impedance import impedance_of
+from ehlectric.bearing.intermittency.duty import duty_of
+from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.meter.reading import shaft_capacitance
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import lambda_ratio, lubrication
+from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
 from ehlectric.discharge.verdict import lead_of, ratio_text
 from ehlectric.figures.bearing.curves import (
@@ -43,7 +45,7 @@ def loads(result: BearingResult) -> str:
     text = (
         f"Largest load {most['load']:.3g} N ({_contact(most)}); minimum film {least} ({_contact(thinnest)})"
     )
-    text += f", λ {lambda_ratio(result.solution):.2g}"
+    text += f", λ {lambda_text(result.solution)}"
     return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
 
 
@@ -85,9 +87,13 @@ def impedance(result: BearingResult) -> str:
     """Sentence: the capacitance that the bearing is above its corner frequency, and its impedance there."""
     found = impedance_of(result.solution)
     assert found is not None
+    shown = [(prefixed(magnitude_at(found.mean or found, at), "Ω"), at) for at in read_at(result)]
+    values = ", ".join(f"{value} at {prefixed(at, 'Hz')}" for value, at in shown)
+    if found.mean is not None:
+        duty = duty_of(result.solution)
+        return f"An element touches both rings {time_text(duty.touching_time_share)}: mean |Z| = {values}"
     value = prefixed(shaft_capacitance(result.solution), "F")
-    values = [f"{prefixed(magnitude_at(found, at), 'Ω')} at {prefixed(at, 'Hz')}" for at in read_at(result)]
-    return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {', '.join(values)}"
+    return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {values}"
 
 
 def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
@@ -160,7 +166,7 @@ def film_line(result: BearingResult, *, voltages: bool) -> str:
     solution = result.solution
     factor = solution.conditions.film_factor
     text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {factor:.3g}"
-    text += f", minimum λ {lambda_ratio(solution):.2g}"
+    text += f", minimum λ {lambda_text(solution)}"
     text += f", contacts {HOW[solution.case.contacts]}"
     if lubrication(solution) in _TOUCHING:
         return text + ": surfaces touch"

@@ -42,7 +42,13 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     frequency, magnitude, _ = _shown(_impedance(result))
+    mean = _impedance(result).mean
     ax.loglog(frequency, magnitude, color=BLUE)
+    if mean is not None:
+        ax.loglog(
+            mean.frequency, mean.magnitude, color=ORANGE, ls="--", label="mean, with contacts of asperities"
+        )
+        ax.legend(loc="lower left", fontsize="small")
     ax.set_ylabel(r"magnitude $|Z|$ [Ω]")
     low, high = INVERTER
     ax.text(
@@ -88,15 +94,19 @@ def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     frequency, _, phase = _shown(_impedance(result))
+    mean = _impedance(result).mean
     ax.semilogx(frequency, phase, color=BLUE)
+    if mean is not None:
+        ax.semilogx(mean.frequency, mean.phase, color=ORANGE, ls="--")
     ax.set(ylabel="phase [°]", ylim=(-95.0, 5.0), yticks=[-90, -60, -45, -30, 0])
     _over_frequency(result, ax)
     return ax
 
 
 def phase_varies(result: BearingResult) -> bool:
-    """Whether the phase in the drawn range differs by more than two degrees from one end to the other."""
-    return bool(np.ptp(_shown(_impedance(result))[2]) > _CONSTANT)
+    """Whether the phase in the drawn range differs by more than two degrees, or contacts change it."""
+    found = _impedance(result)
+    return found.mean is not None or bool(np.ptp(_shown(found)[2]) > _CONSTANT)
 
 
 def read_at(result: BearingResult) -> tuple[float, ...]:

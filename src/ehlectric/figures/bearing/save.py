@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import insulating
 from ehlectric.bearing.speeds import over_speed
 from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing import findings
@@ -61,8 +60,6 @@ def _pitch(result: BearingResult) -> tuple[Draw, ...]:
 
 
 def _impedance(result: BearingResult) -> tuple[Draw, ...]:
-    if result.solution.conditions.ceramic or not insulating(result.solution):
-        return ()
     if impedance_of(result.solution) is None:
         return ()
     return (impedance_magnitude, *((impedance_phase,) if phase_varies(result) else ()))

@@ -12,22 +12,18 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.laws import WeakestLink
 from ehlectric.figures.contact.findings import AnyContact, signed, strength_limit
+from ehlectric.figures.lengths import LENGTH_AXIS, label_position, length_axis
 from ehlectric.figures.names import BREAKDOWN_FIGURE
-from ehlectric.figures.style import (
-    BLUE,
-    LENGTH_AXIS,
-    ORANGE,
-    label_position,
-    legend_above,
-    length_axis,
-    new_panels,
-)
+from ehlectric.figures.style import BLUE, ORANGE, legend_above, new_panels
 
 # Colour of the dielectric strength and of breakdown.
 STRENGTH = "#a50026"
 
 # White edge of a text, which keeps it readable on a line.
 _OUTLINE = [withStroke(linewidth=2.0, foreground="white")]
+
+# A dielectric strength below this part of the maximum field is named above its line, away from the ticks.
+_LOW = 0.1
 
 # A dielectric strength above this many times the maximum field is named beside the axes instead of drawn: the
 # field would be flat below it.
@@ -75,16 +71,17 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
         )
         return largest
     ax.plot(x, limit, color=STRENGTH, lw=1.0, ls=(0, (5.0, 1.5, 1.0, 1.5)))
-    # Above the left half of the line, the oil is thick and its field low.
+    # On the left half of the line, the oil is thick and its field low.
+    low = float(limit[0]) < _LOW * largest
     ax.annotate(
         text,
         (0.03, float(limit[0])),
-        (0.0, -2.0),
+        (0.0, 2.0 if low else -2.0),
         xycoords=ax.get_yaxis_transform(),
         textcoords="offset points",
         color=STRENGTH,
         fontsize=8.0,
-        va="top",
+        va="bottom" if low else "top",
         path_effects=_OUTLINE,
         zorder=5.0,
     )
@@ -156,21 +153,12 @@ def _lines(result: AnyContact) -> list[tuple[str, Array, Array, Mask]]:
 
 
 def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
-    """Write on two panels where they cut the film: through the place that breaks down first."""
+    """Write below two panels where they cut the film: through the place that breaks down first."""
     assert result.discharge is not None
     x, y = np.atleast_1d(result.discharge.zone_position) / result.conditions.semi_axis_x
-    names = (f"along entrainment at y/b = {y + 0.0:.3g}", f"across entrainment at x/b = {x + 0.0:.3g}")
+    names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
     for ax, name in zip(panels, names, strict=True):
-        ax.text(
-            0.5,
-            0.94,
-            signed(name),
-            transform=ax.transAxes,
-            ha="center",
-            va="top",
-            fontsize=8.0,
-            path_effects=_OUTLINE,
-        )
+        ax.set_xlabel(f"{ax.get_xlabel()}, {signed(name)}")
 
 
 def _or_all(mask: Mask) -> Mask:
@@ -185,7 +173,15 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
     below = voltages < applied
     if np.any(below):
         ax.fill_between(
-            at, voltages, applied, where=below, color=STRENGTH, alpha=0.25, lw=0.0, label="breaks down"
+            at,
+            voltages,
+            applied,
+            where=below,
+            interpolate=True,
+            color=STRENGTH,
+            alpha=0.25,
+            lw=0.0,
+            label="breaks down",
         )
     k = int(np.argmin(voltages))
     ax.plot(

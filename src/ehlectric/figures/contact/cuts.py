@@ -19,17 +19,9 @@ from ehlectric.field.point import PointField
 from ehlectric.figures.contact.breakdown import limit_line
 from ehlectric.figures.contact.findings import strength_limit
 from ehlectric.figures.contact.maps import film_unit, film_window, round_levels
+from ehlectric.figures.lengths import label_position
 from ehlectric.figures.section import draw_section
-from ehlectric.figures.style import (
-    BLUE,
-    GREY,
-    ORANGE,
-    axes_or_new,
-    figure_of,
-    label_position,
-    legend_above,
-    new_panels,
-)
+from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, legend_above, new_panels
 
 # Colour and dashes of the cut through the centre, and of the cut through the minimum film or maximum field.
 _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))

@@ -10,9 +10,10 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.spots.warnings import about_share
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE
+from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE, SPOTS_FIGURE
 
 AnyContact = Result | PointResult
 
@@ -28,10 +29,10 @@ def with_unit(value: float, unit: str, *, least: float = 0.1) -> str:
 
     Examples
     --------
-    >>> with_unit(2.98e6, "V/m")
-    '2.98 V/µm'
+    >>> with_unit(2.98e6, "V/m"), with_unit(0.9999e-9, "m", least=1.0)
+    ('2.98 V/µm', '1 nm')
     """
-    factor, prefixed = unit_for(abs(value), unit, least=least)
+    factor, prefixed = unit_for(float(f"{abs(value):.3g}"), unit, least=least)
     return signed(f"{factor * value:.3g}") + f" {prefixed}"
 
 
@@ -78,7 +79,10 @@ def strength_limit(result: AnyContact) -> Array | None:
 
 def film_text(result: AnyContact) -> str:
     """Minimum film, where it is, and how it compares with smooth surfaces or with the centre."""
-    film = result.film
+    film, touching = result.film, result.spots
+    if touching is not None:
+        spots, mean = touching.spots.number, _film(result, film.mean_thickness)
+        return f"The surfaces touch in {spots} spot{'s' if spots > 1 else ''}; mean film {mean}"
     text = (
         f"Minimum film {_film(result, film.minimum_thickness)} at {place_text(result, film.minimum_position)}"
     )
@@ -98,8 +102,10 @@ def _more(change: float, more: str, less: str) -> str:
 
 
 def strength_text(result: AnyContact) -> str:
-    """Maximum field and where it is."""
+    """Maximum field and where it is, or that it is the field of the boundary film."""
     field = result.field
+    if result.spots is not None:
+        return _boundary_film_text(result)
     place = place_text(result, field.max_strength_position)
     if isinstance(result, Result) and not result.rough:
         at = result.field.max_strength_position / result.conditions.half_width
@@ -109,9 +115,17 @@ def strength_text(result: AnyContact) -> str:
     return f"Maximum field {with_unit(field.max_strength, 'V/m')} {place}"
 
 
+def _boundary_film_text(result: AnyContact) -> str:
+    """Field where the surfaces touch, with the thickness of the boundary film, which it belongs to."""
+    film = _film(result, result.film.minimum_thickness)
+    return f"Field {with_unit(result.field.max_strength, 'V/m')} where the surfaces touch, over {film}"
+
+
 def profiles_text(result: AnyContact) -> str:
     """Maximum field, its ratio to the dielectric strength, and the difference between walls and mid-film."""
     field, limit = result.field, strength_limit(result)
+    if result.spots is not None:
+        return f"{_boundary_film_text(result)}; walls and mid-film within {per_cent(disagreement(result))}"
     if limit is None:
         place = place_text(result, field.max_strength_position)
         text = f"Maximum field {with_unit(field.max_strength, 'V/m')} at {place}"
@@ -195,6 +209,8 @@ def cut_offs(result: AnyContact) -> dict[int, float]:
 def cuts_text(result: PointResult) -> str:
     """Minimum film and maximum field of a point contact."""
     field, limit = result.field, strength_limit(result)
+    if result.spots is not None:
+        return _boundary_film_text(result)
     film, strongest = _film(result, result.film.minimum_thickness), with_unit(field.max_strength, "V/m")
     text = f"Minimum film {film}, maximum field {strongest}"
     if limit is None:
@@ -204,7 +220,10 @@ def cuts_text(result: PointResult) -> str:
 
 def breakdown_text(result: AnyContact) -> str:
     """Whether the film breaks down at the voltage of the case, at which voltage it does, and where."""
-    found, volts = result.discharge, result.field.voltage
+    found, volts, touching = result.discharge, result.field.voltage, result.spots
+    if touching is not None and touching.electrical.breakdown_5 is not None:
+        around = f"5 % of the film around the spots breaks down at {touching.electrical.breakdown_5:.2g} V"
+        return f"The surfaces touch, {touching.electrical.behaviour}: {around}"
     assert found is not None and found.breakdown_voltage is not None and found.margin is not None
     applied, place = f"{volts:.3g} V", place_text(result, found.zone_position)
     breaking = f"{found.breakdown_voltage:.3g} V"
@@ -231,6 +250,16 @@ def meter_text(result: AnyContact) -> str:
     return f"The meter reads {with_unit(reading.capacitance, 'F', least=1.0)}: {parts}"
 
 
+def spots_text(result: AnyContact) -> str:
+    """Number of spots, the load that they carry, and the electrical behaviour."""
+    found = result.spots
+    assert found is not None
+    before = None if found.coarser is None else found.coarser.load_share
+    share = about_share(found.touching.load_share, before)
+    number = "1 spot carries" if found.spots.number == 1 else f"{found.spots.number} spots carry"
+    return f"{number} {share} of the load on this grid: the contact is {found.electrical.behaviour}"
+
+
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     "film.png": film_text,
     "field_strength.png": strength_text,
@@ -239,6 +268,7 @@ LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
+    SPOTS_FIGURE: spots_text,
 }
 POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     "film_map.png": film_text,
@@ -250,6 +280,7 @@ POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     ROUGHNESS_FIGURE: roughness_text,
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
+    SPOTS_FIGURE: spots_text,
 }
 
 

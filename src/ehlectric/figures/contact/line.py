@@ -18,19 +18,10 @@ from ehlectric.figures.contact.findings import cut_offs, disagreement, per_cent,
 from ehlectric.figures.contact.line_maps import field_strength
 from ehlectric.figures.contact.meter import meter_figures_of
 from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
+from ehlectric.figures.contact.spots import spots_figures_of
+from ehlectric.figures.lengths import LENGTH_AXIS, in_half_widths, label_position, length_axis
 from ehlectric.figures.names import ROUGHNESS_FIGURE
-from ehlectric.figures.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    LENGTH_AXIS,
-    ORANGE,
-    axes_or_new,
-    in_half_widths,
-    label_position,
-    legend_above,
-    length_axis,
-)
+from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.formulas.hertz_line import line_pressure
 
 
@@ -372,4 +363,6 @@ FIGURES: dict[str, Callable[..., Axes]] = {
 def figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
     """Functions that draw the figures of a line contact, by file name."""
     rough = {ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {}
-    return FIGURES | rough | breakdown_figures_of(result) | meter_figures_of(result)
+    return (
+        FIGURES | rough | breakdown_figures_of(result) | meter_figures_of(result) | spots_figures_of(result)
+    )

@@ -15,16 +15,9 @@ from ehlectric.contact.results import Result
 from ehlectric.figures.axes import BAR
 from ehlectric.figures.contact.maps import round_levels
 from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
+from ehlectric.figures.lengths import in_half_widths, label_position
 from ehlectric.figures.section import MAXIMUM, draw_section, section_part
-from ehlectric.figures.style import (
-    BODY,
-    OUT_OF_RANGE,
-    axes_or_new,
-    figure_of,
-    in_half_widths,
-    label_position,
-    legend_above,
-)
+from ehlectric.figures.style import BODY, OUT_OF_RANGE, axes_or_new, figure_of, legend_above
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
@@ -89,10 +82,9 @@ def field_strength(result: Result, ax: Axes | None = None, *, largest: float | N
     ticks = levels[levels <= limits[1]]
     ax, *below = [ax] if ax is not None else stacked_panels((6.3, 5.4))
     _map(result, strength, ax, label=label, limits=limits, ticks=ticks, under=True)
-    handles = [
-        Patch(facecolor=OUT_OF_RANGE, label=f"film below {limits[0]:.4g} {unit}"),
-        Patch(facecolor=BODY, label="surfaces"),
-    ]
+    handles = [Patch(facecolor=BODY, label="surfaces")]
+    if limits[0] > 0.0:
+        handles.insert(0, Patch(facecolor=OUT_OF_RANGE, label=f"film below {limits[0]:.4g} {unit}"))
     handles += [_zoom(result, (ax, panel), strength, limits) for panel in below]
     x, y = _mesh(result)
     k, j = np.unravel_index(np.argmax(strength), strength.shape)

@@ -39,6 +39,7 @@ from ehlectric.figures.contact.maps import (
 )
 from ehlectric.figures.contact.meter import meter_figures_of
 from ehlectric.figures.contact.refined import refined, smoothed
+from ehlectric.figures.contact.spots import spots_figures_of
 from ehlectric.figures.names import ROUGHNESS_FIGURE
 from ehlectric.figures.style import GREY, OUT_OF_RANGE, legend_above
 
@@ -345,4 +346,10 @@ POINT_FIGURES: dict[str, Callable[..., Axes]] = {
 def point_figures_of(result: PointResult) -> dict[str, Callable[..., Axes]]:
     """Functions that draw the figures of a point contact, by file name."""
     rough = {ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {}
-    return POINT_FIGURES | rough | breakdown_figures_of(result) | meter_figures_of(result)
+    return (
+        POINT_FIGURES
+        | rough
+        | breakdown_figures_of(result)
+        | meter_figures_of(result)
+        | spots_figures_of(result)
+    )

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ehlectric.arrays import Mask
+from ehlectric.contact.spots.warnings import share_text
 from ehlectric.figures.motion.panels import field_unit, film_unit, in_unit, time_unit
+from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.field_history import NEAR_MAXIMUM
 from ehlectric.motion.stored_run import MotionRun
 
@@ -14,7 +16,15 @@ _SAME = 0.005
 
 
 def of_history(run: MotionRun) -> str:
-    """Sentence: minimum film once the roughness fills the contact, compared with stationary roughness."""
+    """Sentence: minimum film once the roughness fills the contact, compared with stationary roughness.
+
+    Of a run whose surfaces touch, it says how long, and what asperities carry.
+    """
+    touching = TouchHistory.of(run)
+    if touching is not None:
+        share = share_text(touching.mean_share, touching.coarser)
+        time = f"{100.0 * touching.time_share:.3g} % of the time"
+        return f"The surfaces touch {time}, asperities carry {share} % of the load on average"
     unit = film_unit(run)
     least = float(run.values("minimum_thickness")[settled_steps(run)].min())
     text = f"Minimum film {in_unit(least, unit)}"

@@ -7,9 +7,11 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
+from ehlectric.contact.spots.warnings import share_text
 from ehlectric.figures.motion.findings import always_near_maximum
 from ehlectric.figures.motion.panels import field_unit, film_unit, fitted, time_unit
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.field_history import NEAR_MAXIMUM, intervals_above
 from ehlectric.motion.stored_run import MotionRun
 
@@ -109,6 +111,36 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
     text = f"{100.0 * NEAR_MAXIMUM:g} % of the maximum: above it {share:.0f} % of the time"
     text += f" from {in_time * settled:.3g} {unit} on" if settled else ""
     return ax.axhline(factor * level, color=GREEN, lw=0.9, ls="--", label=text)
+
+
+def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
+    """Draw the shares of asperities in the load and of the real contact in the Hertz zone over time.
+
+    Parameters
+    ----------
+    run : MotionRun
+        Run to draw, whose surfaces touch at one time step or more.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes over time. The legend states the mean load share, and for which share of the time steps the
+        surfaces touch.
+    """
+    ax = axes_or_new(ax)
+    found = TouchHistory.of(run)
+    assert found is not None
+    time, load, area = _times(run, "time"), 100.0 * found.load_share, 100.0 * found.area_share
+    touch = f"{100.0 * found.time_share:.3g} % of {found.steps} time steps"
+    share = share_text(found.mean_share, found.coarser)
+    ax.plot(time, load, color=BLUE, lw=0.9, label=f"load of asperities, mean {share} %")
+    ax.plot(time, area, color=ORANGE, lw=0.9, label=f"real contact area, touching at {touch}")
+    ax.set(ylabel="share [%]", ylim=fitted(load, area))
+    _over_time(run, ax)
+    legend_above(ax)
+    return ax
 
 
 def places(run: MotionRun, ax: Axes | None = None) -> Axes:

@@ -31,7 +31,9 @@ def time_unit(run: MotionRun) -> Unit:
 
 def film_unit(run: MotionRun) -> Unit:
     """Factor from metres to the unit of film thicknesses, and this unit."""
-    return unit_for(float(run.values("minimum_thickness")[0]), "m", least=_LEAST_FILM[run.kind.name])
+    # Rounded, so that a film of 1 nm less the rounding error is not one of 1000 pm.
+    first = float(f"{run.values('minimum_thickness')[0]:.3g}")
+    return unit_for(first, "m", least=_LEAST_FILM[run.kind.name])
 
 
 def field_unit(run: MotionRun) -> Unit:

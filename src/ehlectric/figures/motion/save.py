@@ -18,10 +18,11 @@ from ehlectric.figures.motion.beside import (
     pressure_beside,
     roughness_at,
 )
-from ehlectric.figures.motion.history import largest_field, least_film, places, places_vary
+from ehlectric.figures.motion.history import asperities, largest_field, least_film, places, places_vary
 from ehlectric.figures.motion.maps import map_figure, sampling_text
 from ehlectric.figures.motion.panels import name_run, share_below
 from ehlectric.figures.style import drawing_of, figure_of, new_panels, save_figure, style
+from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.stored_run import MotionRun, coincident_frame
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ _WIDTH, _HEIGHT, _TITLE = 7.2, 2.1, 0.75
 
 
 def history(run: MotionRun) -> Axes:
-    """Draw minimum film thickness, maximum field strength and their places over time.
+    """Draw minimum film thickness, maximum field strength and their places over time, and asperities.
 
     Parameters
     ----------
@@ -43,9 +44,10 @@ def history(run: MotionRun) -> Axes:
     Returns
     -------
     Axes
-        The first of three panels, or of two where the places do not change.
+        The first of three panels, or of two where the places do not change; one more where surfaces touch.
     """
-    panels = (least_film, largest_field, *((places,) if places_vary(run) else ()))
+    touching = (asperities,) if TouchHistory.of(run) is not None else ()
+    panels = (least_film, *touching, largest_field, *((places,) if places_vary(run) else ()))
     axes = _stack(len(panels))
     for draw, ax in zip(panels, axes, strict=True):
         draw(run, ax)

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.intermittency.words import OF_TIME, time_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.sweep.paths import LinePath, joined, lines_of
 from ehlectric.figures.sweep.points import labelled, voltage_text
+from ehlectric.figures.sweep.time_shares import TIME_SHARES
 from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.interpolation import spaced_log
 from ehlectric.sweep.labels import label_of
@@ -25,10 +27,19 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
     if not (selection.of_discharge and margin.size):
         label, scale = labelled(results, selection.value, selection.values)
         finite = selection.values[np.isfinite(selection.values)]
+        if selection.value in TIME_SHARES:
+            return _of_time(finite)
         low, high = (f"{scale.of(float(of(finite))):.3g}" for of in (np.min, np.max))
         ends = low if low == high else f"{low} to {high}"
         return f"{label.name[:1].upper()}{label.name[1:]}: {ends} {scale.unit}".rstrip()
     return _of_margins(results, selection, margin) + _intermittent(selection)
+
+
+def _of_time(shares: Array) -> str:
+    """Sentence: range of the shares of time in which contacts short bearings."""
+    low, high = (time_text(float(of(shares))) for of in (np.min, np.max))
+    ends = high if low == high else f"{low.removesuffix(OF_TIME)} to {high}"
+    return f"Contacts short the bearing {ends}"
 
 
 def _intermittent(selection: Slice) -> str:

@@ -40,6 +40,7 @@ from ehlectric.figures.sweep.points import (
     mark_warned,
     voltage_text,
 )
+from ehlectric.figures.sweep.time_shares import TIME_SHARES
 from ehlectric.sweep.interpolation import spaced_log
 from ehlectric.sweep.labels import Scale
 from ehlectric.sweep.results import SweepResults
@@ -121,7 +122,7 @@ def value_lines(
         look = {"color": line.colour, "ms": dot_size(selection, size)}
         mark(ax, "solved", along[line.numbers[dots]], heights[dots], **look)
     scale_axis(ax.xaxis, name_x.axis(scale_x), values=along, log=path.log_x)
-    scale_axis(ax.yaxis, name.axis(scale), values=scale.of(needed), log=is_wide(selection.values))
+    scale_axis(ax.yaxis, name.axis(scale), values=scale.of(needed), log=_is_log(selection))
     ax.margins(x=0.03)
     own = {} if y is None else {"color": GREY}  # the marks on the axes have the colours of their lines
     handles: list[Artist] = [*kind_handles(selection, **own)]
@@ -138,6 +139,11 @@ def value_lines(
         _name_lines(results, selection, ax, lines, log=log_y)
     legend_above(ax, handles)
     return ax
+
+
+def _is_log(selection: Slice) -> bool:
+    """Whether the vertical axis is logarithmic; a share of time, whose ends both matter, has a linear one."""
+    return selection.value not in TIME_SHARES and is_wide(selection.values)
 
 
 def _needed_values(selection: Slice) -> Array:

@@ -29,6 +29,13 @@ from ehlectric.figures.sweep.points import (
     mark_warned,
     voltage_text,
 )
+from ehlectric.figures.sweep.time_shares import (
+    TIME_SHARES,
+    fill_regimes,
+    quantile_of,
+    regime_handles,
+    scatter_regimes,
+)
 from ehlectric.sweep.interpolation import Surface, applied_at, spaced_log, surface_of
 from ehlectric.sweep.labels import Scale
 from ehlectric.sweep.results import SweepResults
@@ -72,7 +79,8 @@ def value_map(
         points without one are marked in a hole of the map. Between points the value, or the logarithm of
         positive values if an axis is logarithmic, is linear in the axes as they are drawn. Maps of
         ``discharge`` values and of a bearing's breakdown voltages have a line on which the breakdown voltage
-        equals the applied voltage; the side that breaks down is hatched.
+        equals the applied voltage; the side that breaks down is hatched. Maps of the share of time in which
+        a bearing conducts have the colours of its regimes and lines at 1, 10, 50 and 99 %.
 
     Raises
     ------
@@ -170,6 +178,8 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
     Returns the legend entries.
     """
     selection = between.selection
+    if selection.value in TIME_SHARES:
+        return _regimes(between, ax)
     label, scale = labelled(between.results, selection.value, selection.values)
     values = scale.of(selection.values)
     log = is_wide(values)
@@ -193,6 +203,17 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
         handles += _dots(selection, ax, at, alone, look, beside=bool(np.any(whole)))
     colour_bar(ax, norm, label.axis(scale), levels, colours)
     return handles
+
+
+def _regimes(between: _Between, ax: Axes) -> list[Artist]:
+    """Colour the regimes of bearings by their share of time with contact; returns the legend entries."""
+    shares = between.selection.values
+    quantiles, whole = between.surface.at_nodes(quantile_of(shares))
+    alone = between.surface.alone(shares)
+    scatter_regimes(between.places(), shares, alone, ax)
+    if not np.any(whole):
+        return regime_handles()
+    return fill_regimes(between.triangles(whole), quantiles, between.places(), ax)
 
 
 def _intermittent(between: _Between, whole: Mask, ax: Axes) -> list[Artist]:

@@ -11,6 +11,7 @@ from matplotlib.colors import Normalize
 from ehlectric.arrays import Array, IntArray
 from ehlectric.figures.axes import DARK_COLOURS, by_logarithm, norm_of
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE
+from ehlectric.figures.sweep.time_shares import TIME_SHARES, quantile_of, share_of
 from ehlectric.sweep.interpolation import applied_at, curve_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
@@ -56,6 +57,9 @@ class LinePath:
         along, heights = self.selection.along[line.numbers], values[line.numbers]
         if line.numbers.size < 2:
             return along, heights
+        if self.selection.value in TIME_SHARES:
+            places, quantiles = curve_of(along, quantile_of(heights), log_x=self.log_x, log=False)
+            return places, share_of(quantiles)
         log = by_logarithm(values, log_axis=self.log_x or self.log_y)
         return curve_of(along, heights, log_x=self.log_x, log=log)
 

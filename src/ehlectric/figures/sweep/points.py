@@ -15,6 +15,7 @@ from matplotlib.patheffects import withStroke
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.figures.style import GREY, ORANGE, name_over
+from ehlectric.figures.sweep.time_shares import TIME_SHARES
 from ehlectric.sweep.labels import CELSIUS, Label, Scale, label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
@@ -46,6 +47,8 @@ LESS_ACCURATE = frozenset(
         "variance-missed",
         # Surfaces that may touch: voltages are upper bounds
         "surfaces-touch",
+        "asperities-touch",
+        "oil-not-conserved",
         "thinner-than-atom",
         "touching",
         "partial-film",
@@ -100,9 +103,10 @@ def warned(selection: Slice) -> Mask:
     They have a warning of ``LESS_ACCURATE`` that not all points have: a warning of all points tells no point
     from another.
     """
+    # Of a share of time with contact, that surfaces touch is no doubt but what it says.
+    doubts = LESS_ACCURATE - {"touching", "partial-film"} if selection.value in TIME_SHARES else LESS_ACCURATE
     codes = [
-        {warning.code for warning in point.warnings if warning.code in LESS_ACCURATE}
-        for point in selection.points
+        {warning.code for warning in point.warnings if warning.code in doubts} for point in selection.points
     ]
     drawn = selection.of("solved") & np.isfinite(selection.values)
     of_all = set.intersection(*(own for own, known in zip(codes, drawn, strict=True) if known))

@@ -78,11 +78,9 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     RefinedSolution
         Solutions on all grids.
 
-    Notes
-    -----
-    The spacings are halved along both axes, in a point contact only on a patch where its film is decided. The
-    refinement ends below the target, at ``most_nodes`` over the whole domain, or after three grids in
-    succession whose error is unknown because a film did not converge.
+    Notes ----- The spacings are halved along both axes, in a point contact only on a patch where its film is
+    decided. The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole
+    domain, or after three grids in succession whose error is unknown because a film did not converge.
     """
     found = RefinedSolution(problem, nested_iteration(problem, progress))
     target, unknown, times = problem.target_error, 0, 1
@@ -92,6 +90,9 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
         if (error is not None and error <= target) or unknown >= UNKNOWN:
             break
         if times * (problem.nodes - 1) + 1 > problem.most_nodes:
+            break
+        # A finer grid has other spots of a rough contact. A smooth one may touch on a coarse grid only.
+        if found.last.touches and problem.added_gap is not None:
             break
         found = _finer(found, progress)
     return found

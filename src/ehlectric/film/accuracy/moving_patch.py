@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.errors import ConvergenceError
@@ -91,9 +92,17 @@ class MovingFilm:
         state = State.of(replace(level, dry_gap=gap), pressure, instant.state.h00)
         thickness = _composed(state.thickness, instant.state.thickness, inside)
         density = _composed(steady.final.coefficients.density, instant.density, inside)
+        touching = [
+            np.broadcast_to(each.contact_pressure, each.pressure.shape)
+            for each in (steady.state, instant.state)
+        ]
         return Instant(
             time=instant.time,
-            state=replace(state, thickness=thickness),
+            state=replace(
+                state,
+                thickness=thickness,
+                contact_pressure=_composed(touching[0], touching[1], inside),
+            ),
             mass=_composed(density * thickness, instant.mass, inside),
             density=density,
             full_film=_composed(steady.final.full_film, instant.full_film, inside),

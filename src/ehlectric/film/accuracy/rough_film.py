@@ -61,12 +61,29 @@ def rough_film_error(
       the heights of the surface between the nodes exceed the line through the nodes, the film loses.
     """
     error = discretisation_error(problem, fine, coarser)
+    if fine.touches or (coarser and coarser[0].touches):
+        return None if error is None else _of_mean_gap(problem, fine, coarser[0])
     if error is None or problem.added_gap is None:
         return error
     films = [(grid.level.mesh, grid.state.thickness) for grid in (fine, coarser[0])]
     between = roughness_between_nodes(problem.added_gap, *films[0])
     of_grids = _of_two_grids(films[0], films[1], order=problem.order)
     return float(max(error, of_grids)) + between
+
+
+def _of_mean_gap(problem: FilmProblem, fine: GridSolution, coarse: GridSolution) -> float:
+    """Relative change of the mean gap over the dry contact from the coarser grid, where the surfaces touch.
+
+    The least gap is that of the boundary film on all grids. The gap beside the spots changes from grid to
+    grid irregularly, so that its change is not divided as that of a film with a known order.
+    """
+
+    def mean_gap(grid: GridSolution) -> float:
+        mesh = grid.level.mesh
+        inside = problem.geometry.dry_pressure(mesh.x, mesh.y) > 0.0
+        return float(np.average(grid.state.thickness, weights=mesh.weights * inside))
+
+    return abs(mean_gap(coarse) / mean_gap(fine) - 1.0)
 
 
 def _of_two_grids(fine: Values, coarse: Values, *, order: int) -> float:

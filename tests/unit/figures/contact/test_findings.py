@@ -14,6 +14,7 @@ from ehlectric.figures.contact.findings import finding, has_spike, per_cent, pla
 from ehlectric.figures.contact.line import field_deviation, field_profiles, film, roughness
 from ehlectric.figures.contact.line_maps import field_strength
 from ehlectric.figures.contact.save import drawings_of, figure
+from ehlectric.figures.lengths import length_axis
 from ehlectric.figures.style import OUT_OF_RANGE, axes_or_new
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.point_pages import result_of, solved
@@ -124,7 +125,7 @@ def test_breakdown_of_a_point_contact_is_on_both_lines_through_the_weakest_place
     for ax, at, other in zip(panels, place, place[::-1], strict=True):
         mark = next(line for line in ax.lines if line.get_label().startswith("minimum"))
         assert mark.get_xydata()[0] == pytest.approx([at, result.discharge.breakdown_voltage])
-        assert numbers(ax.texts[0].get_text())[0] == pytest.approx(other, rel=6e-3, abs=1e-9)
+        assert numbers(ax.get_xlabel())[-1] == pytest.approx(other, rel=6e-3, abs=1e-9)
     assert figure(result, "cuts").axes[0].get_legend() is not None
     (strength,) = (line for line in field_cut(result).lines if np.ptp(line.get_ydata()) == 0.0)
     assert strength.get_ydata()[0] == 15.0
@@ -166,6 +167,26 @@ def test_a_strength_far_above_the_field_is_named_and_not_drawn():
     assert limit_line(ax, np.linspace(-1.0, 1.0, 5), np.full(5, 100.0), 3.0, "V/µm") == 3.0
     assert not ax.lines
     assert ax.texts[0].get_text() == "dielectric strength 100 V/µm (above)"
+
+
+def test_a_strength_near_zero_is_named_above_its_line():
+    ax = axes_or_new(None)
+    limit_line(ax, np.linspace(-1.0, 1.0, 5), np.full(5, 0.015), 2.0, "GV/m")
+    assert ax.texts[0].get_va() == "bottom"
+    limit_line(ax, np.linspace(-1.0, 1.0, 5), np.full(5, 1.5), 2.0, "GV/m")
+    assert ax.texts[1].get_va() == "top"
+
+
+def test_no_length_runs_into_the_name_of_its_axis(below):
+    ax = axes_or_new(None)
+    ax.set_xlim(-1.4, 1.4)
+    length_axis(below, ax)
+    (top,) = ax.child_axes
+    left, right = 1e6 * below.conditions.half_width * np.array(ax.get_xlim())
+    formatter = top.xaxis.get_major_formatter()
+    ax.figure.draw_without_rendering()
+    assert formatter(left + 0.01 * (right - left)) == ""
+    assert formatter(left + 0.1 * (right - left))
 
 
 def test_ticks_of_pressure_and_film_are_at_the_same_heights(below):

@@ -1,0 +1,1 @@
+"""Mixed lubrication: films that asperities pierce, and the pressure of the asperities."""

@@ -1,0 +1,104 @@
+"""Oil that a stationary film loses in its spots and makes in its valleys: independent balances."""
+
+import numpy as np
+import pytest
+
+from ehlectric import solve
+from ehlectric.contact.spots.oil_balance import oil_balance
+from ehlectric.contact.spots.warnings import MASS_ERROR
+from ehlectric.tables.contact import result_rows
+from tests.helpers.mixed_films import gaussian, mixed_film, rough_line, rough_point, sinusoid
+from tests.unit.contact.spots.cases import LINE, solved
+
+ROUGH = rough_line(gaussian(0.2e-6, 20e-6, seed=3), nodes=801, speed=0.005)
+
+
+def flux_behind(result, i):
+    """Mass flux per width behind a node over the density at zero pressure [m^2/s]: Couette less Poiseuille.
+
+    The mass at the face is that of a parabola through two nodes upstream and one downstream, and the
+    viscosity is an exponential of the position between both nodes of the face.
+    """
+    film, oil, conditions = result.film, result.case.oil, result.conditions
+    pressure = film.pressure - film.contact_pressure
+    mass = film.density * film.thickness
+    carried = conditions.entrainment_speed * (0.375 * mass[i + 1] + 0.75 * mass[i] - 0.125 * mass[i - 1])
+    first, last = (oil.viscosity * np.exp(oil.log_viscosity(pressure[k])[0]) for k in (i, i + 1))
+    fluidity = 1.0 / first if first == last else (1.0 / last - 1.0 / first) / np.log(first / last)
+    gap = 0.5 * (film.thickness[i] + film.thickness[i + 1])
+    density = 0.5 * (film.density[i] + film.density[i + 1])
+    slope = (pressure[i + 1] - pressure[i]) / (film.x[i + 1] - film.x[i])
+    return carried - density * fluidity * gap**3 / 12.0 * slope
+
+
+@pytest.mark.parametrize("case", [LINE, ROUGH], ids=["sinusoid", "gaussian"])
+def test_what_leaves_the_zone_in_excess_is_the_error(case):
+    """Flux through two full faces, one ahead of all spots and one behind the last full node of the zone."""
+    result = solve(case, beside_smooth=False)
+    film, half_width = result.film, result.conditions.half_width
+    full = ~film.cavitated & (film.pressure - film.contact_pressure > result.case.oil.ambient_pressure + 1.0)
+    before = np.flatnonzero(film.x < -1.2 * half_width)[-1]
+    behind = np.flatnonzero(full & (film.x < half_width))[-1]
+    assert full[before]
+    inside = np.abs(film.x) < half_width
+    flow = result.conditions.entrainment_speed * np.mean((film.density * film.thickness)[inside])
+    gained = flux_behind(result, behind) - flux_behind(result, before)
+    found = oil_balance(case, result.conditions, film)
+    assert found.oil_made > 0.01
+    assert gained / flow == pytest.approx(found.oil_made - found.oil_lost, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [ROUGH, rough_point(gaussian(0.1e-6, 30e-6), speed=0.01)],
+    ids=["line", "point"],
+)
+def test_the_residual_of_the_solver_gives_the_same(case):
+    """Nodes with a full film are those of the solver; each line is summed up from its outlet on."""
+    solution = mixed_film(case)
+    final, zone, touching = solution.last.final, solution.zone, solution.touching
+    weights, r = solution.last.level.weights, final.reynolds
+    lost = made = 0.0
+    for j in range(r.shape[1]):
+        filled = False
+        for i in reversed(range(r.shape[0])):
+            filled = filled or bool(final.full_film[i, j] and zone[i, j])
+            if filled and (zone[i, j] or touching[i, j]):
+                made += weights[i, j] * max(r[i, j], 0.0)
+            if touching[i, j]:
+                lost -= weights[i, j] * min(r[i, j], 0.0)
+    mass = np.mean((final.coefficients.density * solution.gap)[zone])
+    flow = mass * (2.0 if r.shape[1] > 1 else 1.0)  # the ball's contact is a circle of the radius 1
+    result = solve(case, beside_smooth=False)
+    found = oil_balance(case, result.conditions, result.film)
+    assert found.oil_made == pytest.approx(made / flow, rel=1e-6)
+    assert found.oil_lost == pytest.approx(lost / flow, abs=1e-9)
+    assert found.mass_error == found.oil_lost + found.oil_made
+
+
+def test_a_full_film_keeps_its_oil():
+    case = rough_line(sinusoid(0.02e-6, 40e-6), nodes=401, speed=4.0)
+    result = solve(case, beside_smooth=False)
+    assert not np.any(result.film.cavitated[1:200])
+    assert oil_balance(case, result.conditions, result.film).mass_error < 1e-5
+
+
+def test_a_film_that_makes_oil_is_told():
+    result = solved("point")
+    balance = result.asperities.balance
+    assert balance.mass_error > MASS_ERROR
+    assert "oil-not-conserved" in [warning.code for warning in result.warnings]
+    (text,) = (w.text for w in result.warnings if w.code == "oil-not-conserved")
+    assert f"{100.0 * balance.oil_made:.2g} % of the mean flow" in text
+    (row,) = (row for row in result_rows(result) if row.name == "error of the oil balance")
+    assert row.value == balance.mass_error
+    kept = solved("line")
+    assert kept.asperities.balance.mass_error < MASS_ERROR
+    assert "oil-not-conserved" not in [warning.code for warning in kept.warnings]
+
+
+def test_unequal_spacings_have_no_balance():
+    result = solved("line")
+    film = result.film
+    bent = type(film)(**vars(film) | {"x": film.x + 1e-3 * film.x**2 / film.x[-1]})
+    assert oil_balance(LINE, result.conditions, bent) is None
