@@ -36,7 +36,7 @@ def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
     yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
-    yield from hardness_warnings(setup, conditions.max_pressure)
+    yield from hardness_warnings(conditions)
 
 
 def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
@@ -53,9 +53,9 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
         )
 
 
-def hardness_warnings(setup: Case | Setup, pressure: float) -> Iterator[ResultWarning]:
-    """Warning about a hardness below the Hertz pressure [Pa]: bodies would yield, not only asperities."""
-    hardness = setup.contact.hardness if isinstance(setup, Case) else None
+def hardness_warnings(conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
+    """Warning about a hardness below the Hertz pressure: bodies would yield, not only asperities."""
+    hardness, pressure = conditions.hardness, conditions.max_pressure
     if hardness is not None and hardness < pressure:
         yield ResultWarning(
             "hardness-low",
@@ -132,7 +132,7 @@ def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Ite
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
     yield from pressure_warnings(setup.oil, conditions.max_pressure, domain, "point", POINT_PERMANENT)
-    yield from hardness_warnings(setup, conditions.max_pressure)
+    yield from hardness_warnings(conditions)
 
 
 def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:

@@ -116,20 +116,26 @@ def _check_contact(case: Case) -> Meaning:
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
 
 
-def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | None:
-    """Film of smooth surfaces by a formula over the undeformed roughness; None for smooth surfaces."""
+def _film_by_formula(conditions: Conditions | PointConditions, *, line: str, point: str) -> tuple[str, Any]:
+    """Name and film thicknesses of a formula, chosen by its key for line and for point contacts."""
     from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
     from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
+
+    formulas: Mapping[str, Any] = LINE_FORMULAS if conditions.geometry == "line" else POINT_FORMULAS
+    formula = formulas[line if conditions.geometry == "line" else point]
+    return formula.name, formula(conditions.contact)
+
+
+def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | None:
+    """Film of smooth surfaces by a formula over the undeformed roughness; None for smooth surfaces."""
     from ehlectric.surfaces.profiles import FLAT
 
     rq = contact.composite_roughness()
     if rq is None or rq < FLAT:
         return None
-    line = contact.conditions.geometry == "line"
-    formulas: Mapping[str, Any] = LINE_FORMULAS if line else POINT_FORMULAS
-    formula = formulas["moes" if line else "nijenbanning_venner_moes"]
-    film = formula(contact.conditions.contact).central_thickness
-    return {"formula": formula.name, "central_thickness": film, "rq": rq, "lambda_ratio": film / rq}
+    name, thickness = _film_by_formula(contact.conditions, line="moes", point="nijenbanning_venner_moes")
+    film = thickness.central_thickness
+    return {"formula": name, "central_thickness": film, "rq": rq, "lambda_ratio": film / rq}
 
 
 def _lambda_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
@@ -149,22 +155,18 @@ def _breakdown_by_formula(
     which a bearing by formula has its films.
     """
     from ehlectric.discharge.utilisation import dielectric_strength
-    from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
-    from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
 
     discharge = case.discharge
     if discharge is None or not discharge.has_strength:
         return None
     if discharge.strength_table is not None and discharge.strength_table.over == "pressure":
         return None
-    line = conditions.geometry == "line"
-    formulas: Mapping[str, Any] = LINE_FORMULAS if line else POINT_FORMULAS
-    formula = formulas["pan_hamrock" if line else "chittenden"]
-    film = formula(conditions.contact).minimum_thickness
+    name, thickness = _film_by_formula(conditions, line="pan_hamrock", point="chittenden")
+    film = thickness.minimum_thickness
     strength = float(dielectric_strength(discharge, np.zeros(())))
     applied = abs(case.electric.voltage)
     return {
-        "formula": formula.name,
+        "formula": name,
         "minimum_thickness": film,
         "dielectric_strength": strength,
         "breakdown_voltage": strength * film,

@@ -1,4 +1,4 @@
-"""What figures show of a contact whose surfaces touch: its spots, and scales for the film around them."""
+"""Spots in figures of a contact whose surfaces touch, and scales for the film around the spots."""
 
 from __future__ import annotations
 

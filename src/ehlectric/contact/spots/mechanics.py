@@ -1,4 +1,4 @@
-"""What asperities of a solved contact carry, where they touch, and the film around their spots."""
+"""Load and area of the spots in which surfaces touch, and the film around the spots, of a solved contact."""
 
 from __future__ import annotations
 

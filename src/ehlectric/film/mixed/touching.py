@@ -88,7 +88,7 @@ def own_compliance(level: Level) -> float:
 
 @dataclass(frozen=True)
 class Asperities:
-    """What asperities that touch are like.
+    """Boundary film and hardness of asperities that touch.
 
     Attributes
     ----------
