@@ -7,6 +7,7 @@ import pytest
 
 from ehlectric import Case, load, save, solve
 from ehlectric.film.mixed.dry import dry_contact, relieved
+from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.nested import levels_of
 from ehlectric.film.state import State
 from tests.helpers.mixed_films import gaussian, posed, rough_point
@@ -55,6 +56,25 @@ def test_surfaces_that_touch_at_the_edge_of_the_domain_are_told(tmp_path):
     wide = solve(Case.from_dict(LIGHT | {"roughness": [table], "grid": LIGHT["grid"] | {"outlet": 4.0}}))
     assert "domain-too-small" not in [each.code for each in wide.warnings]
     np.testing.assert_array_equal(load(save(result, tmp_path)[1]).film.thickness, film.thickness)
+
+
+@pytest.mark.parametrize("steps", [1, 2, 3])
+def test_no_iterate_that_did_not_converge_is_given_with_a_film_below_the_boundary_film(steps):
+    """After few Newton steps asperities are still pressed into each other; the gap is that of the flow."""
+    problem = posed(rough_point(gaussian("100 nm", "35 um"), nodes=65))
+    levels = levels_of(problem, roughness=1.0)
+    pressure = (
+        problem.geometry.dry_pressure(levels[0].mesh.x, levels[0].mesh.y) + problem.fluid.ambient_pressure
+    )
+    pierced = State.of(levels[0], np.broadcast_to(pressure, levels[0].mesh.shape).copy(), -1.0)
+    hs = problem.boundary_film
+    solution = mixed_newton(
+        problem.fluid, levels, pierced, asperities=problem.asperities, tolerance=1e-6, max_iterations=steps
+    )
+    assert solution.status == "stalled"
+    sunk = State.of(levels[0], solution.state.pressure, solution.state.h00).thickness
+    assert sunk.min() < 0.0
+    np.testing.assert_array_equal(solution.state.thickness, np.maximum(sunk, hs))
 
 
 def test_asperities_that_pierce_a_film_are_relieved():

@@ -96,9 +96,10 @@ def mixed_newton(
         before = now.norm
         step = newton_step(fluid, levels, state, now, asperities, close, damping)
         steps.append(step.record)
-        state, assessed = step.state, step.now
+        assessed = step.now
         if not np.isfinite(assessed.norm):
-            return grid_solution(level, state, assessed, steps, "diverged")
+            return grid_solution(level, projected(fluid, state, now.contact), now, steps, "diverged")
+        state = step.state
         better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         damping = damping if assessed.norm > _NEAR else 0.0
@@ -215,8 +216,9 @@ def grid_solution(
 ) -> GridSolution:
     """Solution on a grid, with the residual in the form of a film without contact."""
     # The gap of flattened asperities is that of the boundary film. So is that of asperities at the edges,
-    # where no pressure opens it.
-    state = replace(state, thickness=np.where(now.plastic | level.mesh.edge, now.thickness, state.thickness))
+    # where no pressure opens it, and wherever an iterate that did not converge sinks into the other surface.
+    of_flow = now.plastic | level.mesh.edge | (status != "converged")
+    state = replace(state, thickness=np.where(of_flow, now.thickness, state.thickness))
     final = Residual(
         flow=now.flow,
         reynolds=now.reynolds,
