@@ -78,9 +78,11 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     RefinedSolution
         Solutions on all grids.
 
-    Notes ----- The spacings are halved along both axes, in a point contact only on a patch where its film is
-    decided. The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole
-    domain, or after three grids in succession whose error is unknown because a film did not converge.
+    Notes
+    -----
+    The spacings are halved along both axes, in a point contact only on a patch where its film is decided.
+    The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain, or
+    after three grids in succession whose error is unknown because a film did not converge.
     """
     found = RefinedSolution(problem, nested_iteration(problem, progress))
     target, unknown, times = problem.target_error, 0, 1
