@@ -98,9 +98,10 @@ class LineRelaxation:
 def half_band(level: Level) -> int:
     """Half-bandwidth of the line relaxation on a grid, in nodes.
 
-    It is limited by the number of nodes along x, which may be small on coarse grids of wide contacts.
+    It is limited by the number of nodes along x, which may be small on coarse grids of wide contacts: the
+    rows reach one node beyond the band, and the wedge term two more.
     """
-    return min(_HALF_BAND if level.mesh.dy is None else _HALF_BAND_POINT, level.nodes - 3)
+    return min(_HALF_BAND if level.mesh.dy is None else _HALF_BAND_POINT, level.nodes - 4)
 
 
 def distributed_nodes(level: Level, poiseuille: Array, full_film: Mask) -> Mask:

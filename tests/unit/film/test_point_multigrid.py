@@ -12,7 +12,8 @@ from ehlectric.film import multigrid
 from ehlectric.film.flow import flow
 from ehlectric.film.levels import hierarchy
 from ehlectric.film.mesh import Width
-from ehlectric.film.nested import nested_iteration
+from ehlectric.film.nested import levels_of, nested_iteration
+from ehlectric.film.state import State
 from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.places import EXAMPLES
 from tests.unit.cases.test_point_case import point
@@ -123,6 +124,27 @@ def test_a_cycle_reduces_the_residual(name):
     image = np.append(finest.scale * right_side(finest), 0.1)
     left = image - finest.image(multigrid.cycled(levels, image))
     assert np.linalg.norm(left) < 0.25 * np.linalg.norm(image)
+
+
+@pytest.mark.parametrize("nodes", [15, 17, 18, 19])
+def test_a_cycle_on_a_grid_with_hardly_more_nodes_than_the_band(nodes):
+    """The coarsest film of an error estimate may have 17 nodes along x; a band has 14 on each side."""
+    case = CASES["circle"].replace({"contact.radius_y": 0.1, "grid.nodes": 65, "grid.nodes_y": 73})
+    problem = point_film_problem(case, resolve_point(case))
+    width = problem.width.coarser().coarser()
+    level, *coarser = levels_of(dataclasses.replace(problem, nodes=nodes, width=width))
+    state = State.of(level, problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), 0.5)
+    levels = multigrid.linearise_levels(
+        [level, *coarser],
+        problem.fluid,
+        flow(problem.fluid, state.pressure, state.thickness, level.mesh),
+        pressure=state.pressure,
+        thickness=state.thickness,
+        full_film=level.mesh.inner,
+    )
+    image = np.append(levels[0].scale * right_side(levels[0]), 0.1)
+    left = image - levels[0].image(multigrid.cycled(levels, image))
+    assert np.linalg.norm(left) < 0.5 * np.linalg.norm(image)
 
 
 def krylov_iterations(solutions):
