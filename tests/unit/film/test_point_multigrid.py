@@ -54,6 +54,11 @@ def jacobians(problem, *, symmetric=True):
         wedge_order=problem.wedge_order,
         width=width,
     )
+    return linearised(problem, levels, pressure, thickness, full_film)
+
+
+def linearised(problem, levels, pressure, thickness, full_film):
+    """Jacobians on every grid at a state of the first."""
     return multigrid.linearise_levels(
         levels,
         problem.fluid,
@@ -132,16 +137,10 @@ def test_a_cycle_on_a_grid_with_hardly_more_nodes_than_the_band(nodes):
     case = CASES["circle"].replace({"contact.radius_y": 0.1, "grid.nodes": 65, "grid.nodes_y": 73})
     problem = point_film_problem(case, resolve_point(case))
     width = problem.width.coarser().coarser()
-    level, *coarser = levels_of(dataclasses.replace(problem, nodes=nodes, width=width))
-    state = State.of(level, problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), 0.5)
-    levels = multigrid.linearise_levels(
-        [level, *coarser],
-        problem.fluid,
-        flow(problem.fluid, state.pressure, state.thickness, level.mesh),
-        pressure=state.pressure,
-        thickness=state.thickness,
-        full_film=level.mesh.inner,
-    )
+    grids = levels_of(dataclasses.replace(problem, nodes=nodes, width=width))
+    mesh = grids[0].mesh
+    state = State.of(grids[0], problem.geometry.dry_pressure(mesh.x, mesh.y), 0.5)
+    levels = linearised(problem, grids, state.pressure, state.thickness, mesh.inner)
     image = np.append(levels[0].scale * right_side(levels[0]), 0.1)
     left = image - levels[0].image(multigrid.cycled(levels, image))
     assert np.linalg.norm(left) < 0.5 * np.linalg.norm(image)

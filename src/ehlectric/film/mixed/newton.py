@@ -87,6 +87,7 @@ def mixed_newton(
     now = assess_touching(fluid, level, state, asperities)
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
+    status: Status = "stalled"
     while len(steps) < min(max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
@@ -98,15 +99,16 @@ def mixed_newton(
         steps.append(step.record)
         assessed = step.now
         if not np.isfinite(assessed.norm):
-            return grid_solution(level, projected(fluid, state, now.contact), now, steps, "diverged")
+            status = "diverged"
+            break
         state = step.state
         better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         damping = damping if assessed.norm > _NEAR else 0.0
         now = assessed
-    state = projected(fluid, state, now.contact)
-    status: Status = "converged" if is_solved(now, tolerance) else "stalled"
-    return grid_solution(level, state, now, steps, status)
+    if is_solved(now, tolerance):
+        status = "converged"
+    return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
 
 
 @dataclass(frozen=True)
