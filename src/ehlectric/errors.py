@@ -254,9 +254,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "hardness-low": Cause("The hardness of the surfaces is below the Hertz pressure."),
         "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
         "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
-        "estimated-alpha": Cause(
-            "The pressure-viscosity coefficient is estimated from the type of base oil."
-        ),
+        "estimated-alpha": Cause("The pressure-viscosity coefficient is estimated from the base oil."),
         # Rough surfaces
         "spacing-irregular": Cause("Samples may be missing in a file of heights."),
         "voids-filled": Cause("Voids in a measured surface were filled.", "note"),
@@ -318,14 +316,15 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "clearance-class": Cause("The clearance is that of a class, before the bearing is mounted."),
         "clearance-negative": Cause("Fits and temperatures preload the bearing.", "note"),
         "fit-loose": Cause("A ring that is fitted tight is loose at the temperatures of operation."),
-        "viscosity-grade": Cause(
-            "The viscosity is the middle of a grade, which allows 10 % either way.", "note"
-        ),
+        "viscosity-grade": Cause("The viscosity is the middle of a grade, 10 % either way.", "note"),
         "clearance-taken-up": Cause("The films are not small compared with the clearance."),
         "shoulder-reached": Cause("A contact ellipse extends beyond the shoulder of its groove."),
         "touching": Cause("The lambda ratio is below 1: contacts touch, and discharge as they open."),
         "partial-film": Cause("The lambda ratio is below 3: surfaces may touch, and discharge then."),
         "smooth-film": Cause("The films are smooth, with the film factor of the case.", "note"),
+        "supply-rule": Cause("A rule for the rolling friction gives the supply of oil to the films."),
+        "supply-low": Cause("The supply of oil leaves less than half of the flooded film."),
+        "film-decays": Cause("The film halves soon if no oil returns to its track.", "note"),
         "shaft-leaks": Cause("The oil discharges the shaft within a period of the inverter."),
         "coating-breakdown": Cause("The shaft voltage is above the breakdown voltage of the coating."),
         "current-density-high": Cause("The apparent current density is above published limits."),

@@ -73,12 +73,17 @@ class RingConditions:
         Dielectric strength and conductivity at this temperature.
     film_factor : float
         Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1.
+    heat_factor, supply_factor : float or None
+        Parts of ``film_factor`` by the heat in the inlet and by the supply of oil, dimensionless; None where
+        ``film_factor`` alone is known, which then contains both.
     """
 
     temperature: float
     oil: Oil
     discharge: Discharge
     film_factor: float
+    heat_factor: float | None = None
+    supply_factor: float | None = None
 
 
 @dataclass(frozen=True)
@@ -123,6 +128,16 @@ class BearingConditions(Generic[G_co]):
         return min(self.inner.film_factor, self.outer.film_factor)
 
     @property
+    def heat_factor(self) -> float | None:
+        """Part of the heat in the film factor of the ring where it is smaller; None where not known."""
+        return _smaller(self.inner.heat_factor, self.outer.heat_factor)
+
+    @property
+    def supply_factor(self) -> float | None:
+        """Part of the supply in the film factor of the ring where it is smaller; None where not known."""
+        return _smaller(self.inner.supply_factor, self.outer.supply_factor)
+
+    @property
     def ceramic(self) -> bool:
         """Whether the elements are insulators, so that nothing breaks down in the films."""
         return not self.element.conducting
@@ -139,6 +154,11 @@ class BearingConditions(Generic[G_co]):
     def gap_breakdown(self, thickness: float) -> float:
         """Breakdown voltage [V] of a gap of a thickness [m] without a film; infinite without a strength."""
         return gap_breakdown(self.discharge, thickness)
+
+
+def _smaller(inner: float | None, outer: float | None) -> float | None:
+    """Smaller factor of both rings; None where one is not known."""
+    return None if inner is None or outer is None else min(inner, outer)
 
 
 def gap_breakdown(discharge: Discharge, thickness: float) -> float:

@@ -6,6 +6,7 @@ from ehlectric.bearing.fits.keys import CLEARANCE_KEYS
 from ehlectric.bearing.intermittency.keys import CONTACT_DUTY_KEYS, DUTY_KEYS
 from ehlectric.bearing.margin.keys import EFFECT_KEYS, MARGIN_KEYS
 from ehlectric.bearing.meter.keys import METER_KEYS
+from ehlectric.bearing.supply.keys import SUPPLY_KEYS
 from ehlectric.cases.oils.keys import OIL_KEYS
 from ehlectric.cases.result_key import Keys, ResultKey, under
 
@@ -106,7 +107,8 @@ _CAPACITANCES: Keys = {
         "state of lubrication",
     ),
     "film_factor": ResultKey(
-        'factor on the isothermal, fully flooded film; 1 for "none"; of the ring whose films it reduces more',
+        "factor on the isothermal, fully flooded film, heat times supply; of the ring whose films it reduces "
+        "more",
         "",
         "film factor",
     ),
@@ -347,6 +349,7 @@ BEARING_KEYS: Keys = {
     **under("lubricant", _LUBRICANT),
     **under("bearing", CLEARANCE_KEYS),
     **under("bearing", _CAPACITANCES),
+    **under("bearing", SUPPLY_KEYS),
     **under("bearing", DUTY_KEYS),
     **under("bearing", _VOLTAGES),
     **under("bearing", METER_KEYS),

@@ -15,18 +15,16 @@ from ehlectric.bearing.fits.mounted import MountedClearance, mounted_clearance
 from ehlectric.bearing.kinds import KINDS, kind_of
 from ehlectric.bearing.limits import check_film, check_load, check_shoulders
 from ehlectric.bearing.loads.geometry import Geometry
-from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, mirrored
 from ehlectric.bearing.quick.ways import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.supply.factors import film_factor_of
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.oils.resolution import temperature_coefficient
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz_line import reduced_modulus
 from ehlectric.lubricant.oil import Oil
-from ehlectric.lubricant.temperature import inlet_shear_factor
 
 # Least load over the largest of those that are not the loads of light elements, and number of loads down to
 # it whose contacts come from the atlas or by formula: they take milliseconds.
@@ -106,8 +104,9 @@ def _ring_conditions(case: BearingCase, geometry: Geometry, *, inner: bool) -> R
     """Conditions of the contacts with a ring, at its temperature."""
     temperature, key = case.bearing.ring_temperature(inner=inner), case.bearing.temperature_key(inner=inner)
     oil = _oil(case, temperature, key)
-    factor = _film_factor(case, geometry, oil, temperature)
-    return RingConditions(temperature, oil, case.discharge.at(temperature, key), factor)
+    factor = film_factor_of(case, geometry, oil, temperature)
+    strength = case.discharge.at(temperature, key)
+    return RingConditions(temperature, oil, strength, factor.total, factor.heat, factor.supply)
 
 
 def _in_operation(bearing: Bearing, clearance: MountedClearance | None) -> Bearing:
@@ -124,26 +123,6 @@ def _keys_of_bearing() -> Iterator[None]:
         yield
     except InputError as error:
         raise error.under("bearing") from None
-
-
-def _film_factor(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
-    """Film thickness over that of isothermal, fully flooded oil at a temperature [K], by the file."""
-    factor = case.bearing.film_factor
-    if isinstance(factor, float):
-        return factor
-    if factor == "none":
-        return 1.0
-    bearing = case.bearing
-    # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
-    speeds = rolling_speeds(
-        bearing.element_diameter,
-        bearing.pitch_diameter,
-        bearing.inner_speed,
-        contact_angle=geometry.free_angle,
-    )
-    slope = temperature_coefficient(case.lubricant, temperature)
-    assert slope is not None and oil.thermal_conductivity is not None
-    return inlet_shear_factor(oil.viscosity, slope, float(speeds.inner_entrainment), oil.thermal_conductivity)
 
 
 def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[Equilibrium, ...]:
@@ -212,8 +191,8 @@ def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearin
     prepared : PreparedBearing
         Bearing with any film factor.
     factor : float
-        Film thickness over that of isothermal, fully flooded oil, dimensionless, > 0. Other than in a file it
-        may be above 1.
+        Film thickness over that of isothermal, fully flooded oil, dimensionless, > 0, which contains heat and
+        supply. Other than in a file it may be above 1.
 
     Returns
     -------
@@ -226,9 +205,10 @@ def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearin
         Where the films leave no room between the bodies.
     """
     at = prepared.conditions
-    conditions = replace(
-        at, inner=replace(at.inner, film_factor=factor), outer=replace(at.outer, film_factor=factor)
+    inner_ring, outer_ring = (
+        replace(own, film_factor=factor, heat_factor=None, supply_factor=None) for own in (at.inner, at.outer)
     )
+    conditions = replace(at, inner=inner_ring, outer=outer_ring)
     inner, outer = (replace(ring, conditions=conditions) for ring in prepared.rings)
     changed = replace(prepared, conditions=conditions, inner=inner, outer=outer)
     for ring in changed.rings:

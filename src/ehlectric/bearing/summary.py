@@ -32,6 +32,7 @@ from ehlectric.bearing.solution import (
     plate_capacitance,
     regime,
 )
+from ehlectric.bearing.supply.decay import half_time
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.discharge.leakage import conductivity_of
 from ehlectric.runtime.files import plain
@@ -121,6 +122,9 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "lubrication": lubrication(solution),
         **duty_summary(solution, duty),
         "film_factor": solution.conditions.film_factor,
+        "heat_factor": solution.conditions.heat_factor,
+        "supply_factor": solution.conditions.supply_factor,
+        "film_half_time": half_time(solution),
         **(broken := breaks(solution)),
         "breakdown_probability": _breakdown_probability(solution, broken["margin"]),
         "strength_per_volt": strength,

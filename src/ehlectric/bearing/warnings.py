@@ -26,6 +26,7 @@ from ehlectric.bearing.solution import (
     lambda_text,
     lubrication,
 )
+from ehlectric.bearing.supply.warnings import film_note, supply_warnings
 from ehlectric.cases import library
 from ehlectric.cases.bearings.bearing import ROLLERS, Bearing
 from ehlectric.cases.bearings.case import BearingCase
@@ -82,7 +83,8 @@ def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             "and fields are V/h_min"
         )
         yield ResultWarning("atlas-contacts", text)
-    yield _smooth(solution)
+    yield film_note(solution)
+    yield from supply_warnings(solution)
     of_base = library_viscosity(solution.case.lubricant)
     if of_base is not None:
         at = f"{solution.case.bearing.oil_temperature - 273.15:.4g} °C"
@@ -114,26 +116,6 @@ def _cold(bearing: Bearing) -> Iterator[ResultWarning]:
                 "100 °C and may be wrong by a large factor; give lubricant.viscosity at this temperature"
             )
             yield ResultWarning("temperature-low", text)
-
-
-def _smooth(solution: BearingSolution) -> ResultWarning:
-    """Note about the effects that the films neglect, so that breakdown voltages are upper bounds."""
-    factor = solution.case.bearing.film_factor
-    name = factor if isinstance(factor, str) else f"{factor:g}"
-    if solution.conditions.film_factor == 1.0:
-        return ResultWarning(
-            "isothermal-film",
-            f"bearing.film_factor is {name}: the films are isothermal, fully flooded, smooth, so "
-            'breakdown voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films',
-        )
-    left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
-    if factor == "inlet-shear":
-        left, found = "starvation and grease", f"{found}, of the heat in the inlet"
-    return ResultWarning(
-        "smooth-film",
-        f"the film factor is {found}: the films are smooth, and {left} are neglected as well as roughness, "
-        "so breakdown voltages are upper bounds",
-    )
 
 
 def library_viscosity(oil: Lubricant) -> float | None:

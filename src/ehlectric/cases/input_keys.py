@@ -83,6 +83,7 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "bearing.fits.housing_temperature": ("temperature of the housing", r"$T_\mathrm{h}$"),
     "bearing.contact_angle": ("free contact angle", ""),
     "bearing.film_factor": ("film factor", ""),
+    "bearing.supply": ("supply of oil", r"$h/h_\mathrm{flooded}$"),
     "bearing.fill": ("filling around the films", ""),
     "bearing.parallel_capacitance": ("parallel capacitance", r"$C_\mathrm{p}$"),
     "bearing.coating.thickness": ("thickness of the coating", "$d$"),

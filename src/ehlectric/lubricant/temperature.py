@@ -1,4 +1,4 @@
-"""Temperature dependence of an oil: viscosity, density, measured tables, and inlet shear heating."""
+"""Temperature dependence of an oil: viscosity, density, and measured tables."""
 
 from __future__ import annotations
 
@@ -171,39 +171,3 @@ def interpolated(
         return np.asarray(np.interp(at, known, values))
     # 1/T falls where T rises; np.interp takes increasing abscissae.
     return np.asarray(np.exp(np.interp(-1.0 / at, -1.0 / known, np.log(values))))
-
-
-def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivity: float) -> float:
-    """Reduction factor of the central film thickness due to shear heating in the inlet, in pure rolling.
-
-    C = 1/(1 + 0.241 L^0.64) with the thermal loading parameter L = eta0 beta u^2/k
-
-    Parameters
-    ----------
-    viscosity : float
-        Viscosity eta0 at the inlet temperature [Pa s].
-    slope : float
-        Temperature coefficient of viscosity beta = -d ln(eta0)/dT [1/K].
-    speed : float
-        Mean speed u of both surfaces [m/s].
-    conductivity : float
-        Thermal conductivity k of the oil [W/(m K)].
-
-    Returns
-    -------
-    float
-        Central film thickness over the isothermal one, C, from 0 to 1.
-
-    Notes
-    -----
-    W. R. D. Wilson and S. Sheu, Effect of inlet shear heating due to sliding on elastohydrodynamic film
-    thickness, ASME J. Lubr. Technol. 105 (1983) 187, without sliding. The formula was derived for the inlet
-    of a line contact; it is used for elliptical contacts too.
-
-    Examples
-    --------
-    >>> round(inlet_shear_factor(0.0125, 0.0309, 15.1, 0.14), 3)
-    0.848
-    """
-    loading = viscosity * slope * speed**2 / conductivity
-    return float(1.0 / (1.0 + 0.241 * loading**0.64))

@@ -42,7 +42,9 @@ def _is_contact(case: AnyCase) -> bool:
 
 
 def _no_factor(case: AnyCase) -> bool:
-    return isinstance(case, Case) or case.bearing.film_factor in ("none", 1.0)
+    if isinstance(case, Case):
+        return True
+    return case.bearing.film_factor in ("none", 1.0) and case.bearing.supply in ("flooded", 1.0)
 
 
 def _factor(case: AnyCase) -> bool:
@@ -291,9 +293,21 @@ REFERENCES = (
     ),
     Reference(
         "heating by shear in the inlet",
-        "Wilson and Sheu, J. Lubr. Technol. 105 (1983) 187",
-        "",
+        "Wilson and Sheu, J. Lubr. Technol. 105 (1983) 187-195",
+        "10.1115/1.3254558",
         lambda case: isinstance(case, BearingCase) and case.bearing.film_factor == "inlet-shear",
+    ),
+    Reference(
+        "supply of oil",
+        "SKF, Rolling bearings, PUB BU/P1 17000: kinematic replenishment factor",
+        "",
+        lambda case: isinstance(case, BearingCase) and case.bearing.by_supply_rule,
+    ),
+    Reference(
+        "decay of a film without supply",
+        "van Zoelen, Venner, Lugt, Proc. IMechE J 223 (2009) 541",
+        "",
+        lambda case: isinstance(case, BearingCase) and case.bearing.supply != "flooded" and _elliptical(case),
     ),
     Reference(
         "loads of balls",

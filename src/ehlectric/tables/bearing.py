@@ -16,6 +16,7 @@ from ehlectric.discharge.verdict import ratio_text
 from ehlectric.sweep.labels import Scale, scale_for
 from ehlectric.tables.bearing_asperities import duty_rows
 from ehlectric.tables.bearing_bounds import bounds_of
+from ehlectric.tables.bearing_films import film_factors
 from ehlectric.tables.bearing_meter import outside_rows, shaft_rows
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
     totals = summary["bearing"]
     first = f", {totals['first_break_at']}" if totals["first_break_at"] else ""
     films = (
-        ("film factor", "bearing.film_factor", "", _film_factor(summary)),
+        *film_factors(summary),
         ("discretisation error of the films", "bearing.discretisation_error", "%"),
         ("interpolation error over the load", "bearing.interpolation_error", "%"),
         *_film_error(totals),
@@ -295,14 +296,6 @@ def _strength(discharge: Mapping[str, Any]) -> Row:
         over = "pressure" if "pressure" in table else "temperature"
         return Row(name, f"{low} to {high}", "V/µm", f", table over {over}")
     return Row(name, "not given", note=", no breakdown voltage is computed")
-
-
-def _film_factor(summary: Mapping[str, Any]) -> str:
-    """Note on the film factor of a bearing."""
-    if summary["bearing"]["film_factor"] == 1.0:
-        return "(isothermal, fully flooded)"
-    given = summary["inputs"]["bearing"]["film_factor"]
-    return "(heating by shear in the inlet)" if given == "inlet-shear" else "(given)"
 
 
 def _margin(summary: Mapping[str, Any]) -> Iterator[Row]:

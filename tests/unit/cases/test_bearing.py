@@ -16,7 +16,7 @@ from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.cases import library
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.formulas.film_point import hamrock_dowson
-from ehlectric.lubricant.temperature import inlet_shear_factor
+from ehlectric.formulas.inlet_heating import inlet_shear_factor
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_of, ring_of
 
 AS_ROLLERS = {

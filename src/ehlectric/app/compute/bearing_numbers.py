@@ -187,10 +187,11 @@ def _critical_speed(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole
 def film_is_bound(summary: Mapping[str, Any]) -> bool:
     """Whether real films are thinner than those of a summary: fully flooded, and smooth.
 
-    A film factor that is given stands for starvation and heat as well.
+    A film factor that is given stands for starvation and heat as well, and so does a supply for starvation.
     """
-    factor = summary["inputs"]["bearing"].get("film_factor")
-    return bool(summary["bearing"]["film_factor"] == 1.0) or factor == "inlet-shear"
+    bearing = summary["inputs"]["bearing"]
+    heated = bearing.get("film_factor") == "inlet-shear" and bearing.get("supply", "flooded") == "flooded"
+    return bool(summary["bearing"]["film_factor"] == 1.0) or heated
 
 
 def speed_bound(row: Row, summary: Mapping[str, Any], *, leaks: bool) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ehlectric.app.fields.field import Field, Group, Way
 from ehlectric.app.fields.kinds import ANGULAR, DEEP, ROLLERS, has_balls, has_clearance, kind_of
 from ehlectric.app.fields.oil import OIL
+from ehlectric.app.fields.supply import SUPPLY
 from ehlectric.app.inputs import Inputs
 
 _ASSUMED = "The first values are assumptions: replace them with your own."
@@ -240,6 +241,7 @@ FILM = Group(
             ),
         ),
         Field("bearing.film_factor", "Film factor", low=0.1, high=1.0, when=_factor, strict=True),
+        *SUPPLY,
         Field(
             "bearing.fill_way",
             "Around the films",

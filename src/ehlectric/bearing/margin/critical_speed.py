@@ -102,7 +102,7 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
     Notes
     -----
     The temperature is that of the case at all speeds. The margin rises with the speed. Only with inlet
-    shear heating it falls again at high speed; more speeds are computed then.
+    shear heating or a supply by rule it falls again at high speed; more speeds are computed then.
     """
     own = math.log(margins.case.bearing.inner_speed)
     known = {own: margins.own}
@@ -113,7 +113,9 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
             known[log] = margins.at({"bearing.inner_speed": math.exp(log)})
         return known[log]
 
-    for part in _FINE_PARTS if margins.case.bearing.film_factor == "inlet-shear" else _PARTS:
+    bearing = margins.case.bearing
+    falls = bearing.film_factor == "inlet-shear" or bearing.by_supply_rule
+    for part in _FINE_PARTS if falls else _PARTS:
         try:
             at(own + math.log(part))
         except InputError as error:

@@ -16,6 +16,7 @@ from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, lambda_text, lubrication
+from ehlectric.bearing.supply.warnings import supply_words
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.row import amount
@@ -280,6 +281,8 @@ def _assumptions(solution: BearingSolution) -> str:
     films = f"smooth film with the given film factor {factor:.3g}, which alone stands for starvation and heat"
     if factor == 1.0:
         films = "isothermal, fully flooded, smooth film"
+    elif case.bearing.supply != "flooded":
+        films = f"smooth film with {supply_words(solution)}"
     elif case.bearing.film_factor == "inlet-shear":
         films = "fully flooded, smooth film with inlet shear heating"
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}

@@ -79,8 +79,12 @@ class OperatingPoint:
         InputError
             Where the changed case is not valid, or its oil is neither in the atlas nor described by formulas.
         """
-        # What is in parallel is taken off the measured values.
-        alone = {} if case.bearing.parallel_capacitance is None else {"bearing.parallel_capacitance": None}
+        # What is in parallel is taken off the measured values, and the measured factor contains the supply.
+        alone: dict[str, Any] = {}
+        if case.bearing.parallel_capacitance is not None:
+            alone["bearing.parallel_capacitance"] = None
+        if case.bearing.supply != "flooded":
+            alone["bearing.supply"] = "flooded"
         changed, refused = quick_case(case.replace({**changes, **alone}), constant=True)
         if changed is None:
             assert refused is not None

@@ -22,7 +22,10 @@ PARALLEL = "bearing.parallel_capacitance"
 _ROWS = 4
 
 # Keys without effect on the capacitance at a film factor, or that the measurement itself replaces.
-_WITHOUT = ("discharge.", "motor.", "bearing.inner_speed", "bearing.film_factor", PARALLEL)
+_WITHOUT = (
+    *("discharge.", "motor.", "bearing.inner_speed", "bearing.film_factor", "bearing.supply"),
+    PARALLEL,
+)
 
 
 def shared_effects(

@@ -24,6 +24,7 @@ from ehlectric.cases.oils.laws import library_name
 from ehlectric.cases.quantity import Count, Quantity, to_fraction
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
+from ehlectric.formulas.replenishment import SUPPLY_CONSTANTS
 from ehlectric.runtime.values import is_number
 
 ROLLERS = "cylindrical roller"
@@ -71,6 +72,16 @@ def _film_factor(value: Any) -> float | str:
         return str(value)
     if not is_number(value) or not 0.0 < value <= 1.0:
         raise InputError(got=shown(value), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
+    return float(value)
+
+
+def _supply(value: Any) -> float | str:
+    """Supply of oil: the name of a way, or the film over the fully flooded one."""
+    if isinstance(value, str) and value in SUPPLY_CONSTANTS:
+        return str(value)
+    if not is_number(value) or not 0.0 < value <= 1.0:
+        names = ", ".join(repr(name) for name in SUPPLY_CONSTANTS)
+        raise InputError(got=shown(value), takes=f"{names}, or a number above 0 and at most 1")
     return float(value)
 
 
@@ -148,6 +159,7 @@ class Bearing(Table):
     parallel_capacitance: _Parallel | None = None
     coating: Coating | None = None
     film_factor: Annotated[float | str, BeforeValidator(_film_factor)] = "none"
+    supply: Annotated[float | str, BeforeValidator(_supply)] = "flooded"
     fits: Fits | None = None
 
     @model_validator(mode="before")
@@ -192,6 +204,11 @@ class Bearing(Table):
         return self.temperatures() | {key: value for key, value in own.items() if value is not None}
 
     @property
+    def by_supply_rule(self) -> bool:
+        """Whether a rule for the way of supply reduces the films."""
+        return isinstance(self.supply, str) and SUPPLY_CONSTANTS[self.supply] > 0.0
+
+    @property
     def unmounted_clearance(self) -> float | None:
         """Clearance before mounting [m], given or the middle of the class; None without ``fits``."""
         if self.fits is None or self.fits.unmounted_clearance is not None:
@@ -207,6 +224,11 @@ class Bearing(Table):
             self._check_fits(self.fits)
         if self.radial_load == 0.0 and self.axial_load == 0.0:
             raise InputError.missing("radial_load", "a load, radial or axial")
+        if self.by_supply_rule:
+            for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
+                if getattr(self, key) is None:
+                    takes = f"the {name} of the bearing, which supply {self.supply!r} needs"
+                    raise InputError.missing(key, takes)
         ceramic = not library.solid(self.element_material)["conducting"]
         if self.element_capacitance is not None and not ceramic:
             raise InputError.worded(

@@ -153,6 +153,15 @@ class BearingCase(Tabled, Table):
         self._check_connected()
         if self.bearing.film_factor == "inlet-shear":
             self._check_heating(self.lubricant)
+        if (
+            self.bearing.by_supply_rule
+            and self.lubricant.temperature is None
+            and self.lubricant.density is None
+        ):
+            raise InputError.worded(
+                "lubricant.density",
+                f"missing; supply {self.bearing.supply!r} needs it for the kinematic viscosity",
+            )
         self._check_ranges()
         return self
 

@@ -151,6 +151,8 @@ class BearingKeys(TypedDict, total=False):
         "oil" or "air" around the films, or the part filled with oil, from 0 to 1.
     film_factor : float or str
         Factor on the isothermal, fully flooded film, "none" or "inlet-shear".
+    supply : float or str
+        Way in which oil is supplied, such as "grease", or film over the fully flooded one.
     fits : mapping
         Clearance before mounting, interferences, shaft and housing, in place of ``radial_clearance``.
     parallel_capacitance : float, str or quantity
@@ -189,6 +191,7 @@ class BearingKeys(TypedDict, total=False):
     contact_resistance: Value
     fill: float | str
     film_factor: float | str
+    supply: float | str
     fits: Keys
     parallel_capacitance: Value
     coating: Keys

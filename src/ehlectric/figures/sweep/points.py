@@ -184,6 +184,13 @@ def name_figure(ax: Axes, results: SweepResults, finding: str, more: str) -> Non
 _STATES = {
     "contacts": {contacts: f"contacts {how}" for contacts, how in HOW.items()},
     "bearing.film_factor": {"none": "isothermal, fully flooded film", "inlet-shear": "film with inlet shear"},
+    "bearing.supply": {
+        "flooded": "fully flooded",
+        "oil-bath": "oil bath",
+        "oil-jet": "oil jet",
+        "grease": "grease",
+        "oil-air": "oil and air",
+    },
 }
 
 

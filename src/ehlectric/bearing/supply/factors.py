@@ -1,0 +1,95 @@
+"""Film factor of the contacts with a ring: heat in the inlet times supply of oil."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ehlectric.bearing.loads.geometry import Geometry
+from ehlectric.bearing.loads.kinematics import rolling_speeds
+from ehlectric.cases.bearings.bearing import Bearing
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.oils.resolution import temperature_coefficient
+from ehlectric.formulas.inlet_heating import inlet_shear_factor
+from ehlectric.formulas.replenishment import replenishment_factor
+from ehlectric.lubricant.oil import Oil
+
+
+@dataclass(frozen=True)
+class FilmFactor:
+    """Film thickness over that of isothermal, fully flooded oil, with its parts; dimensionless.
+
+    Attributes
+    ----------
+    total : float
+        Film thickness over that of isothermal, fully flooded oil.
+    heat : float or None
+        Part of the heat in the inlet; None where a number stands for it and possibly for more.
+    supply : float or None
+        Part of the supply of oil; None where ``total`` contains it, as in a measured film factor.
+    """
+
+    total: float
+    heat: float | None = None
+    supply: float | None = None
+
+
+def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> FilmFactor:
+    """Film factor of the contacts with a ring at its temperature [K], by the bearing file.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
+    geometry : BallBearing or RollerBearing
+        Internal geometry in operation.
+    oil : Oil
+        Oil at the temperature of the ring.
+    temperature : float
+        Temperature of the ring [K].
+    """
+    heat, supply = _heat_factor(case, geometry, oil, temperature), _supply_factor(case.bearing, oil)
+    known = None if isinstance(case.bearing.film_factor, float) else heat
+    return FilmFactor(heat * supply, known, supply)
+
+
+def _heat_factor(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
+    """Film thickness over the isothermal one at a temperature [K], or the number of the file."""
+    factor = case.bearing.film_factor
+    if isinstance(factor, float):
+        return factor
+    if factor == "none":
+        return 1.0
+    bearing = case.bearing
+    # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
+    speeds = rolling_speeds(
+        bearing.element_diameter,
+        bearing.pitch_diameter,
+        bearing.inner_speed,
+        contact_angle=geometry.free_angle,
+    )
+    slope = temperature_coefficient(case.lubricant, temperature)
+    assert slope is not None and oil.thermal_conductivity is not None
+    return inlet_shear_factor(oil.viscosity, slope, float(speeds.inner_entrainment), oil.thermal_conductivity)
+
+
+def _supply_factor(bearing: Bearing, oil: Oil) -> float:
+    """Film thickness over the fully flooded one, by the number or the rule of the file."""
+    if isinstance(bearing.supply, float):
+        return bearing.supply
+    if not bearing.by_supply_rule:
+        return 1.0
+    assert bearing.bore is not None and bearing.outer_diameter is not None and oil.density is not None
+    factor = replenishment_factor(
+        bearing.inner_speed,
+        oil.viscosity / oil.density,
+        bore=bearing.bore,
+        outer_diameter=bearing.outer_diameter,
+        supply=bearing.supply,
+        kind=bearing.kind,
+    )
+    # Films of next to no oil are refused as too thin by the checks of a contact, and a factor of 0 has none.
+    return max(float(factor), _LEAST)
+
+
+# Least factor of the rule, far below any film that is thicker than an atom.
+_LEAST = 1e-6

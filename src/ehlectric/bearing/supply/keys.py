@@ -1,0 +1,26 @@
+"""Keys of summary.json for the parts of the film factor of a bearing."""
+
+from __future__ import annotations
+
+from ehlectric.cases.result_key import Keys, ResultKey
+
+SUPPLY_KEYS: Keys = {
+    "heat_factor": ResultKey(
+        "part of the film factor by the heat of shear in the inlet, 1 for an isothermal film; of the ring "
+        "whose films it reduces more; null where `bearing.film_factor` is a number, which may stand for more",
+        "",
+        "film factor of the heat",
+    ),
+    "supply_factor": ResultKey(
+        "part of the film factor by the supply of oil: film over the fully flooded one, 1 for "
+        '"flooded"; of the ring whose films it reduces more',
+        "",
+        "film factor of the supply",
+    ),
+    "film_half_time": ResultKey(
+        "time in which the film of the most loaded contact would halve if no oil returned to its track "
+        "(van Zoelen, Venner and Lugt); null for a flooded bearing and for rollers",
+        "s",
+        "half time of the film without supply",
+    ),
+}
