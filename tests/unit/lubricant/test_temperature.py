@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
-from ehlectric.lubricant.temperature import COLD, HOT, Walther, density, inlet_shear_factor
+from ehlectric.lubricant.temperature import COLD, HOT, Walther, density
 from ehlectric.lubricant.viscosity import roelands, roelands_alpha
 
 VG46 = Walther.of(46e-6, 6.8e-6)
@@ -95,19 +95,3 @@ def test_lines_of_all_temperatures_meet_in_the_pole_of_roelands(viscosity):
         roelands_pressure=0.198e9,
     )
     assert viscosity * math.exp(float(exponent)) == pytest.approx(math.exp(-9.67), rel=1e-6, abs=0.0)
-
-
-def test_inlet_shear_by_hand():
-    """L = 0.0125 * 0.03 * 10^2/0.15 = 0.25: 1/(1 + 0.241 * 0.25^0.64) with 0.25^0.64 = 2^-1.28 = 0.41180."""
-    assert inlet_shear_factor(0.0125, 0.03, 10.0, 0.15) == pytest.approx(
-        1.0 / (1.0 + 0.241 * 0.41180), rel=1e-5, abs=0.0
-    )
-    # At L = 1 the power is of no account.
-    assert inlet_shear_factor(0.15, 1.0, 1.0, 0.15) == pytest.approx(1.0 / 1.241, rel=1e-12, abs=0.0)
-
-
-def test_inlet_shear_vanishes_at_low_speed_and_grows_with_it():
-    factors = [inlet_shear_factor(0.02, 0.03, speed, 0.14) for speed in (1e-9, 1.0, 5.0, 20.0, 100.0)]
-    assert factors[0] == pytest.approx(1.0, rel=0.0, abs=1e-9)
-    assert np.all(np.diff(factors) < 0.0)
-    assert factors[-1] > 0.0

@@ -1,0 +1,185 @@
+"""Supply of oil to a bearing: film factor, half time, warnings and what a bearing file may say."""
+
+import math
+
+import pytest
+
+from ehlectric.bearing.measured.forward import OperatingPoint
+from ehlectric.bearing.preparation import prepare_bearing, resolve_bearing, with_film_factor
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.supply.decay import track_length
+from ehlectric.bearing.supply.warnings import supply_words
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.errors import InputError
+from ehlectric.formulas.replenishment import replenishment_factor
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.places import EXAMPLES
+
+SIZE = {"bearing__bore": "40 mm", "bearing__outer_diameter": "80 mm"}
+HEATED = {
+    "bearing__film_factor": "inlet-shear",
+    "lubricant__temperature__thermal_conductivity": "0.14 W/m/K",
+}
+
+
+def case(tables=BALLS, **changes):
+    return bearing_case(tables, contacts="formula", **SIZE, **changes)
+
+
+def test_factors_multiply():
+    heat = resolve_bearing(case(**HEATED)).film_factor
+    both = resolve_bearing(case(**HEATED, bearing__supply=0.7))
+    assert both.film_factor == pytest.approx(0.7 * heat, rel=1e-12)
+    assert (both.heat_factor, both.supply_factor) == (heat, 0.7)
+    given = resolve_bearing(case(bearing__film_factor=0.9, bearing__supply=0.5))
+    assert (given.film_factor, given.heat_factor, given.supply_factor) == (0.45, None, 0.5)
+
+
+def test_rule_takes_the_kinematic_viscosity_at_each_ring():
+    """14.85 mm^2/s at 70 degC by ASTM D341 of the oil, and less at the warmer inner ring."""
+    rings = {"bearing__inner_ring_temperature": "80 degC"}
+    found = resolve_bearing(case(**rings, bearing__supply="grease"))
+    for ring in (found.inner, found.outer):
+        expected = replenishment_factor(
+            100.0 * math.pi,
+            ring.oil.viscosity / ring.oil.density,
+            bore=0.04,
+            outer_diameter=0.08,
+            supply="grease",
+            kind="deep-groove ball",
+        )
+        assert ring.supply_factor == pytest.approx(float(expected), rel=1e-12)
+    assert found.supply_factor == found.outer.supply_factor < found.inner.supply_factor
+    assert found.outer.oil.viscosity / found.outer.oil.density == pytest.approx(14.85e-6, rel=1e-3)
+
+
+@pytest.mark.parametrize("tables", [BALLS, ROLLERS], ids=["balls", "rollers"])
+def test_flooded_is_what_it_was(tables):
+    """The supply of a flooded bearing is 1 to the last digit, and no time is given."""
+    plain, flooded = (solve_bearing(case(tables, **more)) for more in ({}, {"bearing__supply": "flooded"}))
+    summaries = [one.summary() for one in (plain, flooded)]
+    for one in summaries:
+        one.pop("seconds")
+    assert summaries[0] == summaries[1]
+    totals = summaries[0]["bearing"]
+    assert (totals["heat_factor"], totals["supply_factor"], totals["film_half_time"]) == (1.0, 1.0, None)
+    assert not {"supply-rule", "supply-low", "film-decays"} & set(summaries[0]["warning_codes"])
+
+
+def test_summary_of_a_greased_bearing():
+    """Films are those of the same number as film factor; warnings say what the number rests on."""
+    greased = solve_bearing(case(bearing__supply="grease")).summary()
+    factor = greased["bearing"]["supply_factor"]
+    given = solve_bearing(case(bearing__film_factor=factor)).summary()
+    assert greased["bearing"]["film_factor"] == factor == pytest.approx(0.94, abs=0.005)
+    for key in ("capacitance", "first_break", "lambda_ratio", "margin"):
+        assert greased["bearing"][key] == given["bearing"][key]
+    assert {"supply-rule", "film-decays", "smooth-film"} <= set(greased["warning_codes"])
+    assert "supply-low" not in greased["warning_codes"]
+
+
+def test_starved_films_are_told():
+    starved = solve_bearing(case(bearing__supply=0.3)).summary()
+    assert "supply-low" in starved["warning_codes"]
+    assert not {"supply-rule", "film-decays"} & set(starved["warning_codes"])
+
+
+def test_half_time_goes_with_the_film_and_the_track():
+    """t = 3/(rate h^2), so that half the film takes four times as long; rollers have no such time."""
+    times = []
+    for factor in (0.8, 0.4):
+        summary = solve_bearing(case(bearing__supply=factor)).summary()
+        rows = [row for row in summary["contacts"] if row["ring"] == "inner"]
+        film = max(rows, key=lambda row: row["load"])["central_thickness"]
+        times.append(summary["bearing"]["film_half_time"] * film**2)
+    assert times[0] == pytest.approx(times[1], rel=1e-9)
+    assert (
+        solve_bearing(case(ROLLERS, bearing__supply="grease")).summary()["bearing"]["film_half_time"] is None
+    )
+
+
+def test_half_time_of_a_6208_is_of_the_order_of_seconds():
+    """Another author has 1 to 11 s for films of 0.3 um of a 6208 with ISO VG 46."""
+    half = solve_bearing(case(bearing__supply=0.9)).summary()["bearing"]["film_half_time"]
+    assert 1.0 < half < 11.0
+
+
+def test_tracks_of_all_contacts_are_those_of_the_bearing():
+    """The tracks on both rings and once around every ball, shared by the 2 Z contacts."""
+    conditions = resolve_bearing(case())
+    lengths = sum(track_length(conditions, 0.2, inner=inner) for inner in (True, False))
+    assert 9.0 * lengths == pytest.approx(math.pi * (2.0 * 0.06 + 9.0 * 0.011906), rel=1e-12)
+
+
+def test_a_measured_factor_contains_the_supply():
+    greased = case(bearing__supply="grease")
+    changed = with_film_factor(prepare_bearing(greased, 1), 0.6).conditions
+    assert (changed.film_factor, changed.heat_factor, changed.supply_factor) == (0.6, None, None)
+    states = [OperatingPoint.of(one, {}).at(0.6) for one in (greased, case())]
+    assert states[0] == states[1]
+
+
+@pytest.mark.parametrize(
+    ("changes", "line"),
+    [
+        ({"bearing__supply": "greased"}, "bearing.supply: got 'greased'; expected 'flooded', 'oil-bath', "),
+        ({"bearing__supply": 0}, "bearing.supply: got 0; expected 'flooded'"),
+        ({"bearing__supply": 1.5}, "bearing.supply: got 1.5; expected 'flooded'"),
+        ({"bearing__supply": [0.5]}, "bearing.supply: got [0.5]; expected 'flooded'"),
+        ({"bearing__supply": True}, "bearing.supply: got True; expected 'flooded'"),
+        ({"bearing__supply": "grease", "bearing__bore": None}, "bearing.bore: missing; expected the bore"),
+        (
+            {"bearing__supply": "oil-jet", "bearing__outer_diameter": None},
+            "bearing.outer_diameter: missing; expected the outside diameter of the bearing, which supply",
+        ),
+        (
+            {"bearing__supply": "grease", "lubricant": {"base": "paper"}},
+            "lubricant.density: missing; supply 'grease' needs it",
+        ),
+    ],
+)
+def test_refused_supplies(changes, line):
+    with pytest.raises(InputError) as error:
+        bearing_case(BALLS, **(SIZE | changes))
+    assert str(error.value).startswith(line)
+
+
+def test_a_number_needs_no_dimensions():
+    assert bearing_case(BALLS, bearing__supply=0.5).bearing.supply == 0.5
+
+
+def test_words_of_a_verdict():
+    words = {
+        "0.6 of the flooded thickness": {"bearing__supply": 0.6},
+        "0.6 of the flooded thickness and a given factor of 0.9": {
+            "bearing__supply": 0.6,
+            "bearing__film_factor": 0.9,
+        },
+        "0.939 of the flooded thickness by grease and inlet shear heating": {
+            "bearing__supply": "grease",
+            **HEATED,
+        },
+    }
+    for text, changes in words.items():
+        assert supply_words(solve_bearing(case(**changes)).solution) == text
+
+
+@pytest.mark.slow
+def test_films_by_rule_have_two_critical_speeds():
+    """The film goes as n^0.67 exp(-c n): the margin is below 1 on both sides of a band of speeds."""
+    changes = {
+        "contacts": "formula",
+        "bearing.supply": "grease",
+        "bearing.temperature": "20 degC",
+        "bearing.inner_speed": "4000 rpm",
+    }
+    base = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace(changes)
+    margin = solve_bearing(base).summary()["bearing"]["margin"]
+    # The first breakdown goes with the strength: the margin is now 1.5 at the speed of the file.
+    result = solve_bearing(base.replace({"discharge.dielectric_strength": 15e6 * 1.5 / margin}))
+    speeds = result.margin_analysis.speeds
+    assert speeds.critical < base.bearing.inner_speed < speeds.upper
+    for speed in (speeds.critical, speeds.upper):
+        at = result.case.replace({"bearing.inner_speed": speed})
+        assert solve_bearing(at).summary()["bearing"]["margin"] == pytest.approx(1.0, abs=1e-2)
+    assert "by grease" in result.verdict.text
