@@ -1,4 +1,4 @@
-"""Sketches of the theory pages, drawn before every build: contact, grooves, circuit, breakdown, oil laws."""
+"""Sketches of the theory pages, drawn before every build: contact, grooves, circuit, oil laws, supply."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from sketches.circuit import circuit
 from sketches.contact import line_contact, point_contact
 from sketches.groove import groove
 from sketches.laws import laws
+from sketches.supply import supply
 
 SKETCHES: dict[str, Callable[[], Figure]] = {
     "line_contact": line_contact,
@@ -23,6 +24,7 @@ SKETCHES: dict[str, Callable[[], Figure]] = {
     "circuit": circuit,
     "breakdown": two_steps,
     "laws": laws,
+    "supply": supply,
 }
 # The same bytes at every build, and a light ground that also reads on a dark page.
 _SVG = {"svg.hashsalt": "ehlectric", "font.family": "DejaVu Sans", "mathtext.fontset": "dejavusans"}

@@ -105,6 +105,7 @@ def test_kinds_of_the_examples():
     kinds = {path.stem: kind_of_file(path) for path in EXAMPLES.glob("*.toml")}
     assert {name: kind for name, kind in kinds.items() if kind != "contact"} == {
         "bearing_6208": "bearing",
+        "bearing_greased": "bearing",
         "bearing_regime_map": "sweep",
         "bearing_thin_oil": "bearing",
         "moving_roughness": "motion",

@@ -41,17 +41,38 @@ def half_time(solution: BearingSolution) -> float | None:
 
 def _half_time(ring: RingContacts[Any], state: RingState) -> float:
     """Time in which the most loaded film of a ring halves [s]."""
-    most, values, oil = int(np.argmax(state.load)), state.values, ring.oil
-    pressure = float(values.max_pressure[most])
+    most, values = int(np.argmax(state.load)), state.values
+    axes = float(values.semi_axis_x[most]), float(values.semi_axis_y[most])
+    return contact_half_time(
+        ring, float(values.max_pressure[most]), axes, float(values.central_thickness[most])
+    )
+
+
+def contact_half_time(
+    ring: RingContacts[Any], max_pressure: float, semi_axes: tuple[float, float], thickness: float
+) -> float:
+    """Time in which the film of a contact with a ring halves if no oil returns to its track [s].
+
+    Parameters
+    ----------
+    ring : RingContacts
+        Contacts with the ring, with their oil.
+    max_pressure : float
+        Hertz pressure of the contact [Pa].
+    semi_axes : tuple of float
+        Semi-axes of the contact along and across the track [m].
+    thickness : float
+        Central film thickness at the start [m].
+    """
     rate = decay_rate(
-        max_pressure=pressure,
-        semi_axes=(float(values.semi_axis_x[most]), float(values.semi_axis_y[most])),
-        viscosity=oil.viscosity,
-        pressure_viscosity_coefficient=oil.alpha_star,
-        density_ratio=float(oil.density_ratio(pressure)[0]),
+        max_pressure=max_pressure,
+        semi_axes=semi_axes,
+        viscosity=ring.oil.viscosity,
+        pressure_viscosity_coefficient=ring.oil.alpha_star,
+        density_ratio=float(ring.oil.density_ratio(max_pressure)[0]),
         track_length=track_length(ring.conditions, ring.angle, inner=ring.inner),
     )
-    return float(film_half_time(values.central_thickness[most], rate))
+    return float(film_half_time(thickness, rate))
 
 
 def track_length(conditions: BearingConditions[Any], angle: float, *, inner: bool) -> float:
