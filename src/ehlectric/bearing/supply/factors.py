@@ -9,9 +9,14 @@ from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.oils.resolution import temperature_coefficient
+from ehlectric.cases.units import rpm
+from ehlectric.errors import InputError
 from ehlectric.formulas.inlet_heating import inlet_shear_factor
 from ehlectric.formulas.replenishment import replenishment_factor
 from ehlectric.lubricant.oil import Oil
+
+# Least factor by rule: far below it the rule leaves films thinner than an atom.
+_LEAST = 0.01
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,11 @@ def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature:
         Oil at the temperature of the ring.
     temperature : float
         Temperature of the ring [K].
+
+    Raises
+    ------
+    InputError
+        Where the rule for a way of supply leaves next to no film.
     """
     heat, supply = _heat_factor(case, geometry, oil, temperature), _supply_factor(case.bearing, oil)
     known = None if isinstance(case.bearing.film_factor, float) else heat
@@ -87,9 +97,11 @@ def _supply_factor(bearing: Bearing, oil: Oil) -> float:
         supply=bearing.supply,
         kind=bearing.kind,
     )
-    # Films of next to no oil are refused as too thin by the checks of a contact, and a factor of 0 has none.
-    return max(float(factor), _LEAST)
-
-
-# Least factor of the rule, far below any film that is thicker than an atom.
-_LEAST = 1e-6
+    if factor < _LEAST:
+        raise InputError(
+            "bearing.supply",
+            got=f"{bearing.supply!r}, whose rule leaves {float(factor):.2g} of the flooded film at "
+            f"{1e6 * oil.viscosity / oil.density:.4g} mm^2/s and {rpm(bearing.inner_speed):.4g} rpm;",
+            takes=f"a speed and an oil of which it leaves {_LEAST:g}, or a measured number",
+        )
+    return float(factor)

@@ -144,6 +144,21 @@ def test_refused_supplies(changes, line):
     assert str(error.value).startswith(line)
 
 
+def test_a_rule_that_leaves_no_film_is_refused():
+    """With 1000 mm^2/s or more at 20 degC the exponent is 6e-8 * 1000 * 15 000 * 120 * sqrt(3.1/80) = 21."""
+    cold = case(
+        bearing__supply="grease",
+        bearing__temperature="20 degC",
+        bearing__inner_speed="15000 rpm",
+        lubricant__temperature__kinematic_viscosity_40="460 mm^2/s",
+        lubricant__temperature__kinematic_viscosity_100="31 mm^2/s",
+    )
+    with pytest.raises(
+        InputError, match=r"bearing\.supply: got 'grease', whose rule leaves .* 15000 rpm; exp"
+    ):
+        resolve_bearing(cold)
+
+
 def test_a_number_needs_no_dimensions():
     assert bearing_case(BALLS, bearing__supply=0.5).bearing.supply == 0.5
 
