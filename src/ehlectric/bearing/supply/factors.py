@@ -101,7 +101,7 @@ def _supply_factor(bearing: Bearing, oil: Oil) -> float:
         raise InputError(
             "bearing.supply",
             got=f"{bearing.supply!r}, whose rule leaves {float(factor):.2g} of the flooded film at "
-            f"{1e6 * oil.viscosity / oil.density:.4g} mm^2/s and {rpm(bearing.inner_speed):.4g} rpm;",
+            f"{1e6 * oil.viscosity / oil.density:.0f} mm^2/s and {rpm(bearing.inner_speed):.0f} rpm;",
             takes=f"a speed and an oil of which it leaves {_LEAST:g}, or a measured number",
         )
     return float(factor)
