@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from ehlectric.bearing.files import NETCDF, load, save
 from ehlectric.bearing.measured.forward import OperatingPoint
 from ehlectric.bearing.preparation import prepare_bearing, resolve_bearing, with_film_factor
 from ehlectric.bearing.solver import solve_bearing
@@ -66,9 +67,12 @@ def test_flooded_is_what_it_was(tables):
     assert not {"supply-rule", "supply-low", "film-decays"} & set(summaries[0]["warning_codes"])
 
 
-def test_summary_of_a_greased_bearing():
+def test_summary_of_a_greased_bearing(tmp_path):
     """Films are those of the same number as film factor; warnings say what the number rests on."""
-    greased = solve_bearing(case(bearing__supply="grease")).summary()
+    result = solve_bearing(case(bearing__supply="grease"))
+    greased = result.summary()
+    save(result, tmp_path)
+    assert load(tmp_path / NETCDF).summary() == greased
     factor = greased["bearing"]["supply_factor"]
     given = solve_bearing(case(bearing__film_factor=factor)).summary()
     assert greased["bearing"]["film_factor"] == factor == pytest.approx(0.94, abs=0.005)
