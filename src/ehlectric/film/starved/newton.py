@@ -271,7 +271,5 @@ def _direction(
         cycles += 1
         return jacobian.precondition(image)
 
-    solution = flexible_gmres(
-        jacobian.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT
-    )
+    solution = flexible_gmres(jacobian.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT)
     return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles
