@@ -27,7 +27,7 @@ POINT = Case.point(
     load="20 N",
     entrainment_speed="2 m/s",
     lubricant="paper",
-    grid={"nodes": 49, "nodes_y": 49},
+    grid={"nodes": 65, "nodes_y": 65},
 )
 KEYS = {"oil_layer", "film_ratio", "meniscus", "flooded"}
 
@@ -114,8 +114,8 @@ def test_meniscus_at_the_edge_of_the_hertz_zone_and_of_the_domain(starved):
         for warning in solve(LINE.replace({"inlet.oil_layer": "5 nm"})).warnings
         if warning.code == "meniscus-at-edge"
     ]
-    assert "inside the edge of the Hertz zone" in text
-    short = LINE.replace({"inlet.oil_layer": "0.917 um", "grid.inlet": -2.3})
+    assert "at the edge of the Hertz zone" in text
+    short = LINE.replace({"inlet.film_ratio": 0.998, "grid.inlet": -2.3})
     (text,) = [w.text for w in solve(short).warnings if w.code == "meniscus-at-edge"]
     assert "at the edge of the domain" in text
 
@@ -126,7 +126,8 @@ def test_layer_for_a_ratio_of_films(case):
     assert result.film.starvation.film_ratio == pytest.approx(0.6, rel=1e-3)
     assert "film-ratio-missed" not in codes(result)
     given = solve(case.replace({"inlet.oil_layer": result.film.starvation.oil_layer}))
-    assert given.film.central_thickness == pytest.approx(result.film.central_thickness, rel=1e-6)
+    # Far less than the discretisation error: the meniscus of a point contact may differ by a node.
+    assert given.film.central_thickness == pytest.approx(result.film.central_thickness, rel=1e-3)
 
 
 def test_a_layer_over_y_may_differ_on_both_sides():
