@@ -28,6 +28,7 @@ from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
 from ehlectric.contact.spots.mechanics import Coarser, hertz_weights, load_of, spots_of
 from ehlectric.contact.spots.warnings import spot_warnings
+from ehlectric.contact.starved.warnings import starvation_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.limits import field_warnings
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
@@ -284,7 +285,7 @@ def _solved(
             *kind.case_warnings(case, conditions),
             *contact.surface_warnings(films.setup),
             *films.warnings,
-            *film_warnings(case, film),
+            *_of_film(contact, films),
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(case, film, field),
             *meter_warnings(case, film),
@@ -303,6 +304,12 @@ def _solved(
         version=__version__,
         date=now(),
     )
+
+
+def _of_film(contact: PreparedContact, films: Refined) -> Iterator[ResultWarning]:
+    """Warnings about a film and its supply of oil."""
+    yield from film_warnings(contact.case, films.film)
+    yield from starvation_warnings(films.setup, contact.conditions, films.film)
 
 
 def _of_field(

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.accuracy.adaptive import refined_solution
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
+from ehlectric.film.starved.nested import supplied_solution
 from ehlectric.film.state import COLLAPSED, Progress
 from ehlectric.runtime.threads import quiet_solution
 
@@ -101,4 +101,4 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     'converged'
     """
     with quiet_solution():
-        return Film.of(stationary_film(refined_solution(problem, progress), lambda values: values[:, 0]))
+        return Film.of(stationary_film(supplied_solution(problem, progress), lambda values: values[:, 0]))

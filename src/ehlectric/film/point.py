@@ -8,10 +8,10 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
-from ehlectric.film.accuracy.adaptive import refined_solution
 from ehlectric.film.estimates import side_deficit
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
+from ehlectric.film.starved.nested import StarvedSolution, supplied_solution
 from ehlectric.film.state import COLLAPSED, Progress
 from ehlectric.runtime.threads import quiet_solution
 
@@ -161,7 +161,7 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     """
     assert problem.width is not None
     with quiet_solution():
-        found = refined_solution(problem, progress)
+        found = supplied_solution(problem, progress)
         whole, patch = found.whole, found.patch
         mesh = whole.level.mesh
         y = mesh.whole_y if patch is None else patch.join(found.last.level.mesh).y
@@ -169,7 +169,9 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
             stationary_film(found, mesh.mirrored),
             y=problem.scales.length * y,
             semi_axis_y=semi_axis_across(problem),
-            side_deficit=side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),
+            side_deficit=0.0
+            if isinstance(found, StarvedSolution) and found.starved_at_sides
+            else side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),
         )
 
 

@@ -15,6 +15,8 @@ from ehlectric.film.accuracy.max_pressure import max_pressure_error
 from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
+from ehlectric.film.starved.nested import StarvedSolution
+from ehlectric.film.starved.supply import Starvation
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
 from ehlectric.runtime.values import Values
 
@@ -69,6 +71,11 @@ class FilmSolution(Values):
     max_pressure_error : float or None
         Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
         highest peak of the pressure. None if there is no estimate.
+    film_fraction : ndarray or None
+        Part of the gap that oil fills, 0 to 1. None where the supply of oil is not given, or fills the gap as
+        it does in a flooded contact.
+    starvation : Starvation or None
+        Supply of oil, meniscus and flooded film. None where the supply of oil is not given.
     """
 
     x: Array
@@ -88,6 +95,8 @@ class FilmSolution(Values):
     discretisation_error: float | None = None
     inlet_deficit: float | None = None
     max_pressure_error: float | None = None
+    film_fraction: Array | None = None
+    starvation: Starvation | None = None
 
     @property
     def converged(self) -> bool:
@@ -137,7 +146,7 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
     scales, coarser = problem.scales, found.coarser
     steps = tuple(step for solution in found.solutions for step in solution.steps)
     x, values = _nodal(found, shaped)
-    touching = values.pop("contact_pressure")
+    touching, supplied = values.pop("contact_pressure"), _supplied(found, shaped)
     return FilmSolution(
         x=scales.length * x,
         **values,
@@ -151,7 +160,10 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
         ),
         steps=steps,
         discretisation_error=found.error,
-        inlet_deficit=inlet_deficit(
+        # No pressure builds up upstream of a meniscus.
+        inlet_deficit=0.0
+        if supplied.get("film_fraction") is not None
+        else inlet_deficit(
             problem.fluid,
             problem.geometry,
             whole.level.mesh,
@@ -159,7 +171,19 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
             whole.final.coefficients.density * whole.state.thickness,
         ),
         max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
+        **supplied,
     )
+
+
+def _supplied(found: RefinedSolution, shaped: Shaped) -> dict[str, Any]:
+    """Content and supply of oil by the names of their attributes; empty where the supply is not given."""
+    if not isinstance(found, StarvedSolution):
+        return {}
+    fraction = found.fraction
+    return {
+        "film_fraction": None if fraction is None else shaped(fraction),
+        "starvation": found.starvation,
+    }
 
 
 def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any]]:

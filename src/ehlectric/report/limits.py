@@ -43,12 +43,16 @@ def _is_contact(case: AnyCase) -> bool:
 
 def _no_factor(case: AnyCase) -> bool:
     if isinstance(case, Case):
-        return True
+        return case.inlet is None
     return case.bearing.film_factor in ("none", 1.0) and case.bearing.supply in ("flooded", 1.0)
 
 
 def _factor(case: AnyCase) -> bool:
-    return not _no_factor(case)
+    return isinstance(case, BearingCase) and case.bearing.film_factor not in ("none", 1.0)
+
+
+def _starved(case: AnyCase) -> bool:
+    return isinstance(case, Case) and case.inlet is not None
 
 
 def _smooth(case: AnyCase) -> bool:
@@ -105,6 +109,12 @@ LIMITS = (
         "The film factor of the case stands for heat and starvation as far as it covers them; nothing else "
         "of them is computed.",
         _factor,
+    ),
+    Limit(
+        "heat and supply of oil",
+        "The film is isothermal: heating is left out, which makes real films thinner. The supply of oil is "
+        "that of the case; how it is replenished is not computed.",
+        _starved,
     ),
     Limit(
         "contacts by formula",

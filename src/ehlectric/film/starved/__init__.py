@@ -1,0 +1,1 @@
+"""Starved films: content of oil in the whole domain, and the iteration that finds the meniscus."""

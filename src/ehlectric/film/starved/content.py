@@ -1,0 +1,202 @@
+"""Oil content of a starved film: mass that fills a part of the gap, carried along by the surfaces.
+
+Every node fulfils the complementarity condition of Elrod and Adams in the whole domain:
+
+    P >= P_amb,   theta <= 1,   (P - P_amb) (1 - theta) = 0,
+    d(theta rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
+
+A node is filled (theta = 1) or cavitated (P = P_amb). Where the gap is cavitated, the mass m = theta rho H is
+carried along entrainment by an upstream difference of first order, which conserves it whatever the grid. It
+begins as the layer of oil at the inlet edge. The masses of a run of cavitated nodes follow from the rows of
+the Reynolds equation one after the other. They are eliminated: the row of the first filled node behind a run
+is the sum of the rows of the run and its own.
+
+H. G. Elrod, J. Lubr. Technol. 103 (1981) 350, doi:10.1115/1.3251669; F. Chevalier, A. A. Lubrecht,
+P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.flow import Flow
+from ehlectric.film.levels import Level
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.reynolds import ALONG, Stencil, residual
+
+
+@dataclass(frozen=True)
+class Supply:
+    """Oil that is supplied at the inlet edge, and the order of the wedge term.
+
+    Attributes
+    ----------
+    mass : ndarray, shape (ny,)
+        Mass rho H of the layer of oil at ambient pressure, dimensionless.
+    order : int
+        Order of the wedge term where the film is filled: 1, 2 or 3.
+    upwind : ndarray of bool, shape (nx, ny), or bool
+        Nodes whose mass enters no formula of a higher order, although they may be filled.
+    """
+
+    mass: Array
+    order: int
+    upwind: Mask | bool = False
+
+    def wedge(self, mesh: Mesh, filled: Mask) -> Stencil:
+        """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""
+        return content_wedge(mesh, filled & ~np.asarray(self.upwind), self.order)
+
+    def injected(self, level: Level) -> Supply:
+        """Supply on the next coarser grid, for its wedge term only."""
+        if isinstance(self.upwind, bool):
+            return self
+        return replace(self, upwind=level.inject(self.upwind.astype(float)) > 0.0)
+
+
+@dataclass(frozen=True)
+class Runs:
+    """Runs of successive cavitated nodes along entrainment.
+
+    Attributes
+    ----------
+    cavitated : ndarray of bool, shape (nx, ny)
+        Nodes of the runs.
+    before : ndarray of int, shape (nx, ny)
+        Index along x of the last filled node up to each node, or -1 where there is none.
+    """
+
+    cavitated: Mask
+    before: Array
+
+    @classmethod
+    def of(cls, filled: Mask) -> Runs:
+        """Runs of the nodes that are not filled, a mask (nx, ny)."""
+        number = np.arange(len(filled))[:, np.newaxis]
+        return cls(~filled, np.maximum.accumulate(np.where(filled, number, -1), axis=0))
+
+    def summed(self, values: Array) -> Array:
+        """Sum of values (nx, ny) over the run of each cavitated node up to the node, zero at filled nodes.
+
+        Examples
+        --------
+        >>> filled = np.array([[False], [False], [True], [False], [False]])
+        >>> Runs.of(filled).summed(np.array([[1.0], [2.0], [4.0], [8.0], [16.0]]))[:, 0].tolist()
+        [1.0, 3.0, 0.0, 8.0, 24.0]
+        """
+        total = np.cumsum(np.where(self.cavitated, values, 0.0), axis=0)
+        first = np.take_along_axis(total, np.maximum(self.before, 0), axis=0)
+        return np.where(self.cavitated, total - np.where(self.before < 0, 0.0, first), 0.0)
+
+    def reduced(self, rows: Array) -> Array:
+        """Rows (nx, ny) with the rows of the run before each node added; only those of filled nodes count.
+
+        Examples
+        --------
+        >>> filled = np.array([[False], [False], [True], [True]])
+        >>> Runs.of(filled).reduced(np.array([[1.0], [2.0], [4.0], [8.0]]))[2:, 0].tolist()
+        [7.0, 8.0]
+        """
+        reduced = rows.copy()
+        reduced[1:] += self.summed(rows)[:-1]
+        return reduced
+
+
+def content_wedge(mesh: Mesh, filled: Mask, order: int) -> Stencil:
+    """Upstream difference d/dX of the mass whose order falls to one where the film is not filled.
+
+    The mass at a face is that of the formula of highest order whose nodes are all filled. Behind the first
+    filled node it is the mean of the two nodes, and behind a cavitated node that of this node. The end rows
+    are zero.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Grid.
+    filled : ndarray of bool, shape (nx, ny)
+        Nodes where oil fills the gap.
+    order : int
+        Order of the wedge term where the film is filled: 1, 2 or 3.
+
+    Returns
+    -------
+    Stencil
+        Operator on the mass (nx, ny).
+
+    Examples
+    --------
+    The mass at the two last faces is extrapolated from the two nodes before:
+
+    >>> filled = np.array([[False], [True], [True], [True], [True]])
+    >>> content_wedge(Mesh.over(5, 0.0, 4.0), filled, 2).coefficients[:, 3, 0].tolist()
+    [0.5, -2.0, 1.5, 0.0]
+    """
+    far = np.zeros((mesh.x.size - 1, mesh.y.size))
+    near, ahead = np.ones_like(far), np.zeros_like(far)
+    if order > 1:
+        # A face behind a meniscus has no second filled node before it, and takes the mean of its two nodes.
+        first = filled[:-1] & filled[1:]
+        first[1:] &= ~filled[:-2]
+        near[first] = ahead[first] = 0.5
+        second = filled[1:-1] & filled[:-2]
+        far[1:][second], near[1:][second] = -0.5, 1.5
+        if order == 3:
+            third = second & filled[2:]
+            far[1:][third], near[1:][third], ahead[1:][third] = -0.125, 0.75, 0.375
+    c = np.zeros((ALONG, *mesh.shape))
+    c[0, 1:-1] = -far[:-1]
+    c[1, 1:-1] = far[1:] - near[:-1]
+    c[2, 1:-1] = near[1:] - ahead[:-1]
+    c[3, 1:-1] = ahead[1:]
+    return Stencil(c / mesh.dx)
+
+
+def of_filled(flow: Flow, filled: Mask) -> Flow:
+    """Flow whose density is zero where the film is not filled, so that its mass is that of filled nodes."""
+    k = flow.coefficients
+    density, density_p = (np.where(filled, values, 0.0) for values in (k.density, k.density_p))
+    return replace(flow, coefficients=replace(k, density=density, density_p=density_p))
+
+
+def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: Supply) -> Array:
+    """Rows of the Reynolds equation without the masses of cavitated nodes, shape (nx, ny).
+
+    The row of a cavitated node at the inlet edge is the layer of oil that enters there, over -dX.
+    """
+    wedge = supply.wedge(level.mesh, filled)
+    rows = residual(of_filled(flow, filled), wedge, thickness, level.mesh) - level.source
+    rows[0] = np.where(filled[0], 0.0, -supply.mass / level.mesh.dx)
+    return rows
+
+
+def content(runs: Runs, rows: Array, full: Array, dx: float) -> Array:
+    """Mass of oil at all nodes, shape (nx, ny).
+
+    Parameters
+    ----------
+    runs : Runs
+        Runs of cavitated nodes.
+    rows : ndarray, shape (nx, ny)
+        Rows of the Reynolds equation without the masses of cavitated nodes, as ``unreduced`` returns them.
+    full : ndarray, shape (nx, ny)
+        Mass rho H of the full gap.
+    dx : float
+        Grid spacing dX.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        rho H at filled nodes, theta rho H at cavitated ones.
+
+    Examples
+    --------
+    A layer is carried to the first filled node, to which no pressure drives oil:
+
+    >>> runs = Runs.of(np.array([[False], [False], [True]]))
+    >>> content(runs, np.array([[-0.2], [0.0], [0.0]]), np.ones((3, 1)), 0.5)[:, 0].tolist()
+    [0.1, 0.1, 1.0]
+    """
+    return np.where(runs.cavitated, -dx * runs.summed(rows), full)

@@ -1,0 +1,241 @@
+"""Starved film on a sequence of grids, with the flooded film beside it on each of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.accuracy.adaptive import UNKNOWN, RefinedSolution, refined_solution
+from ehlectric.film.accuracy.rough_film import rough_film_error
+from ehlectric.film.estimates import richardson
+from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.nested import NESTED_TOLERANCE, interpolated_state, levels_of, nested_iteration
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.starved.course import Course, StarvedFilm, at_centre_line
+from ehlectric.film.starved.ratio import film_of_ratio
+from ehlectric.film.starved.supply import OilSupply, Starvation
+from ehlectric.film.state import GridSolution, Progress, State
+
+# Largest number of times that the grid of a point contact is refined, over the whole domain.
+_MOST_REFINED_POINT = 2
+
+# Largest number of nodes of a line contact whose linear systems are solved directly, as for a flooded film.
+_DIRECT = 401
+
+# Multiple of the largest number of Newton steps of a flooded film: where the meniscus moves upstream, it does
+# so by few nodes in each step.
+_MORE = 3
+
+# Relative excess of the flow of a flooded film over its supply that is rounding.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class StarvedSolution(RefinedSolution):
+    """Starved film on its last grid, with those on the coarser ones and the flooded film.
+
+    Attributes
+    ----------
+    flooded : GridSolution or None
+        Flooded film on the last grid.
+    film : StarvedFilm or None
+        Starved film on the last grid; None if the flooded film needs no more oil than there is.
+    layer : ndarray, shape (ny,), or None
+        Thickness H of the layer of oil at the lines of the last grid.
+    """
+
+    flooded: GridSolution | None = None
+    film: StarvedFilm | None = None
+    layer: Array | None = None
+
+    @cached_property
+    def error(self) -> float | None:
+        """Relative discretisation error, estimated from the last grids; None if unknown.
+
+        The position of the meniscus is known to a node, which in a point contact changes the film.
+        """
+        order = self.problem.wedge_order
+        if self.film is None:
+            return rough_film_error(self.problem, self.last, self.coarser)
+        error = rough_film_error(replace(self.problem, wedge_order=max(2, order)), self.last, self.coarser)
+        if error is None or (self.problem.width is None and order > 1):
+            return error
+        films = [(grid.level.mesh, grid.state.thickness) for grid in (self.last, self.coarser[0])]
+        return max(error, richardson(films[0], films[1], order=1))
+
+    @property
+    def fraction(self) -> Array | None:
+        """Part of the gap that oil fills, shape (nx, ny); None for a flooded film."""
+        return None if self.film is None else self.film.fraction
+
+    @property
+    def starved_at_sides(self) -> bool:
+        """Whether no node beside the sides of the domain is filled, so that no pressure is cut off there."""
+        return self.film is not None and not np.any(self.film.content.filled[:, -2])
+
+    @property
+    def starvation(self) -> Starvation:
+        """Supply of oil and flooded film in SI units."""
+        assert self.flooded is not None and self.layer is not None
+        scales, mesh = self.problem.scales, self.last.level.mesh
+        meniscus = None if self.film is None else meniscus_of(mesh, self.film.content.filled)
+        flooded = self.flooded.state.thickness
+        return Starvation(
+            oil_layer=scales.thickness * at_centre_line(self.last.level, self.layer),
+            film_ratio=at_centre(mesh, self.last.state.thickness) / at_centre(mesh, flooded),
+            meniscus=None if meniscus is None else scales.length * meniscus,
+            flooded_minimum_thickness=scales.thickness * float(np.min(flooded)),
+            flooded_central_thickness=scales.thickness * at_centre(mesh, flooded),
+        )
+
+
+def meniscus_of(mesh: Mesh, filled: Mask) -> float | None:
+    """Position X of the first node on the line Y = 0 that oil fills; None if that is on the inlet edge."""
+    line = filled[:, int(np.argmin(np.abs(mesh.y)))]
+    first = int(np.argmax(line))
+    return float(mesh.x[first]) if first > 0 else None
+
+
+def supplied_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
+    """Solve the film of a problem: the starved one where its supply of oil is given, or the flooded one.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact.
+    progress : callable or None
+        Function that is called with (nodes, Newton step, residual) before every Newton step.
+
+    Returns
+    -------
+    RefinedSolution
+        Solutions on all grids; a ``StarvedSolution`` where the supply of oil is given.
+    """
+    if problem.supply is None:
+        return refined_solution(problem, progress)
+    return _refined(problem, problem.supply, progress)
+
+
+def _refined(problem: FilmProblem, supply: OilSupply, progress: Progress | None) -> StarvedSolution:
+    """Starved film whose grid is refined until its discretisation error is below the target.
+
+    The flooded film is solved on each grid first. The grid is refined over the whole domain, that of a point
+    contact at most twice.
+    """
+    flooded = nested_iteration(problem, progress)
+    found = _on_grids(problem, supply, flooded, [], progress)
+    target, doubled, unknown = problem.target_error, 0, 0
+    while target is not None and (found.error is None or found.error > target):
+        doubled, unknown = doubled + 1, unknown + 1 if found.error is None else 0
+        if unknown >= UNKNOWN:
+            break
+        if problem.width is not None and doubled > _MOST_REFINED_POINT:
+            break
+        finer = problem.doubled()
+        if finer.nodes > problem.most_nodes or found.last.status != "converged":
+            break
+        problem, flooded = finer, nested_iteration(finer, progress, flooded)
+        found = _on_grids(problem, supply, flooded, found.solutions, progress, found.film)
+    return found
+
+
+def _on_grids(
+    problem: FilmProblem,
+    supply: OilSupply,
+    flooded: list[GridSolution],
+    known: list[GridSolution],
+    progress: Progress | None,
+    film: StarvedFilm | None = None,
+) -> StarvedSolution:
+    """Starved film on all grids of a problem that are finer than the known ones, from the coarsest on.
+
+    ``film`` is the starved film on the finest known grid.
+    """
+    solutions, last = list(known), film
+    coarsest = known[-1].level.nodes if known else 0
+    found = None
+    for posed, full in _grids(problem, flooded, coarsest):
+        finest = posed.nodes == problem.nodes
+        course = _course(posed, full, progress, finest=finest)
+        near = None if last is None else _near(course, last)
+        layer, last = _supplied(course, supply, near, last)
+        solution = full if last is None else last.solution
+        solutions.append(solution)
+        found = StarvedSolution(posed, solutions, flooded=full, film=last, layer=layer)
+        if last is not None and last.solution.status != "converged":
+            last = None
+    assert found is not None
+    return found
+
+
+def _grids(
+    problem: FilmProblem, flooded: list[GridSolution], coarsest: int
+) -> list[tuple[FilmProblem, GridSolution]]:
+    """Problem and flooded film on each grid with more nodes than ``coarsest``, from the coarsest on."""
+    on_grid = {solution.level.nodes: solution for solution in flooded}
+    grids = []
+    while problem.nodes in on_grid and problem.nodes > coarsest:
+        grids.append((problem, on_grid[problem.nodes]))
+        width = None if problem.width is None else problem.width.coarser()
+        problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
+    return grids[::-1]
+
+
+def _course(
+    problem: FilmProblem, flooded: GridSolution, progress: Progress | None, *, finest: bool
+) -> Course:
+    """Equations of the starved film on the grid of a problem."""
+    levels = levels_of(problem)
+    mesh = levels[0].mesh
+    direct = problem.width is None and problem.nodes <= _DIRECT
+    return Course(
+        fluid=problem.fluid,
+        levels=levels[:1] if direct else levels,
+        order=problem.wedge_order,
+        flooded=flooded,
+        dry_pressure=np.broadcast_to(problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape),
+        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        max_iterations=_MORE * problem.max_iterations,
+        progress=progress,
+    )
+
+
+def _supplied(
+    course: Course, supply: OilSupply, near: tuple[State, Mask] | None, last: StarvedFilm | None
+) -> tuple[Array, StarvedFilm | None]:
+    """Layer of oil on a grid and its film; None where the flooded film needs no more oil than there is."""
+    if supply.layer is None:
+        assert supply.film_ratio is not None
+        return film_of_ratio(course, supply.film_ratio, near, last)
+    layer = supply.layer(course.level.mesh.y)
+    return layer, None if is_flooded(course, layer) else course.solved(layer, near)
+
+
+def is_flooded(course: Course, layer: Array) -> bool:
+    """Whether the flooded film of a course takes no more oil at any line than a layer (ny,) supplies."""
+    flooded, mesh = course.flooded, course.level.mesh
+    if flooded.status != "converged":
+        return False
+    flow = flooded.final.flow
+    mass = flow.coefficients.density * flooded.state.thickness
+    edge = mass[0] if course.order == 1 else 0.5 * (mass[0] + mass[1])
+    taken = edge - mesh.dx * flow.along.flux[0]
+    lines = mesh.inner[1]
+    return bool(np.all(flow.coefficients.density[0] * layer >= (1.0 - _ROUNDING) * taken, where=lines))
+
+
+def _near(course: Course, last: StarvedFilm) -> tuple[State, Mask]:
+    """State and filled nodes of a coarser grid, interpolated to the grid of a course."""
+    state = interpolated_state(course.level, last.solution)
+    state = state.lifted(0.5 * float(last.solution.state.thickness.min()))
+    coarse, mesh = last.solution.level.mesh, course.level.mesh
+    if coarse.y.size == 1:
+        part = np.interp(mesh.x, coarse.x, last.content.filled[:, 0])[:, np.newaxis]
+    else:
+        at = np.stack(np.meshgrid(mesh.x, np.minimum(mesh.y, coarse.y[-1]), indexing="ij"), axis=-1)
+        part = RegularGridInterpolator((coarse.x, coarse.y), last.content.filled.astype(float))(at)
+    return state, part > 0.5
