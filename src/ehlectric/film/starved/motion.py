@@ -20,13 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.characteristics import (
-    SAME_NODE,
-    in_time,
-    lagrange_weights,
-    mass_after,
-    parabola_before,
-)
+from ehlectric.film.characteristics import SAME_NODE, in_time, lagrange_weights, mass_after, parabola_before
 from ehlectric.film.levels import Level
 from ehlectric.film.reynolds import ALONG, Stencil
 from ehlectric.film.starved.course import StarvedFilm
@@ -168,11 +162,10 @@ def supplied(solution: GridSolution, mass: Array, layer: Array) -> Oil:
     full = solution.final.coefficients.density * solution.state.thickness
     filled = solution.final.full_film.copy()
     filled[0] = layer >= full[0]
-    mass = mass.copy()
-    mesh = solution.level.mesh
-    sides = mesh.edge & ~np.isin(np.arange(mesh.x.size), (0, mesh.x.size - 1))[:, np.newaxis]
-    sides[0] = ~filled[0]
-    mass[sides] = np.minimum(full, layer)[sides]
+    layered = solution.level.mesh.edge.copy()
+    layered[0], layered[-1] = ~filled[0], False
+    mass = np.where(layered, np.minimum(full, layer), mass)
+    mass[-1] = np.minimum(full[-1], mass[-2])
     return Oil(mass, filled)
 
 
@@ -185,6 +178,7 @@ def stationary_oil(film: StarvedFilm) -> Oil:
     content = film.content
     mass, filled = content.mass.copy(), content.filled
     first = ~filled[1:] & filled[:-1]
+    first[0] = False  # its flow is of first order in the time steps too
     full = content.residual.coefficients.density * film.solution.state.thickness
     mass[1:][first] = ((2.0 * mass[1:] + mass[:-1]) / 3.0)[first]
     return Oil(np.clip(mass, 0.0, full), filled)
