@@ -254,9 +254,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "hardness-low": Cause("The hardness of the surfaces is below the Hertz pressure."),
         "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
         "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
-        "estimated-alpha": Cause(
-            "The pressure-viscosity coefficient is estimated from the type of base oil."
-        ),
+        "estimated-alpha": Cause("The pressure-viscosity coefficient is estimated from the base oil."),
         # Rough surfaces
         "spacing-irregular": Cause("Samples may be missing in a file of heights."),
         "voids-filled": Cause("Voids in a measured surface were filled.", "note"),
@@ -283,6 +281,9 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "inlet-far-too-short": Cause("Above 20 % of the inlet pressure builds up upstream.", "severe"),
         "domain-too-small": Cause("The domain is too small for the contact."),
         "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
+        "oil-layer-thick": Cause("The layer of oil is thicker than what the contact takes.", "note"),
+        "meniscus-at-edge": Cause("The meniscus is at the edge of the domain or inside the Hertz zone."),
+        "film-ratio-missed": Cause("No layer of oil was found that gives the ratio of films asked for."),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
         "field-unresolved": Cause("The estimated error of the maximum field is above 2 %, or unknown."),

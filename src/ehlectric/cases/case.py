@@ -17,6 +17,7 @@ from ehlectric.cases.changes import displace_alternatives, drop_geometry, flatte
 from ehlectric.cases.contact import Contact
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
+from ehlectric.cases.films.inlet import Inlet
 from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
@@ -53,7 +54,7 @@ class Case(Tabled, Table):
         Title of tables and figures.
     roughness : sequence of mapping, optional
         Tables of the rough surfaces.
-    electric, discharge, meter, motion, grid, solver : mapping, optional
+    electric, discharge, meter, inlet, motion, grid, solver : mapping, optional
         Further tables, as in a case file.
 
     Raises
@@ -63,15 +64,9 @@ class Case(Tabled, Table):
 
     Examples
     --------
-    >>> case = Case(
-    ...     contact={
-    ...         "reduced_radius": "14.1 mm",
-    ...         "reduced_modulus": "226 GPa",
-    ...         "max_hertz_pressure": "1 GPa",
-    ...         "entrainment_speed": "4 m/s",
-    ...     },
-    ...     lubricant={"base": "paper"},
-    ... )
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case(contact=contact, lubricant={"base": "paper"})
     >>> case
     <Case line contact, max_hertz_pressure 1 GPa, entrainment_speed 4 m/s>
     >>> case.replace({"contact.entrainment_speed": "2 m/s"}).contact.entrainment_speed
@@ -90,6 +85,7 @@ class Case(Tabled, Table):
             electric: Electric | Keys = ...,
             discharge: Discharge | Keys | None = ...,
             meter: Meter | Keys | None = ...,
+            inlet: Inlet | Keys | None = ...,
             motion: Motion | Keys | None = ...,
             grid: Grid | Keys = ...,
             solver: Solver | Keys = ...,
@@ -109,6 +105,7 @@ class Case(Tabled, Table):
     electric: Electric = Electric()
     discharge: Discharge | None = None
     meter: Meter | None = None
+    inlet: Inlet | None = None
     motion: Motion | None = None
     grid: Grid = Grid()
     solver: Solver = Solver()
@@ -135,9 +132,11 @@ class Case(Tabled, Table):
             length = None if self.discharge is None else self.discharge.length
             moves = self.motion is not None
             self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
+        if self.inlet is not None:
+            others = {"moves": self.motion is not None, "metered": self.meter is not None}
+            self.inlet.check(self.contact.geometry, **others)
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
-        if self.motion is not None:
             object.__setattr__(self, "grid", self.grid.fixed())
         return self
 
@@ -185,6 +184,7 @@ class Case(Tabled, Table):
         electric: Electric | Keys | None = None,
         discharge: Discharge | Keys | None = None,
         meter: Meter | Keys | None = None,
+        inlet: Inlet | Keys | None = None,
         grid: Grid | Keys | None = None,
         solver: Solver | Keys | None = None,
         **contact: Unpack[LineKeys],
@@ -197,7 +197,7 @@ class Case(Tabled, Table):
             Name of a lubricant of the library, or its table.
         title : str, optional
             Title of tables and figures.
-        roughness, electric, discharge, meter, grid, solver : optional
+        roughness, electric, discharge, meter, inlet, grid, solver : optional
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
@@ -226,7 +226,7 @@ class Case(Tabled, Table):
         0.0141
         """
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
-        given |= tables(meter=meter, grid=grid, solver=solver)
+        given |= tables(meter=meter, inlet=inlet, grid=grid, solver=solver)
         table = {"geometry": "line", **contact}
         return LineCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
 
@@ -241,6 +241,7 @@ class Case(Tabled, Table):
         electric: Electric | Keys | None = None,
         discharge: Discharge | Keys | None = None,
         meter: Meter | Keys | None = None,
+        inlet: Inlet | Keys | None = None,
         grid: Grid | Keys | None = None,
         solver: Solver | Keys | None = None,
         **contact: Unpack[PointKeys],
@@ -253,7 +254,7 @@ class Case(Tabled, Table):
             Name of a lubricant of the library, or its table.
         title : str, optional
             Title of tables and figures.
-        roughness, electric, discharge, meter, grid, solver : optional
+        roughness, electric, discharge, meter, inlet, grid, solver : optional
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
@@ -283,7 +284,7 @@ class Case(Tabled, Table):
         <PointCase point contact, load 20 N, entrainment_speed 2 m/s>
         """
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
-        given |= tables(meter=meter, grid=grid, solver=solver)
+        given |= tables(meter=meter, inlet=inlet, grid=grid, solver=solver)
         table = {"geometry": "point", **contact}
         return PointCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
 

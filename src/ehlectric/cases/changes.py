@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from ehlectric.cases.contact import CONTACT_ALTERNATIVES, ONLY
 from ehlectric.cases.discharge import STRENGTHS, TABLES
+from ehlectric.cases.films.inlet import SUPPLIES
 from ehlectric.cases.meter import FILLINGS
 from ehlectric.cases.oils.alternatives import displace_oil
 from ehlectric.errors import InputError, shown
@@ -164,6 +165,7 @@ def drop_geometry(table: dict[str, Any], geometry: str) -> None:
         drop(table["contact"], key)
     drop(table, "discharge.length")
     drop(table, "meter.length")
+    drop(table, "inlet.layer_table")
     table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
 
 
@@ -178,6 +180,7 @@ def displace_alternatives(table: dict[str, Any], changes: Mapping[str, Any], geo
         ),
         "discharge": (STRENGTHS, TABLES),
         "meter": (FILLINGS,),
+        "inlet": (SUPPLIES,),
         "motion": ((("passes",), ("duration",)),),
         "grid": tuple((("error",), (key,)) for key in ("nodes", "nodes_y", "refine")),
     }

@@ -20,6 +20,7 @@ from ehlectric.cases.bearings.summits import Summits
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
+from ehlectric.cases.films.inlet import Inlet, LayerTable
 from ehlectric.cases.grid import Electric, Grid, Solver
 from ehlectric.cases.meter import Coating, Meter
 from ehlectric.cases.motion import Motion
@@ -119,6 +120,8 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "meter.coating.thickness": ("thickness of the coating", ""),
     "meter.coating.relative_permittivity": ("relative permittivity of the coating", ""),
     "meter.coating.strength": ("dielectric strength of the coating", ""),
+    "inlet.oil_layer": ("layer of oil", r"$h_\mathrm{oil}$"),
+    "inlet.film_ratio": ("starved / flooded central film", r"$h_\mathrm{c}/h_\mathrm{c,ff}$"),
     "grid.nodes": ("nodes", ""),
 }
 
@@ -137,6 +140,8 @@ TABLES: Mapping[str, type[Table]] = {
     "discharge.pit": Pit,
     "meter": Meter,
     "meter.coating": Coating,
+    "inlet": Inlet,
+    "inlet.layer_table": LayerTable,
     "motion": Motion,
     "grid": Grid,
     "solver": Solver,

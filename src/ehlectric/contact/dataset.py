@@ -14,6 +14,7 @@ from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.solution import Solution
 from ehlectric.contact.spots.mechanics import Coarser
+from ehlectric.contact.starved.stored import check_starvation, starvation_attribute, starvation_of
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.state import NewtonStep, Status
@@ -84,6 +85,7 @@ def on_nodes(*grid: str) -> Variables:
         ),
         "cavitated": ("cavitated", grid, "pressure held at ambient", "1"),
         "contact_pressure": ("contact_pressure", grid, "part of the pressure that asperities carry", "Pa"),
+        "film_fraction": ("film_fraction", grid, "part of the gap that oil fills", "1"),
     }
 
 
@@ -180,6 +182,7 @@ _VALUES = {
     "pressure": "not negative",
     "thickness": "positive",
     "density": "positive",
+    "film_fraction": "not negative",
     "permittivity": "positive",
     "cavitated": "0 or 1",
     "strength": "not negative",
@@ -203,7 +206,7 @@ _NUMBERS: Mapping[str, Callable[[Any], bool]] = {
 }
 
 # Variables that only some solutions have.
-_NOT_ALWAYS = ("contact_pressure",)
+_NOT_ALWAYS = ("contact_pressure", "film_fraction")
 
 
 def variables(
@@ -277,6 +280,7 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
                 "film_solver": solution.film_solver,
                 "field_solver": solution.field_solver,
                 "seconds": json.dumps([solution.film_seconds, solution.field_seconds]),
+                **starvation_attribute(solution.film.starvation),
                 **attributes(layout, solution.film, solution.field),
             },
         )
@@ -357,6 +361,7 @@ def check(layout: Layout, dataset: xr.Dataset) -> None:
     if "coarser" in dataset.attrs:
         shares = {each.name: partial(is_number, values="not negative") for each in fields(Coarser)}
         json_of(dataset.attrs, "coarser", partial(is_table, columns=shares))
+    check_starvation(dataset.attrs)
     check_warnings(dataset.attrs)
     if "laws" in dataset.attrs:
         json_of(dataset.attrs, "laws", is_laws)
@@ -382,6 +387,7 @@ def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
     """Arguments of the class of the film, read from a dataset, without the scales of the film."""
     arrays: dict[str, Any] = dict(_arrays(dataset, layout.film))
     arrays["cavitated"] = arrays["cavitated"].astype(bool)
+    arrays["starvation"] = starvation_of(dataset.attrs)
     history = zip(*(dataset[name].values for name in _HISTORY), strict=True)
     steps = tuple(NewtonStep(int(n), float(residual), int(krylov)) for n, residual, krylov in history)
     return {**arrays, **json.loads(dataset.attrs["film"]), "steps": steps}

@@ -6,6 +6,7 @@ from ehlectric.cases.oils.keys import OIL_KEYS
 from ehlectric.cases.result_key import Keys, ResultKey, under
 from ehlectric.contact.meter.keys import METER_KEYS
 from ehlectric.contact.spots import keys as spot_keys
+from ehlectric.contact.starved.keys import STARVED_KEYS
 from ehlectric.discharge import keys as discharge_keys
 from ehlectric.surfaces.keys import LINE_SURFACE, MAP_STATISTICS, POINT_SURFACE, PROFILE_STATISTICS
 
@@ -81,6 +82,7 @@ _FILM: Keys = {
     ),
     "solver": ResultKey('solver of the film: "ehlectric" or "paper"'),
     "nodes": ResultKey("nodes of the film, of the last grid where it is refined"),
+    **STARVED_KEYS,
 }
 _POINT_FILM: Keys = {
     **_FILM,

@@ -14,6 +14,7 @@ from ehlectric.cases.grid import MOST_DEGREE, Solver
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.memory import FIELD_BYTES, POINT_FIELD_BYTES
 from ehlectric.contact.setup import Setup
+from ehlectric.contact.starved.supply import is_even, oil_supply
 from ehlectric.errors import InputError
 from ehlectric.field.columns import columns_within, thinned
 from ehlectric.field.poisson import ATOM, FieldProblem
@@ -108,12 +109,12 @@ def point_film_problem(
 
 
 def _symmetric(setup: Case | Setup, conditions: PointConditions, rough: Sequence[RoughMap]) -> bool:
-    """Whether the surfaces are symmetric about y = 0 at the nodes of the film."""
-    if not rough:
-        return True
+    """Whether surfaces and supply of oil are symmetric about y = 0 at the nodes of the film."""
     domain, grid = domain_of(setup, conditions), setup.first_grid
-    x = np.linspace(domain.inlet, domain.outlet, grid.nodes_along)
     y = np.linspace(-domain.side, domain.side, grid.nodes_across)
+    if not rough or not is_even(setup.inlet, y):
+        return is_even(setup.inlet, y)
+    x = np.linspace(domain.inlet, domain.outlet, grid.nodes_along)
     heights = heights_of(rough, x, y)
     difference = np.max(np.abs(heights - heights[:, :, ::-1]))
     return bool(difference <= _ROUNDING * np.max(np.abs(heights)))
@@ -274,6 +275,7 @@ def smooth_problem(
         scales=scales_of(setup, conditions),
         boundary_film=conditions.boundary_film / conditions.thickness_scale,
         hardness=np.inf if conditions.hardness is None else conditions.hardness / conditions.max_pressure,
+        supply=oil_supply(setup.inlet, conditions),
     )
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.discharge import Discharge
+from ehlectric.cases.films.inlet import Inlet
 from ehlectric.cases.grid import Electric, Grid, Solver
 from ehlectric.cases.roughness import Roughness
 from ehlectric.lubricant.oil import Oil
@@ -34,6 +35,8 @@ class Setup:
         Tables of the rough surfaces; empty if both surfaces are smooth.
     title : str
         Title of files and figures.
+    inlet : Inlet or None
+        Oil that is supplied to a starved contact; None if the inlet is flooded.
     """
 
     oil: Oil
@@ -43,6 +46,7 @@ class Setup:
     discharge: Discharge | None = None
     roughness: tuple[Roughness, ...] = ()
     title: str = ""
+    inlet: Inlet | None = None
 
     @property
     def first_grid(self) -> Grid:
@@ -60,6 +64,7 @@ class Setup:
             discharge=case.discharge,
             roughness=case.roughness,
             title=case.title,
+            inlet=case.inlet,
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -68,7 +73,8 @@ class Setup:
             name: getattr(self, name).model_dump(mode="json", exclude_none=True)
             for name in ("electric", "grid", "solver")
         }
-        if self.discharge is not None:
-            tables["discharge"] = self.discharge.model_dump(mode="json", exclude_none=True)
+        for name, table in (("discharge", self.discharge), ("inlet", self.inlet)):
+            if table is not None:
+                tables[name] = table.model_dump(mode="json", exclude_none=True)
         rough = [table.model_dump(mode="json", exclude_none=True) for table in self.roughness]
         return {"title": self.title, "roughness": rough, "lubricant": dict(self.oil.inputs)} | tables

@@ -28,6 +28,7 @@ from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Smooth
 from ehlectric.contact.spots.mechanics import Coarser, hertz_weights, load_of, spots_of
 from ehlectric.contact.spots.warnings import spot_warnings
+from ehlectric.contact.starved.warnings import starvation_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
 from ehlectric.discharge.limits import field_warnings
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
@@ -285,6 +286,7 @@ def _solved(
             *contact.surface_warnings(films.setup),
             *films.warnings,
             *film_warnings(case, film),
+            *starvation_warnings(films.setup, film),
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(case, film, field),
             *meter_warnings(case, film),

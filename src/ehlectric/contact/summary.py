@@ -10,6 +10,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Solution
+from ehlectric.contact.starved.keys import starved_summary
 from ehlectric.discharge.leakage import conductivity_of
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.runtime.files import plain
@@ -80,7 +81,8 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "max_pressure_error",
     )
     more = {"discretisation_error": solution.film_error, "target_error": solution.case.grid.target}
-    return {name: getattr(film, name) for name in names} | more | {"solver": solution.film_solver}
+    more |= {"solver": solution.film_solver} | starved_summary(film.starvation)
+    return {name: getattr(film, name) for name in names} | more
 
 
 def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:

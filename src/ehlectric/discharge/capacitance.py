@@ -56,7 +56,9 @@ def zone_capacitances(
         Capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact, by the filling
         ("full", "fingers", "layers") and by the name of the zone.
     """
-    fraction = oil_fraction(film.thickness, film.density, film.cavitated)
+    fraction = film.film_fraction
+    if fraction is None:
+        fraction = oil_fraction(film.thickness, film.density, film.cavitated)
     gap = np.maximum(film.thickness, ATOM)
     by_outlet = {}
     for outlet in OUTLETS:

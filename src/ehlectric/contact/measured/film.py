@@ -96,6 +96,8 @@ def contact_factors(
     """
     if case.motion is not None:
         raise InputError("motion", "is not used with a measurement", takes="a stationary contact")
+    if case.inlet is not None:
+        raise InputError("inlet", "is not used with a measurement", takes="a flooded contact")
     if not measured.has("film"):
         raise InputError.missing(
             f"{measured.source}: film", "a column 'film [nm]' beside the entrainment speed"

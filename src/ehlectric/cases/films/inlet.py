@@ -1,0 +1,83 @@
+"""Table ``inlet`` of a case: oil that is supplied to a starved contact."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.quantity import Quantities, Quantity
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
+
+_THICKNESS = Quantity("m", least=1e-9, most=1e-2, reason="of the oil on both surfaces together")
+_ACROSS = Quantity("m", least=-1.0, most=1.0, reason="across entrainment, from the centre of the contact")
+
+# Alternative keys of the supply of oil. A case gives one of them.
+SUPPLIES = (("oil_layer",), ("layer_table",), ("film_ratio",))
+
+
+class LayerTable(Table):
+    """Layer of oil at the inlet of a point contact over the position across entrainment, linear between."""
+
+    y: Annotated[tuple[float, ...], Quantities(_ACROSS, least=2)]
+    thickness: Annotated[tuple[float, ...], Quantities(_THICKNESS, least=2)]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if any(b <= a for a, b in zip(self.y, self.y[1:], strict=False)):
+            raise InputError("y", got=list(self.y), takes="increasing values")
+        if len(self.thickness) != len(self.y):
+            got = f"{len(self.thickness)} values over {len(self.y)} of y"
+            raise InputError("thickness", got=got, takes="as many")
+        return self
+
+
+class Inlet(Table):
+    """Oil that is supplied to a stationary contact: a layer on its surfaces, or the film that it gives.
+
+    Examples
+    --------
+    >>> Inlet.from_dict({"oil_layer": "200 nm"}).oil_layer
+    2e-07
+    """
+
+    oil_layer: Annotated[float, _THICKNESS] | None = None
+    layer_table: LayerTable | None = None
+    film_ratio: (
+        Annotated[
+            float,
+            Quantity("", least=1e-3, most=1.0, reason="starved over flooded central film", fraction=True),
+        ]
+        | None
+    ) = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        names = [row[0] for row in SUPPLIES]
+        given = [name for name in names if getattr(self, name) is not None]
+        if len(given) != 1:
+            together = f"{' and '.join(given)} together" if given else None
+            raise InputError(names[0], got=together, takes=f"one of {', '.join(names)}")
+        return self
+
+    def check(self, geometry: str, *, moves: bool, metered: bool) -> None:
+        """Check that the table fits the other tables of its case.
+
+        Parameters
+        ----------
+        geometry : str
+            Geometry of the contact, "line" or "point".
+        moves, metered : bool
+            Whether the case has the tables ``motion`` and ``meter``.
+
+        Raises
+        ------
+        InputError
+            If a line contact has a layer over y, or the case has one of these tables.
+        """
+        if self.layer_table is not None and geometry == "line":
+            raise InputError("inlet.layer_table", got="that of a line contact", takes="inlet.oil_layer")
+        for given, table in ((moves, "motion"), (metered, "meter")):
+            if given:
+                raise InputError("inlet", got=f"[inlet] beside [{table}]", takes="a flooded contact there")
