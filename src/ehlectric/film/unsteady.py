@@ -86,6 +86,12 @@ class Instant:
         """Mass of oil, and the nodes that it fills."""
         return Oil(self.mass, self.full_film)
 
+    @property
+    def oil_fraction(self) -> Array:
+        """Part of the gap that oil fills, 0 to 1, shape (nx, ny)."""
+        part = self.mass / (self.density * self.state.thickness)
+        return np.where(self.full_film, 1.0, np.clip(part, 0.0, 1.0))
+
 
 @dataclass(frozen=True)
 class Effort:
