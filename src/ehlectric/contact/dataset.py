@@ -102,6 +102,10 @@ def on_columns(*grid: str) -> Variables:
     }
 
 
+def _density(grid: tuple[str, ...], long_name: str) -> Variables:
+    return {"capacitance_density": ("capacitance_density", grid, long_name, "F/m^2")}
+
+
 X = {"x": ("x", ("x",), "position along entrainment", "m")}
 X_FIELD = {"x_field": ("x", ("x_field",), "position along entrainment, columns of the field", "m")}
 S = {"s": ("s", ("s",), "fraction of the gap, from surface 1 to surface 2", "1")}
@@ -130,12 +134,7 @@ LINE_LAYOUT = Layout(
         **S,
         "y": ("y", ("x_field", "s"), "height", "m"),
         **on_columns("x_field"),
-        "capacitance_density": (
-            "capacitance_density",
-            ("x_field",),
-            "capacitance per length and width",
-            "F/m^2",
-        ),
+        **_density(("x_field",), "capacitance per length and width"),
     },
     film_grid=("x",),
     field_grid=("x_field",),
@@ -153,12 +152,7 @@ POINT_LAYOUT = Layout(
         "z": ("z", ("x_field", "y_field", "s"), "height", "m"),
         **on_columns("x_field", "y_field"),
         "field_z": ("field_z", ("x_field", "y_field", "s"), "electric field along z", "V/m"),
-        "capacitance_density": (
-            "capacitance_density",
-            ("x_field", "y_field"),
-            "capacitance per area",
-            "F/m^2",
-        ),
+        **_density(("x_field", "y_field"), "capacitance per area"),
     },
     film_grid=("x", "y"),
     field_grid=("x_field", "y_field"),

@@ -190,7 +190,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
             warnings=self.warnings,
             error=self.film_error,
             field_error=self.field.strength_error,
-            flooded=self.conditions.film_factor == 1.0,
+            flooded=self.conditions.film_factor == 1.0 and self.film.starvation is None,
         )
 
     @cached_property

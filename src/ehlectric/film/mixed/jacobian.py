@@ -219,12 +219,12 @@ def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
 def _factored(stencil: Stencil, nodes: Mask) -> SuperLU:
     """Factorisation of a stencil between nodes; an error where its matrix is singular."""
     try:
-        return splu(_matrix(stencil, nodes))
+        return splu(stencil_matrix(stencil, nodes))
     except RuntimeError as error:
         raise np.linalg.LinAlgError("the flow of the oil has a singular matrix") from error
 
 
-def _matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:
+def stencil_matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:
     """Sparse matrix of a stencil over the nodes of a mask (nx, ny)."""
     number = np.full(nodes.shape, -1)
     number[nodes] = np.arange(int(nodes.sum()))

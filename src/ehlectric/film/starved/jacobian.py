@@ -6,10 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from scipy.sparse.linalg import SuperLU, splu
+
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
+from ehlectric.film.mixed.jacobian import stencil_matrix, without_columns
 from ehlectric.film.multigrid import Linearised, cycled, resolved_nodes
 from ehlectric.film.reynolds import Stencil, linearise, poiseuille_weight
 from ehlectric.film.starved.content import Runs, Supply, of_filled
@@ -29,12 +32,15 @@ class StarvedJacobian:
         Derivatives of all rows of the finest grid by P and by H, before the elimination.
     runs : Runs
         Runs of cavitated nodes on the finest grid.
+    inlet : InletFlow or None
+        Flow at fixed gap, for a point contact; None for a line contact.
     """
 
     levels: list[Linearised]
     by_p: Stencil
     by_h: Stencil
     runs: Runs
+    inlet: InletFlow | None
 
     @classmethod
     def of(
@@ -51,7 +57,10 @@ class StarvedJacobian:
             at_faces = flow(fluid, pressure, thickness, level.mesh)
             stencils = _stencils(level, at_faces, thickness, on_edge, supply)
             jacobians.append(_linearised(level, stencils, at_faces, thickness, on_edge))
-        return cls(jacobians, by_p, by_h, Runs.of(filled))
+        runs, inlet = Runs.of(filled), None
+        if levels[0].mesh.dy is not None:
+            inlet = InletFlow.of(jacobians[0], by_p, runs)
+        return cls(jacobians, by_p, by_h, runs, inlet)
 
     @property
     def finest(self) -> Linearised:
@@ -70,8 +79,59 @@ class StarvedJacobian:
         return np.append(self.finest.scale * rows, load)
 
     def precondition(self, image: Array) -> Array:
-        """Approximate change of P and H00 from a scaled residual and load, by one V-cycle."""
-        return cycled(self.levels, image)
+        """Approximate change of P and H00 from a scaled residual and load.
+
+        A V-cycle; in a point contact, what it leaves where the Poiseuille term dominates is solved at fixed
+        gap, with the masses of cavitated nodes across which oil flows to the sides.
+        """
+        change = cycled(self.levels, image)
+        if self.inlet is not None:
+            left = (image - self.image(change))[:-1].reshape(self.finest.full_film.shape)
+            change[:-1] += self.inlet(self.finest.unscale * left).ravel()
+        return change
+
+
+@dataclass(frozen=True)
+class InletFlow:
+    """Flow at fixed gap where the Poiseuille term dominates, with the masses of cavitated nodes.
+
+    Attributes
+    ----------
+    opened : ndarray of bool, shape (nx, ny)
+        Filled nodes where the Poiseuille term dominates.
+    unknown : ndarray of bool, shape (nx, ny)
+        These nodes, and the cavitated nodes from which mass reaches filled ones.
+    factors : SuperLU
+        Factorisation of their rows by the pressure of the filled and the mass of the cavitated nodes.
+    """
+
+    opened: Mask
+    unknown: Mask
+    factors: SuperLU
+
+    @classmethod
+    def of(cls, finest: Linearised, by_p: Stencil, runs: Runs) -> InletFlow | None:
+        """Flow at a state, from the rows by P before the elimination; None where its matrix is singular."""
+        level = finest.level
+        opened = finest.full_film & (finest.poiseuille > level.rate)
+        c = without_columns(by_p, ~opened).coefficients
+        coupled = runs.summed(np.abs(c).sum(axis=0)) > 0.0
+        # The mass of a cavitated node is carried to the node behind it.
+        c[2][runs.cavitated] = level.rate
+        c[1][1:][runs.cavitated[:-1]] = -level.rate
+        unknown = opened | (coupled & level.mesh.inner)
+        if not opened.any():
+            return None
+        try:
+            return cls(opened, unknown, splu(stencil_matrix(Stencil(c), unknown)))
+        except RuntimeError:
+            return None
+
+    def __call__(self, rows: Array) -> Array:
+        """Change of P (nx, ny) for a change of the reduced rows (nx, ny), zero where others dominate."""
+        change = np.zeros_like(rows)
+        change[self.unknown] = self.factors.solve(np.where(self.opened, rows, 0.0)[self.unknown])
+        return np.where(self.opened, change, 0.0)
 
 
 def _stencils(

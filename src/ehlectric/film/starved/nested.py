@@ -26,6 +26,10 @@ _MOST_REFINED_POINT = 2
 # Largest number of nodes of a line contact whose linear systems are solved directly, as for a flooded film.
 _DIRECT = 401
 
+# Multiple of the largest number of Newton steps of a flooded film: where the meniscus moves upstream, it does
+# so by few nodes in each step.
+_MORE = 3
+
 # Relative excess of the flow of a flooded film over its supply that is rounding.
 _ROUNDING = 1e-9
 
@@ -191,7 +195,7 @@ def _course(
         flooded=flooded,
         dry_pressure=np.broadcast_to(problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape),
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
-        max_iterations=problem.max_iterations,
+        max_iterations=_MORE * problem.max_iterations,
         progress=progress,
     )
 

@@ -30,6 +30,9 @@ _SMALLEST_GAP = 1e-8
 # Weight of the relative load imbalance in the residual, as in ``ehlectric.film.newton``.
 _LOAD_WEIGHT = 10.0
 
+# Relative tolerance of the linear systems of a point contact while the filled nodes change.
+_UNSETTLED = 1e-2
+
 # Excess of the content over the full gap, relative, and pressure below ambient over p_h, that are rounding.
 _OVERFLOW, _TENSION = 1e-10, 1e-13
 
@@ -115,7 +118,8 @@ def starved_newton(
             progress(level.nodes, len(steps), now.norm)
         state, now = _without_spike(fluid, level, state, now, supply)
         jacobian = StarvedJacobian.of(fluid, levels, state, now.residual, now.filled, supply)
-        dp, dh00, krylov = _direction(fluid, jacobian, state, now)
+        close = LINEAR_TOLERANCE if settled or level.mesh.dy is None else _UNSETTLED
+        dp, dh00, krylov = _direction(fluid, jacobian, state, now, close)
         full = State.of(level, state.pressure + dp, state.h00 + dh00)
         dh = full.thickness - state.thickness
         length = step_length(state.thickness, dp, dh, pressure_step=PRESSURE_STEP, gap_step=GAP_STEP)
@@ -252,7 +256,7 @@ def _without_spike(
 
 
 def _direction(
-    fluid: Fluid, jacobian: StarvedJacobian, state: State, now: Content
+    fluid: Fluid, jacobian: StarvedJacobian, state: State, now: Content, tolerance: float
 ) -> tuple[Array, float, int]:
     """Changes dP (nx, ny) and dH00 of a Newton step, and the number of GMRES iterations."""
     finest, residual = jacobian.finest, now.residual
@@ -268,6 +272,6 @@ def _direction(
         return jacobian.precondition(image)
 
     solution = flexible_gmres(
-        jacobian.image, precondition, right, tolerance=LINEAR_TOLERANCE, limit=KRYLOV_LIMIT
+        jacobian.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT
     )
     return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles
