@@ -197,7 +197,7 @@ def assess_content(fluid: Fluid, level: Level, state: State, filled: Mask, suppl
     excess = state.pressure - fluid.ambient_pressure - level.edge_excess
     largest = np.max(np.abs(np.where(full_film, unnormed.scaled, excess)))
     norm = float(max(largest, _LOAD_WEIGHT * abs(load) / level.load))
-    mass = content(runs, rows, density * thickness, mesh.dx)
+    mass = supply.at_rupture(filled, content(runs, rows, density * thickness, mesh.dx))
     return Content(replace(unnormed, norm=norm), filled, mass)
 
 
@@ -271,7 +271,5 @@ def _direction(
         cycles += 1
         return jacobian.precondition(image)
 
-    solution = flexible_gmres(
-        jacobian.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT
-    )
+    solution = flexible_gmres(jacobian.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT)
     return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles
