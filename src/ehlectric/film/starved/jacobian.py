@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-
 from scipy.sparse.linalg import SuperLU, splu
 
 from ehlectric.arrays import Array, Mask

@@ -170,15 +170,7 @@ def supplied(solution: GridSolution, mass: Array, layer: Array) -> Oil:
 
 
 def stationary_oil(film: StarvedFilm) -> Oil:
-    """Oil of a stationary starved film, as the time steps take it.
-
-    At a cavitated node behind a filled one the stationary equations define the flow out of the node, which
-    is the sum W of the time steps; its mass follows from that.
-    """
+    """Oil of a stationary starved film, from which the time steps start."""
     content = film.content
-    mass, filled = content.mass.copy(), content.filled
-    first = ~filled[1:] & filled[:-1]
-    first[0] = False  # its flow is of first order in the time steps too
     full = content.residual.coefficients.density * film.solution.state.thickness
-    mass[1:][first] = ((2.0 * mass[1:] + mass[:-1]) / 3.0)[first]
-    return Oil(np.clip(mass, 0.0, full), filled)
+    return Oil(np.clip(content.mass, 0.0, full), content.filled)
