@@ -117,7 +117,7 @@ WRONG = [
         ("examples", "bering"),
         "examples: got 'bering'; expected one of ball_bearing, ball_contact, bearing_6208, "
         "bearing_regime_map, bearing_thin_oil, discharge, line_contact, mixed_contact, moving_roughness, "
-        "oil_contact, roller_bearing, rough_contact, sweep, uncertainty",
+        "oil_contact, roller_bearing, rough_contact, starved_contact, sweep, uncertainty",
         id="examples",
     ),
 ]

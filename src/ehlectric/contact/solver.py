@@ -286,7 +286,7 @@ def _solved(
             *contact.surface_warnings(films.setup),
             *films.warnings,
             *film_warnings(case, film),
-            *starvation_warnings(films.setup, film),
+            *starvation_warnings(films.setup, conditions, film),
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(case, film, field),
             *meter_warnings(case, film),

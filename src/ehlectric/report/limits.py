@@ -42,11 +42,17 @@ def _is_contact(case: AnyCase) -> bool:
 
 
 def _no_factor(case: AnyCase) -> bool:
-    return isinstance(case, Case) or case.bearing.film_factor in ("none", 1.0)
+    if isinstance(case, Case):
+        return case.inlet is None
+    return case.bearing.film_factor in ("none", 1.0)
 
 
 def _factor(case: AnyCase) -> bool:
-    return not _no_factor(case)
+    return isinstance(case, BearingCase) and case.bearing.film_factor not in ("none", 1.0)
+
+
+def _starved(case: AnyCase) -> bool:
+    return isinstance(case, Case) and case.inlet is not None
 
 
 def _smooth(case: AnyCase) -> bool:
@@ -103,6 +109,12 @@ LIMITS = (
         "The film factor of the case stands for heat and starvation as far as it covers them; nothing else "
         "of them is computed.",
         _factor,
+    ),
+    Limit(
+        "heat and supply of oil",
+        "The film is isothermal: heating is left out, which makes real films thinner. The supply of oil is "
+        "that of the case; how it is replenished is not computed.",
+        _starved,
     ),
     Limit(
         "contacts by formula",

@@ -153,7 +153,8 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     bound = ""
     factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
     if not isinstance(results.case, BearingCase):
-        bound = "Upper bound: isothermal, fully flooded film; "
+        supplied = results.case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
+        bound = f"Upper bound: isothermal{'' if supplied else ', fully flooded'} film; "
     else:
         heat = "isothermal, fully flooded, smooth film" if factors & {1.0} else "smooth film"
         bound = f"Upper bound: {heat}; "

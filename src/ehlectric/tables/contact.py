@@ -186,6 +186,7 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     at = _at(result, film.minimum_position) + _where(result)
     yield Row("minimum film thickness h_min", film.minimum_thickness, "µm", at)
     yield Row("central film thickness", film.central_thickness, "µm")
+    yield from _supply(result)
     yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
     yield Row("maximum pressure", film.max_pressure, "GPa", _pressure_error(film.max_pressure_error))
     nodes = " x ".join(str(count) for count in film.thickness.shape)
@@ -200,6 +201,19 @@ def _film(result: Result | PointResult) -> Iterator[Row]:
     after = f"after {film.newton_iterations} {steps}"
     yield Row("residual of the film equations", film.residual, note=after, digits=".1e")
     yield Row("residual of the load balance", film.load_residual, digits=".1e")
+
+
+def _supply(result: Result | PointResult) -> Iterator[Row]:
+    """Rows of the supply of oil of a starved contact; none where it is not given."""
+    found = result.film.starvation
+    if found is None:
+        return
+    yield Row("central film / flooded central film", found.film_ratio)
+    yield Row("minimum film if flooded", found.flooded_minimum_thickness, "µm")
+    yield Row("layer of oil before the contact", found.oil_layer, "µm", ", on both surfaces together")
+    place = found.meniscus
+    filled = "none: flooded" if place is None else f"x/b = {place / result.conditions.half_width:.3g}"
+    yield Row("meniscus, where oil fills the gap", filled)
 
 
 def _pressure_error(error: float | None) -> str:

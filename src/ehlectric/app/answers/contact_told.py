@@ -54,6 +54,9 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "inlet-far-too-short": _SOLVED,
         "domain-too-small": _FILM,
         "domain-far-too-small": _SOLVED,
+        "oil-layer-thick": _FILM,
+        "meniscus-at-edge": _FILM,
+        "film-ratio-missed": _FILM,
         # Electric field and discharge
         "field-grid-too-coarse": ("max-field", "capacitance", *_BREAKDOWN),
         "field-unresolved": _FIELD,

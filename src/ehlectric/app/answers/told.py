@@ -95,6 +95,9 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "inlet-far-too-short": _ALL,
         "domain-too-small": _FILM,
         "domain-far-too-small": _ALL,
+        "oil-layer-thick": _FILM,
+        "meniscus-at-edge": _FILM,
+        "film-ratio-missed": _FILM,
         # Electric field and discharge
         "field-grid-too-coarse": _FIRST,
         "field-unresolved": _FIRST,

@@ -335,7 +335,7 @@ def _voltage(result: Result | PointResult) -> str:
 
 def _is_flooded(result: Result | PointResult) -> bool:
     """Whether the film is that of isothermal, fully flooded oil, an upper bound."""
-    return bool(result.conditions.film_factor == 1.0)
+    return result.conditions.film_factor == 1.0 and result.film.starvation is None
 
 
 _BOUND = "isothermal, fully flooded film"

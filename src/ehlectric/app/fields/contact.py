@@ -124,6 +124,17 @@ _SPEEDS = (
         note="coefficient where the surfaces touch and slide",
         optional=True,
     ),
+    Field(
+        "inlet.oil_layer",
+        "Layer of oil at the inlet",
+        "um",
+        0.01,
+        10.0,
+        log=True,
+        note="on both surfaces together; none: flooded",
+        optional=True,
+        when=lambda inputs: inputs.value("motion") is None,
+    ),
 )
 
 _PRESSURE = Field("contact.max_hertz_pressure", "Hertz pressure", "GPa", 0.2, 4.0, when=_no)
@@ -305,7 +316,7 @@ _GROUPS: Mapping[str, tuple[Group, ...]] = {
 }
 
 # Tables and keys that line and point contacts share, which a change from one to the other keeps.
-_SHARED = ("lubricant", "electric", "discharge")
+_SHARED = ("lubricant", "electric", "discharge", "inlet")
 _SHARED_CONTACT = (
     "reduced_modulus",
     "entrainment_speed",

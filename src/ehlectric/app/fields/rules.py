@@ -39,6 +39,8 @@ ALTERNATIVES: tuple[Rows, ...] = (
         ("discharge.strength_table.temperature", "discharge.temperature"),
     ),
     (("meter.fill",), ("meter.oil_radius",)),
+    (("inlet.oil_layer",), ("inlet.layer_table",), ("inlet.film_ratio",)),
+    (("inlet",), ("motion", "meter")),
     (("motion.passes",), ("motion.duration",)),
     (("grid.error",), ("grid.nodes", "grid.nodes_y", "grid.refine")),
     (("grid.error", "grid.refine"), ("motion",)),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ehlectric.cases.case import Case
+from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
@@ -19,11 +20,20 @@ _FLOODED, _MISSED = 0.999, 0.01
 _AT_EDGE = 0.05
 
 
-def starvation_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
+def starvation_warnings(
+    setup: Case | Setup, conditions: Conditions | PointConditions, film: Film | PointFilm
+) -> Iterator[ResultWarning]:
     """Warnings about the supply of oil of a converged film; none for a film without ``[inlet]``."""
     found, inlet = film.starvation, setup.inlet
     if found is None or inlet is None or not film.converged:
         return
+    if film.minimum_thickness < conditions.boundary_film:
+        yield ResultWarning(
+            "surfaces-touch",
+            f"the starved film is {1e9 * film.minimum_thickness:.2g} nm thick in places, thinner than the "
+            f"boundary film of {1e9 * conditions.boundary_film:.3g} nm: the surfaces would touch there, "
+            "which is not solved with [inlet]",
+        )
     asked = inlet.film_ratio
     if asked is not None and abs(found.film_ratio / asked - 1.0) > _MISSED:
         yield ResultWarning(

@@ -87,7 +87,9 @@ def film_text(result: AnyContact) -> str:
         f"Minimum film {_film(result, film.minimum_thickness)} at {place_text(result, film.minimum_position)}"
     )
     if result.smooth is None:
-        return f"{text}; central film {_film(result, film.central_thickness)}"
+        starved = film.starvation
+        part = "" if starved is None else f", {per_cent(starved.film_ratio)} of the flooded one"
+        return f"{text}; central film {_film(result, film.central_thickness)}{part}"
     change = film.minimum_thickness / result.smooth.minimum_thickness - 1.0
     return f"{text}, {_more(change, 'thicker', 'thinner')} than smooth"
 

@@ -57,6 +57,9 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     to_pressure = factor
     factor, unit = unit_for(film.central_thickness, "m")
     lines += twin.plot(x, factor * film.thickness, color=ORANGE, ls=_FILM, label="film thickness")
+    if film.film_fraction is not None:
+        oil = factor * film.film_fraction * film.thickness
+        lines += twin.plot(x, oil, color=ORANGE, lw=0.8, label="layer of oil")
     if result.smooth:
         # Wide and behind the rough curves, so that neither hides the other.
         ax.plot(x, to_pressure * result.smooth.pressure, **_SMOOTH)
