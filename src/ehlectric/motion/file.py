@@ -74,8 +74,7 @@ _TOUCHES = {
     SPOTS: ("number of spots in which the surfaces touch", "1"),
     COARSE_SHARE: ("part of the load that asperities carry in the companion, NaN between its steps", "1"),
 }
-# Variables that only runs with a supply of oil have: over the time steps, and maps where oil does not fill the
-# inlet.
+# Variables that only runs with a supply of oil have: over the time steps, and maps where it is starved.
 MENISCUS = "meniscus"
 _SUPPLIED = {MENISCUS: ("position on the centre line from which oil fills the gap, NaN if flooded", "m")}
 _CONTENT = {"film_fraction": ("part of the gap that oil fills", "1")}

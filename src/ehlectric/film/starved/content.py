@@ -53,9 +53,9 @@ class Supply:
     def at_rupture(self, filled: Mask, mass: Array) -> Array:
         """Mass of oil (nx, ny) from the flow out of cavitated nodes, whose first one has a higher order.
 
-        Behind two nodes the flow is 3/2 m - 1/2 m before if oil fills the node, and just as much where it nearly
-        does. A node whose content is below the full gap thus has no tension as a filled one, and the iteration
-        cannot go round in circles there.
+        Behind a filled node the flow is 3/2 m of the node minus 1/2 m of the node before, as if oil filled
+        the node. One whose content is below the full gap thus would be under tension as a filled one, and the
+        iteration cannot go round in circles there.
         """
         if self.order == 1:
             return mass
