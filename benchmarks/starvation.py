@@ -39,7 +39,7 @@ HEADER = """\
 # Load [N] and entrainment speed [m/s] of the contacts, steel bodies with R = 10 mm in the oil of the paper.
 CONTACTS = ((2.0, 2.0), (20.0, 2.0), (60.0, 2.0))
 PARTS = (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0)
-NODES = 65
+NODES = 129
 
 # Exponents between which the published relation is drawn.
 EXPONENTS = (2.0, 3.0, 4.0, 5.0)

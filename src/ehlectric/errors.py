@@ -282,7 +282,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "domain-too-small": Cause("The domain is too small for the contact."),
         "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
         "oil-layer-thick": Cause("The layer of oil is thicker than what the contact takes.", "note"),
-        "meniscus-at-edge": Cause("The meniscus is at the edge of the domain or inside the Hertz zone."),
+        "meniscus-at-edge": Cause("The meniscus is at the edge of the domain or of the Hertz zone."),
         "film-ratio-missed": Cause("No layer of oil was found that gives the ratio of films asked for."),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),

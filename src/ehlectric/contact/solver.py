@@ -285,8 +285,7 @@ def _solved(
             *kind.case_warnings(case, conditions),
             *contact.surface_warnings(films.setup),
             *films.warnings,
-            *film_warnings(case, film),
-            *starvation_warnings(films.setup, conditions, film),
+            *_of_film(contact, films),
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(case, film, field),
             *meter_warnings(case, film),
@@ -305,6 +304,12 @@ def _solved(
         version=__version__,
         date=now(),
     )
+
+
+def _of_film(contact: PreparedContact, films: Refined) -> Iterator[ResultWarning]:
+    """Warnings about a film and its supply of oil."""
+    yield from film_warnings(contact.case, films.film)
+    yield from starvation_warnings(films.setup, contact.conditions, films.film)
 
 
 def _of_field(

@@ -122,7 +122,7 @@ def test_mass_is_conserved_in_a_point_contact():
     beside = flow.across.flux[-1, 1:-1] * mesh.dy
     sideways = 2.0 * mesh.dx * float(np.sum(-beside))
     driven = float(np.sum((mesh.weights_across * flow.along.flux[-1])[lines])) * mesh.dx
-    assert leaving + sideways - driven == pytest.approx(entering, rel=1e-7)
+    assert leaving + sideways - driven == pytest.approx(entering, rel=1e-9)
 
 
 def test_side_of_a_thin_layer_has_the_thinner_film():

@@ -15,6 +15,10 @@ from ehlectric.film.point import PointFilm
 # ratio of films from the one asked for above which there is a warning.
 _FLOODED, _MISSED = 0.999, 0.01
 
+# Distance of the meniscus from the Hertz zone in half-widths, beside a grid spacing, up to which it is at the
+# edge of the zone.
+_AT_HERTZ = 0.01
+
 # Distance of the meniscus from the inlet edge, as a part of the length of the inlet, below which the domain
 # is too short for it.
 _AT_EDGE = 0.05
@@ -51,10 +55,10 @@ def starvation_warnings(
         return
     b = film.scales.length
     places = f"x/b = {found.meniscus / b:.3g}"
-    if found.meniscus > -b:
+    if found.meniscus > -(1.0 + _AT_HERTZ) * b - float(film.x[1] - film.x[0]):
         yield ResultWarning(
             "meniscus-at-edge",
-            f"the oil fills the gap only from {places}, inside the edge of the Hertz zone: the film is about "
+            f"the oil fills the gap only from {places}, at the edge of the Hertz zone: the film is about "
             "as thick as the layer of oil, whatever speed and viscosity are",
         )
     elif found.meniscus < (1.0 - _AT_EDGE) * film.x[0] - _AT_EDGE * b:

@@ -123,8 +123,9 @@ class Runs:
 def content_wedge(mesh: Mesh, filled: Mask, order: int) -> Stencil:
     """Upstream difference d/dX of the mass whose order falls to one where the film is not filled.
 
-    The mass at a face is that of the formula of highest order whose nodes are all filled, and otherwise that
-    of the node before the face. The end rows are zero.
+    The mass at a face is that of the formula of highest order whose nodes are all filled. Behind the first
+    filled node it is the mean of the two nodes, and behind a cavitated node that of this node. The end rows
+    are zero.
 
     Parameters
     ----------
@@ -151,11 +152,12 @@ def content_wedge(mesh: Mesh, filled: Mask, order: int) -> Stencil:
     far = np.zeros((mesh.x.size - 1, mesh.y.size))
     near, ahead = np.ones_like(far), np.zeros_like(far)
     if order > 1:
-        # The first face has no second node before it, and takes the mean of its two nodes.
-        both = filled[0] & filled[1]
-        near[0], ahead[0] = np.where(both, 0.5, 1.0), np.where(both, 0.5, 0.0)
+        # A face behind a meniscus has no second filled node before it, and takes the mean of its two nodes.
+        first = filled[:-1] & filled[1:]
+        first[1:] &= ~filled[:-2]
+        near[first] = ahead[first] = 0.5
         second = filled[1:-1] & filled[:-2]
-        far[1:], near[1:] = np.where(second, -0.5, 0.0), np.where(second, 1.5, 1.0)
+        far[1:][second], near[1:][second] = -0.5, 1.5
         if order == 3:
             third = second & filled[2:]
             far[1:][third], near[1:][third], ahead[1:][third] = -0.125, 0.75, 0.375

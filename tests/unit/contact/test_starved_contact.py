@@ -1,0 +1,152 @@
+"""Starved contacts as results: summary, files, warnings, tables, sweeps, and solvers that refuse them."""
+
+import json
+
+import numpy as np
+import pytest
+
+from ehlectric import Case, InputError, load, save, solve
+from ehlectric.cases.measurements.reading import read_measurement
+from ehlectric.contact.measured.film import contact_factors
+from ehlectric.paper.solvers import PAPER
+from ehlectric.tables.contact import result_rows
+
+LINE = Case.line(
+    reduced_radius="14.1 mm",
+    reduced_modulus="226 GPa",
+    max_hertz_pressure="1 GPa",
+    entrainment_speed="4 m/s",
+    lubricant="paper",
+    grid={"nodes": 401},
+    discharge={"dielectric_strength": "30 V/um", "outlet": "fingers"},
+)
+POINT = Case.point(
+    radius_x="10 mm",
+    radius_y="10 mm",
+    reduced_modulus="226 GPa",
+    load="20 N",
+    entrainment_speed="2 m/s",
+    lubricant="paper",
+    grid={"nodes": 65, "nodes_y": 65},
+)
+KEYS = {"oil_layer", "film_ratio", "meniscus", "flooded"}
+
+
+def codes(result):
+    return {warning.code for warning in result.warnings}
+
+
+@pytest.fixture(scope="module")
+def flooded():
+    return solve(LINE)
+
+
+@pytest.fixture(scope="module")
+def starved():
+    return solve(LINE.replace({"inlet.oil_layer": "0.3 um"}))
+
+
+def test_summary_has_the_flooded_film_beside(starved, flooded):
+    film, summary = starved.film, starved.summary()["film"]
+    assert KEYS <= set(summary)
+    assert summary["oil_layer"] == pytest.approx(3e-7, rel=1e-12)
+    assert summary["flooded"]["central_thickness"] == pytest.approx(flooded.film.central_thickness, rel=1e-9)
+    assert summary["flooded"]["minimum_thickness"] == pytest.approx(flooded.film.minimum_thickness, rel=1e-9)
+    ratio = film.central_thickness / flooded.film.central_thickness
+    assert summary["film_ratio"] == pytest.approx(ratio, rel=1e-9)
+    # The film of the Hertz zone is the layer, compressed as the oil is.
+    density = float(np.interp(0.0, film.x, film.density))
+    assert film.central_thickness * density == pytest.approx(3e-7 * film.density[0], rel=1e-3)
+    assert film.x[0] < summary["meniscus"] < -starved.conditions.half_width
+    assert not KEYS & set(flooded.summary()["film"])
+
+
+def test_content_of_oil(starved, flooded):
+    """The layer before the meniscus, a full film in the contact, and the oil that passed behind it."""
+    film = starved.film
+    before = film.x < film.starvation.meniscus
+    oil = film.film_fraction * film.thickness * film.density
+    # The node before the meniscus has the oil that flows back, too.
+    assert oil[before][:-1] == pytest.approx(3e-7 * film.density[0], rel=1e-9)
+    inside = np.abs(film.x) < 0.9 * starved.conditions.half_width
+    assert np.all(film.film_fraction[inside] == 1.0)
+    assert oil[-2] == pytest.approx(3e-7 * film.density[0], rel=1e-8)
+    assert flooded.film.film_fraction is None
+    assert flooded.film.starvation is None
+
+
+def test_oil_between_the_walls_counts_for_the_capacitance(starved):
+    """With gas beside the oil the inlet has less capacitance than full of oil; the Hertz zone has not."""
+    full = solve(starved.case.replace({"discharge.outlet": "full"})).discharge.capacitances
+    fingers = starved.discharge.capacitances
+    assert fingers.capacitance_hertz == pytest.approx(full.capacitance_hertz, rel=1e-9)
+    assert fingers.capacitance_inlet < 0.9 * full.capacitance_inlet
+
+
+def test_result_is_saved_and_loaded(starved, tmp_path):
+    paths = save(starved, tmp_path)
+    again = load(paths[1])
+    assert again.film.starvation == starved.film.starvation
+    np.testing.assert_array_equal(again.film.film_fraction, starved.film.film_fraction)
+    assert json.loads(paths[0].read_text(encoding="utf-8"))["film"] == again.summary()["film"]
+    assert again.case == starved.case
+
+
+def test_table_and_verdict(starved):
+    names = [row.name for row in result_rows(starved)]
+    assert "layer of oil before the contact" in names
+    assert "minimum film if flooded" in names
+    assert "flooded" not in starved.verdict.text
+
+
+def test_thick_layer_is_told():
+    result = solve(LINE.replace({"inlet.oil_layer": "2 um"}))
+    assert "oil-layer-thick" in codes(result)
+    assert result.film.starvation.meniscus is None
+    assert result.film.film_fraction is None
+    assert any(row.value == "none: flooded" for row in result_rows(result))
+
+
+def test_meniscus_at_the_edge_of_the_hertz_zone_and_of_the_domain(starved):
+    assert "meniscus-at-edge" not in codes(starved)
+    (text,) = [
+        warning.text
+        for warning in solve(LINE.replace({"inlet.oil_layer": "5 nm"})).warnings
+        if warning.code == "meniscus-at-edge"
+    ]
+    assert "at the edge of the Hertz zone" in text
+    short = LINE.replace({"inlet.film_ratio": 0.998, "grid.inlet": -2.3})
+    (text,) = [w.text for w in solve(short).warnings if w.code == "meniscus-at-edge"]
+    assert "at the edge of the domain" in text
+
+
+@pytest.mark.parametrize("case", [LINE, POINT], ids=["line", "point"])
+def test_layer_for_a_ratio_of_films(case):
+    result = solve(case.replace({"inlet.film_ratio": 0.6}))
+    assert result.film.starvation.film_ratio == pytest.approx(0.6, rel=1e-3)
+    assert "film-ratio-missed" not in codes(result)
+    given = solve(case.replace({"inlet.oil_layer": result.film.starvation.oil_layer}))
+    # Far less than the discretisation error: the meniscus of a point contact may differ by a node.
+    assert given.film.central_thickness == pytest.approx(result.film.central_thickness, rel=1e-3)
+
+
+def test_a_layer_over_y_may_differ_on_both_sides():
+    table = {"y": ["-0.2 mm", "0.2 mm"], "thickness": ["0.4 um", "0.1 um"]}
+    film = solve(POINT.replace({"inlet.layer_table": table})).film
+    assert film.converged
+    assert film.starvation.oil_layer == pytest.approx(0.25e-6, rel=1e-9)
+    middle = int(np.argmin(np.abs(film.x)))
+    side = 0.5 * film.semi_axis_y
+    low, high = (np.interp(place, film.y, film.thickness[middle]) for place in (side, -side))
+    assert low < 0.8 * high
+    assert np.all((film.film_fraction >= 0.0) & (film.film_fraction <= 1.0))
+
+
+def test_solvers_and_measurements_that_need_a_flooded_contact(tmp_path):
+    case = LINE.replace({"inlet.oil_layer": "0.3 um"})
+    with pytest.raises(InputError, match="inlet: .* for the solver 'paper'"):
+        solve(case, solvers=PAPER)
+    file = tmp_path / "film.csv"
+    file.write_text("entrainment speed [m/s],film [nm]\n4,300\n", encoding="utf-8")
+    with pytest.raises(InputError, match="inlet: is not used with a measurement"):
+        contact_factors(case, read_measurement(file), contacts="formula")
