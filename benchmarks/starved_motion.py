@@ -82,7 +82,9 @@ def films(part: float) -> tuple[Floats, Floats]:
     found: list[tuple[float, float]] = []
 
     def note(history: History) -> None:
-        found.append((history.now.time, scale * at_centre(moving.steady.level.mesh, history.now.state.thickness)))
+        found.append(
+            (history.now.time, scale * at_centre(moving.steady.level.mesh, history.now.state.thickness))
+        )
 
     history = moving.start(step)
     note(history)

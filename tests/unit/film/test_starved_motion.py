@@ -78,12 +78,19 @@ def test_feet_are_filled_where_all_their_nodes_are():
 
 
 def test_the_order_falls_where_the_foot_is_not_filled(levels):
-    """Equal steps of a spacing: 3/2 of the mass behind a filled foot, the mass itself behind another."""
+    """Equal steps of a spacing: 3/2 of the mass behind a filled foot, the mass itself behind another.
+
+    At the first filled node half of the difference to the next node is known from the last instant.
+    """
     mesh = levels[0].mesh
     there = mixed()
     level = supplied_step_levels(levels, (there, there), (mesh.dx, mesh.dx), np.zeros(mesh.shape))[0]
     rates = mesh.dx * level.wedge.coefficients[2, 1:-1, 0]
     np.testing.assert_allclose(rates, np.where(there.filled[:-2, 0], 1.5, 1.0), rtol=1e-12)
+    np.testing.assert_array_equal(np.flatnonzero(there.first), 31)
+    arrived = there.at_feet(1.0, sums(there, there, 1.0, 1.0))
+    known = arrived[31] - 0.5 * (there.mass[32] - there.mass[31])
+    np.testing.assert_allclose(mesh.dx * level.source[31], known, rtol=1e-12)
 
 
 def test_the_sum_of_mass_and_difference_is_what_the_step_before_solved():
@@ -92,7 +99,9 @@ def test_the_sum_of_mass_and_difference_is_what_the_step_before_solved():
     feet, filled = before.at_feet(1.0), before.filled_feet(1.0)
     flow = sums(before, before, 1.0, 1.0)
     arrived = before.at_feet(1.0, flow)
-    # Rows of the next instant: 3/2 m - 1/2 m of the foot, or m, is the sum that arrives.
+    # Rows of the next instant: 3/2 m - 1/2 m of the foot, or m, is the sum that arrives; at the first filled
+    # node, m and half of the difference to the node behind it.
     mass = np.where(filled, (arrived + 0.5 * feet) / 1.5, arrived)
+    mass[31] = arrived[31] - 0.5 * (before.mass[32] - before.mass[31])
     now = Oil(mass, (number > 31)[:, np.newaxis] & (number < 70)[:, np.newaxis])
     np.testing.assert_allclose(sums(now, before, 1.0, 1.0)[1:], arrived[1:], rtol=1e-12)

@@ -9,8 +9,10 @@ sum, which the row of the next node takes as it is:
     W = m + D,   D = r/(1 + r) (m - m at the foot) where the foot is filled, 0 elsewhere,
     W(X, T + dT) - W(X - dT, T) = dT [d/dX(eps dP/dX) + d/dY(eps dP/dY)]
 
-Here r is the step over the last step. The sum of W over the nodes changes by what crosses the ends of the
-domain alone. A film that does not change fulfils the equations of ``ehlectric.film.starved.content``.
+Here r is the step over the last step. At the first filled node behind a meniscus, D is the same part of dT
+times the slope of the mass to the next node at the last instant. The sum of W over the nodes changes by what
+crosses the ends of the domain alone. A film that does not change fulfils the equations of
+``ehlectric.film.starved.content``.
 """
 
 from __future__ import annotations
@@ -75,6 +77,18 @@ class Oil:
         around = (0,) if part <= SAME_NODE else (-2, -1, 0, 1)
         return np.asarray(np.all([padded[start + k : start + k + n] for k in around], axis=0))
 
+    @property
+    def first(self) -> Mask:
+        """First nodes of two and more that are filled behind a node that is not, shape (nx, ny)."""
+        first = np.zeros_like(self.filled)
+        first[1:-1] = self.filled[1:-1] & self.filled[2:] & ~self.filled[:-2]
+        return first
+
+    @property
+    def rise(self) -> Array:
+        """Mass at the next node minus that at the node, shape (nx, ny)."""
+        return np.append(np.diff(self.mass, axis=0), np.zeros_like(self.mass[:1]), axis=0)
+
     def _padded(self, values: Array, ghosts: int) -> Array:
         before = np.where(self.filled[0], parabola_before(values, ghosts), values[0])
         return np.concatenate([before, values, values[-1:]])
@@ -95,8 +109,9 @@ def sums(now: Oil, before: Oil, last: float, ratio: float) -> Array:
 
     ``last`` is the last step in grid spacings, and ``ratio`` the next step over the last step.
     """
-    difference = ratio**2 / (1.0 + ratio) * (now.mass - before.at_feet(last))
-    return now.mass + np.where(before.filled_feet(last), difference, 0.0)
+    difference = np.where(before.filled_feet(last), now.mass - before.at_feet(last), 0.0)
+    difference = np.where(before.first, last * before.rise, difference)
+    return now.mass + ratio**2 / (1.0 + ratio) * difference
 
 
 def supplied_step_levels(
@@ -131,11 +146,12 @@ def supplied_step_levels(
     feet, filled = now.at_feet(step / dx), now.filled_feet(step / dx)
     # A flooded line has no difference over two steps where its first foot lies upstream of the inlet.
     outside = (mesh.x - mesh.x[0] < (step + last) - SAME_NODE * dx)[:, np.newaxis] & now.filled[0]
-    filled &= ~outside
+    filled &= ~outside & ~now.first
     carried = now.at_feet(step / dx, sums(now, before, last / dx, ratio))
     carried = np.where(outside, feet, carried)
     rates = np.where(filled, 1.0 + second, 1.0) / step
-    source = (carried + np.where(filled, second * feet, 0.0)) / step
+    behind = np.where(now.first, -step / dx * now.rise, 0.0)
+    source = (carried + second * np.where(filled, feet, behind)) / step
     source[~mesh.inner] = 0.0
     here = (1.0 + second) / step
     coefficients = np.zeros((ALONG, *mesh.shape))
