@@ -22,7 +22,7 @@ from ehlectric.film.reynolds import ALONG, Stencil
 from ehlectric.film.state import GridSolution
 
 # Distance in grid spacings within which the foot of a line counts as a node.
-_SAME_NODE = 1e-9
+SAME_NODE = 1e-9
 
 
 def step_levels(
@@ -58,7 +58,7 @@ def step_levels(
     here, one, two = np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
     first = carried(masses[0], step / mesh.dx)
     second = carried(masses[1], (step + last) / mesh.dx)
-    outside = mesh.x - mesh.x[0] < (step + last) - _SAME_NODE * mesh.dx
+    outside = mesh.x - mesh.x[0] < (step + last) - SAME_NODE * mesh.dx
     source = np.where(outside[:, np.newaxis], first / step, one * first + two * second)
     source[~mesh.inner] = 0.0
     rates = np.where(outside, 1.0 / step, here)
@@ -103,26 +103,42 @@ def carried(values: Array, distance: float) -> Array:
     >>> carried(np.arange(5.0)[:, np.newaxis] ** 2, 0.5)[:, 0]
     array([ 0.25,  0.25,  2.25,  6.25, 12.25])
     """
-    whole = int(np.floor(distance + _SAME_NODE))
+    whole = int(np.floor(distance + SAME_NODE))
     part = distance - whole
     ghosts = whole + 2
-    steps = np.arange(-ghosts, 0.0)[:, np.newaxis]
-    v0, v1, v2 = values[0], values[1], values[2]
-    before = v0 + steps * (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) + steps**2 * (0.5 * v0 - v1 + 0.5 * v2)
+    before = parabola_before(values, ghosts)
     beyond = 3.0 * values[-1:] - 3.0 * values[-2:-1] + values[-3:-2]
     padded = np.concatenate([before, values, beyond])
     start, n = ghosts - whole, values.shape[0]
-    if abs(part) <= _SAME_NODE:
+    if abs(part) <= SAME_NODE:
         moved: Array = padded[start : start + n].copy()
         return moved
-    # Lagrange weights of the two nodes behind the foot of the line and the two nodes ahead of it.
-    weights = (
-        (-2, (part + 1.0) * part * (part - 1.0) / 6.0),
-        (-1, -(part + 1.0) * part * (part - 2.0) / 2.0),
-        (0, (part + 1.0) * (part - 1.0) * (part - 2.0) / 2.0),
-        (1, -part * (part - 1.0) * (part - 2.0) / 6.0),
-    )
+    weights = zip((-2, -1, 0, 1), lagrange_weights(part), strict=True)
     return np.asarray(np.sum([w * padded[start + k : start + k + n] for k, w in weights], axis=0))
+
+
+def parabola_before(values: Array, number: int) -> Array:
+    """Values at ``number`` nodes upstream of the domain, from the parabola of the first nodes of (nx, ny)."""
+    steps = np.arange(-number, 0.0)[:, np.newaxis]
+    v0, v1, v2 = values[0], values[1], values[2]
+    before: Array = v0 + steps * (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) + steps**2 * (0.5 * v0 - v1 + 0.5 * v2)
+    return before
+
+
+def lagrange_weights(part: float) -> tuple[float, float, float, float]:
+    """Weights of the nodes -2, -1, 0 and 1 of a cubic at the position -``part``, between -1 and 0.
+
+    Examples
+    --------
+    >>> lagrange_weights(0.5)
+    (-0.0625, 0.5625, 0.5625, -0.0625)
+    """
+    return (
+        (part + 1.0) * part * (part - 1.0) / 6.0,
+        -(part + 1.0) * part * (part - 2.0) / 2.0,
+        (part + 1.0) * (part - 1.0) * (part - 2.0) / 2.0,
+        -part * (part - 1.0) * (part - 2.0) / 6.0,
+    )
 
 
 def mass_after(step: GridSolution) -> Array:

@@ -9,7 +9,8 @@ flow carries the oil (``ehlectric.film.characteristics``). It is discretised alo
 difference over two steps. A film that is carried through the Hertz zone therefore keeps its shape. With time
 steps as long as the grid spacing the lines begin at nodes, and nothing is interpolated. Without motion the
 film is then equal to that of the stationary scheme of second order, to the last digit. Where the film is
-cavitated, its mass is the oil that flows in, which does not fill the gap.
+cavitated, its mass is the oil that flows in, which does not fill the gap. With a layer of oil at the inlet
+edge this is so ahead of the contact as well (``ehlectric.film.starved.motion``).
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import assess, newton
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.starved.course import StarvedFilm
+from ehlectric.film.starved.motion import Oil, oil_after, stationary_oil, supplied_step_levels
 from ehlectric.film.state import GridSolution, State
 
 # Tolerance of the residual in a time step, a pressure over p_h, far below the discretisation error of the
@@ -69,7 +72,7 @@ class Instant:
     density : ndarray, shape (nx, ny)
         Density ratio rho/rho_0.
     full_film : ndarray of bool, shape (nx, ny)
-        Nodes with a full film.
+        Nodes with a full film; on the inlet edge, those that a given layer of oil fills.
     """
 
     time: float
@@ -77,6 +80,17 @@ class Instant:
     mass: Array
     density: Array
     full_film: Mask
+
+    @property
+    def oil(self) -> Oil:
+        """Mass of oil, and the nodes that it fills."""
+        return Oil(self.mass, self.full_film)
+
+    @property
+    def oil_fraction(self) -> Array:
+        """Part of the gap that oil fills, 0 to 1, shape (nx, ny)."""
+        part = self.mass / (self.density * self.state.thickness)
+        return np.where(self.full_film, 1.0, np.clip(part, 0.0, 1.0))
 
 
 @dataclass(frozen=True)
@@ -129,10 +143,12 @@ class UnsteadyFilm:
     moving_gap : callable
         Gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny). A peak adds a negative
         gap.
+    layer : ndarray, shape (ny,), optional
+        Thickness H of the layer of oil at the inlet edge; None for a flooded inlet.
     """
 
-    def __init__(self, problem: FilmProblem, moving_gap: MovingGap) -> None:
-        self.problem = problem
+    def __init__(self, problem: FilmProblem, moving_gap: MovingGap, layer: Array | None = None) -> None:
+        self.problem, self.layer = problem, layer
         self._moving_gap = moving_gap
         self._levels = levels_of(replace(problem, wedge_order=2))
 
@@ -158,6 +174,12 @@ class UnsteadyFilm:
         """
         density = steady.final.coefficients.density
         now = Instant(0.0, steady.state, stationary_mass(steady), density, steady.final.full_film)
+        return History(now, replace(now, time=-step))
+
+    def start_supplied(self, steady: StarvedFilm, step: float) -> History:
+        """History that starts from a stationary film with a layer of oil; see ``start``."""
+        oil, final = stationary_oil(steady), steady.solution.final
+        now = Instant(0.0, steady.solution.state, oil.mass, final.coefficients.density, oil.filled)
         return History(now, replace(now, time=-step))
 
     def advance(self, history: History, step: float) -> History:
@@ -222,12 +244,12 @@ class UnsteadyFilm:
             if solution.status == "converged":
                 if float(solution.state.thickness.min()) < self.problem.boundary_film:
                     break
-                return _instant(time, solution), effort
+                return self._instant(time, solution), effort
         if self.problem.boundary_film > 0.0:
             solution = self._touching(levels, history)
             effort += Effort(len(solution.steps), sum(one.krylov_iterations for one in solution.steps))
             if solution.status == "converged":
-                return _instant(time, solution), effort
+                return self._instant(time, solution), effort
         return None, effort
 
     def _touching(self, levels: list[Level], history: History) -> GridSolution:
@@ -267,12 +289,18 @@ class UnsteadyFilm:
     def _levels_at(self, history: History, step: float) -> list[Level]:
         """All grids with the Reynolds equation of the next time step."""
         now, before = history.now, history.before
-        mesh = self.level.mesh
+        mesh, steps = self.level.mesh, (step, now.time - before.time)
         added = self._moving_gap(now.time + step, mesh.x, mesh.y)
-        return step_levels(self._levels, (now.mass, before.mass), (step, now.time - before.time), added)
+        if self.layer is not None:
+            return supplied_step_levels(self._levels, (now.oil, before.oil), steps, added)
+        return step_levels(self._levels, (now.mass, before.mass), steps, added)
 
-
-def _instant(time: float, solution: GridSolution) -> Instant:
-    """Instant after a time step that was solved."""
-    density, full_film = solution.final.coefficients.density, solution.final.full_film
-    return Instant(time, solution.state, mass_after(solution), density, full_film)
+    def _instant(self, time: float, solution: GridSolution) -> Instant:
+        """Instant after a time step that was solved."""
+        density = solution.final.coefficients.density
+        if self.layer is None:
+            mass, full_film = mass_after(solution), solution.final.full_film
+        else:
+            oil = oil_after(solution, density[0] * self.layer)
+            mass, full_film = oil.mass, oil.filled
+        return Instant(time, solution.state, mass, density, full_film)

@@ -54,6 +54,9 @@ _TOUCHES = {
     "spots": "whole",
     "coarse_asperity_load_share": "not negative or NaN",
 }
+# Variables of runs with a supply of oil: over the time steps, and maps.
+_SUPPLIED = {"meniscus": ("finite or NaN", "m")}
+_CONTENT = {"film_fraction": ("not negative", "1")}
 _FRAMES = {
     "frame_time": ("increasing", "s"),
     "frame_step": ("increasing", "1"),
@@ -123,6 +126,8 @@ def _rules(axes: tuple[str, ...], *, stationary: bool) -> dict[str, Rule]:
     # Runs of earlier versions have no estimate of errors.
     found |= {name: Rule(("step",), values, "m", needed=False) for name, values in _KEY_FILMS.items()}
     found |= {name: Rule(("step",), values, "1", needed=False) for name, values in _TOUCHES.items()}
+    found |= {name: Rule(("step",), *what, needed=False) for name, what in _SUPPLIED.items()}
+    found |= {name: Rule(("frame", *axes), *what, needed=False) for name, what in _CONTENT.items()}
     found["max_strength_error"] = Rule(("frame",), "not negative or NaN", "1", needed=False)
     return found
 

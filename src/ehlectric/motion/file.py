@@ -74,6 +74,10 @@ _TOUCHES = {
     SPOTS: ("number of spots in which the surfaces touch", "1"),
     COARSE_SHARE: ("part of the load that asperities carry in the companion, NaN between its steps", "1"),
 }
+# Variables that only runs with a supply of oil have: over the time steps, and maps where it is starved.
+MENISCUS = "meniscus"
+_SUPPLIED = {MENISCUS: ("position on the centre line from which oil fills the gap, NaN if flooded", "m")}
+_CONTENT = {"film_fraction": ("part of the gap that oil fills", "1")}
 # Variables that a line contact does not have.
 _OF_POINTS = ("minimum_y", "max_strength_y")
 
@@ -109,6 +113,7 @@ class Row:
             AREA_SHARE: touch.area_share,
             SPOTS: touch.spots,
             COARSE_SHARE: coarse.load_share,
+            MENISCUS: solver.meniscus(instant),
         }
         return cls(values | _place("minimum", extremes.minimum_position))
 
@@ -183,12 +188,22 @@ class MotionFile:
 
         def fill(file: Any) -> None:
             _lay_out(file, positions, stationary, kind)
+            self._lay_out_supplied(file, first, tuple(positions))
             file.attrs["frames"] = file.attrs["complete"] = 0
             for key, value in attributes.items():
                 file.attrs[key] = value
             self._put(file, first)
 
         write(self._path, created(fill))
+
+    def _lay_out_supplied(self, file: Any, first: Record, axes: tuple[str, ...]) -> None:
+        """Create the variables of a run with a supply of oil."""
+        if self._contact.case.inlet is not None:
+            for name, about in _SUPPLIED.items():
+                _add(file, name, ("step",), about)
+        if first.snapshot.film.film_fraction is not None:
+            for name, about in _CONTENT.items():
+                _add(file, name, ("frame", *axes), about)
 
     def append(self, record: Record) -> None:
         """Write a recorded instant and the time steps before it.
@@ -217,7 +232,7 @@ class MotionFile:
         if any(row.values[name] > 0.0 for row in rows for name in (SPOTS, COARSE_SHARE)):
             _add_touches(file, step + 1 - len(rows))
         for name in file.variables:
-            if name in _STEPS or name in _TOUCHES:
+            if name in _STEPS or name in _TOUCHES or name in _SUPPLIED:
                 file.variables[name][step + 1 - len(rows) :] = [row.values[name] for row in rows]
         for name, value in (*maps.items(), *numbers.items()):
             file.variables[name][frame] = value
@@ -231,7 +246,8 @@ class MotionFile:
 
     def _maps(self, snapshot: Snapshot) -> dict[str, Array]:
         film, field = snapshot.film, snapshot.field
-        return {
+        content = {} if film.film_fraction is None else {"film_fraction": film.film_fraction}
+        return content | {
             "pressure": film.pressure,
             "thickness": film.thickness,
             "strength": self._contact.kind.column_strength(film, field),

@@ -65,6 +65,22 @@ _FILM: Keys = {
         "largest estimated relative error over time of the film thickness at the centre; null if unknown"
     ),
 }
+_SUPPLIED: Keys = {
+    "oil_layer": ResultKey(
+        "thickness of the oil on both surfaces together before the contact, on the centre line; only with "
+        "`[inlet]`",
+        "m",
+        "layer of oil",
+        r"$h_\mathrm{oil}$",
+    ),
+    "meniscus_before": ResultKey(
+        "position on the centre line from which oil fills the gap before the motion; null if the film is "
+        "flooded, like the two below; only with `[inlet]`",
+        "m",
+    ),
+    "meniscus_least": ResultKey("minimum over time of this position; only with `[inlet]`", "m"),
+    "meniscus_largest": ResultKey("maximum over time of this position; only with `[inlet]`", "m"),
+}
 _FIELD: Keys = {
     "voltage": ResultKey("abs(V2 − V1)", "V", "voltage", "$V_{12}$"),
     "before": ResultKey("maximum field strength before the motion", "V/m"),
@@ -160,6 +176,7 @@ def _keys(capacitance: str, surface: Keys) -> Keys:
         **_ABOUT,
         **under("motion", _COURSE),
         **under("film", _FILM),
+        **under("film", _SUPPLIED),
         **under("field", _FIELD),
         **under("field", _capacitances(capacitance)),
         **under("asperities", _ASPERITIES),

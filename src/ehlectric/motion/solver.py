@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,6 +21,7 @@ from ehlectric.film.levels import Level
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.solution import FilmSolution, pressure_of
+from ehlectric.film.starved.nested import meniscus_of
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.asperities import Touch, Toucher
 from ehlectric.motion.companion import KeyFilms
@@ -157,11 +159,25 @@ class TransientSolver:
     def film(self, instant: Instant) -> Film | PointFilm:
         """Film at an instant, SI units."""
         moving = self._moving
-        return film_of(self.contact, moving.steady.level, moving.whole(instant))
+        whole = moving.whole(instant)
+        fraction = None if moving.starved is None else instant.oil_fraction
+        return film_of(self.contact, moving.steady.level, whole, fraction)
+
+    def meniscus(self, instant: Instant) -> float:
+        """Position on the line y = 0 from which oil fills the gap [m]; NaN if the inlet is flooded."""
+        if self._moving.starved is None:
+            return math.nan
+        found = meniscus_of(self._moving.film.level.mesh, instant.full_film)
+        return math.nan if found is None else self.contact.problem.scales.length * found
 
 
-def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film | PointFilm:
-    """Film of a transient contact at an instant, on the finest grid, SI units."""
+def film_of(
+    contact: TransientContact, level: Level, instant: Instant, fraction: Array | None = None
+) -> Film | PointFilm:
+    """Film of a transient contact at an instant, on the finest grid, SI units.
+
+    ``fraction`` (nx, ny) is the part of the gap that oil fills; None if the inlet is flooded.
+    """
     scales, state, mesh = contact.problem.scales, instant.state, level.mesh
 
     def shaped(values: NDArray[Any]) -> NDArray[Any]:
@@ -181,6 +197,7 @@ def film_of(contact: TransientContact, level: Level, instant: Instant) -> Film |
         scales=scales,
         status="converged",
         load_residual=abs(load / level.load - 1.0),
+        film_fraction=None if fraction is None else shaped(fraction),
     )
     film: Film | PointFilm = contact.kind.film(solution, contact.problem, mesh)
     return film

@@ -11,10 +11,12 @@ from scipy.ndimage import maximum_filter
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact.result_warnings import FIELD_ERROR, inaccurate_field, unknown_error
+from ehlectric.contact.starved.supply import oil_supply
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.accuracy import run_errors
 from ehlectric.motion.asperities import TouchHistory
+from ehlectric.motion.file import MENISCUS
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.warnings import touch_warnings
 from ehlectric.runtime.files import plain
@@ -197,6 +199,22 @@ def _film(run: MotionRun) -> dict[str, Any]:
         "discretisation_error": errors and errors.largest,
         "minimum_thickness_error": errors and errors.minimum,
         "central_thickness_error": errors and errors.central,
+    } | _supplied(run)
+
+
+def _supplied(run: MotionRun) -> dict[str, Any]:
+    """Layer of oil and positions of the meniscus [m]; empty for a run without a supply of oil."""
+    supply = oil_supply(run.case.inlet, run.conditions)
+    if supply is None or supply.layer is None:
+        return {}
+    layer = run.conditions.thickness_scale * float(supply.layer(np.zeros(1))[0])
+    positions = run.values(MENISCUS)
+    known = positions[np.isfinite(positions)]
+    return {
+        "oil_layer": layer,
+        "meniscus_before": positions[0] if np.isfinite(positions[0]) else None,
+        "meniscus_least": np.min(known) if known.size else None,
+        "meniscus_largest": np.max(known) if known.size else None,
     }
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
 from ehlectric.contact.spots.warnings import about_share
+from ehlectric.contact.starved.warnings import starvation_warnings
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
 from ehlectric.motion.asperities import TouchHistory
@@ -51,6 +52,7 @@ def motion_warnings(contact: TransientContact, still: Result | PointResult) -> I
     yield from kind.case_warnings(contact.case, conditions)
     yield from kind.surface_warnings(travelled.roughness, contact.roughness.surfaces, domain, *spacings)
     yield from step_warnings(contact)
+    yield from starvation_warnings(contact.case, conditions, still.film)
     yield from _unlike(contact, still)
     if not still.converged:
         text = (

@@ -34,7 +34,7 @@ class LayerTable(Table):
 
 
 class Inlet(Table):
-    """Oil that is supplied to a stationary contact: a layer on its surfaces, or the film that it gives.
+    """Oil that is supplied to a contact: a layer on its surfaces, or the film that it gives without motion.
 
     Examples
     --------
@@ -74,10 +74,16 @@ class Inlet(Table):
         Raises
         ------
         InputError
-            If a line contact has a layer over y, or the case has one of these tables.
+            If a line contact has a layer over y, a contact with motion has a ratio of films, or the case has
+            the table ``meter``.
         """
         if self.layer_table is not None and geometry == "line":
             raise InputError("inlet.layer_table", got="that of a line contact", takes="inlet.oil_layer")
-        for given, table in ((moves, "motion"), (metered, "meter")):
-            if given:
-                raise InputError("inlet", got=f"[inlet] beside [{table}]", takes="a flooded contact there")
+        if moves and self.film_ratio is not None:
+            raise InputError(
+                "inlet.film_ratio",
+                got=f"{self.film_ratio:g} beside [motion], in which the film changes with time",
+                takes="inlet.oil_layer or inlet.layer_table; the same case without [motion] finds the layer",
+            )
+        if metered:
+            raise InputError("inlet", got="[inlet] beside [meter]", takes="a flooded contact there")

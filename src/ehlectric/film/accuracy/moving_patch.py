@@ -19,6 +19,8 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.starved.course import StarvedFilm
+from ehlectric.film.starved.nested import StarvedSolution, supplied_solution
 from ehlectric.film.state import GridSolution, State
 from ehlectric.film.unsteady import History, Instant, MovingGap, UnsteadyFilm
 from ehlectric.runtime.threads import quiet_solution
@@ -54,25 +56,48 @@ class MovingFilm:
         ConvergenceError
             If it does not converge.
         """
+        return self._found[0]
+
+    @property
+    def starved(self) -> StarvedFilm | None:
+        """Stationary film with its content of oil; None where the inlet is flooded."""
+        return self._found[1]
+
+    @cached_property
+    def _found(self) -> tuple[GridSolution, StarvedFilm | None]:
+        """Stationary film, and its content of oil where it is starved."""
         with quiet_solution():
-            steady = nested_iteration(self.problem, None)[-1]
+            if self.problem.supply is None:
+                steady, starved = nested_iteration(self.problem, None)[-1], None
+            else:
+                found = supplied_solution(replace(self.problem, target_error=None), None)
+                assert isinstance(found, StarvedSolution)
+                steady, starved = found.last, found.film
         if steady.status != "converged":
             raise ConvergenceError(f"film before the motion, {steady.status}")
-        return steady
+        return steady, starved
 
     @cached_property
     def patch(self) -> Patch | None:
-        """Patch on which the film is solved; None for the whole domain."""
+        """Patch on which the film is solved; None for the whole domain.
+
+        The meniscus of a starved film moves, and oil flows to and from the sides ahead of a patch.
+        """
+        if self.starved is not None:
+            return None
         return Patch.around(self.problem, self.steady, ahead=AHEAD)
 
     @cached_property
     def film(self) -> UnsteadyFilm:
         """Solver of the time steps, on the patch or on the whole domain."""
         problem = self.problem if self.patch is None else self.patch.refined(1)
-        return UnsteadyFilm(problem, self._moving_gap)
+        layer = None if self.starved is None else self.starved.layer
+        return UnsteadyFilm(problem, self._moving_gap, layer)
 
     def start(self, step: float) -> History:
         """History that starts from the stationary film, with a time T between its two instants."""
+        if self.starved is not None:
+            return self.film.start_supplied(self.starved, step)
         if self.patch is None:
             return self.film.start(self.steady, step)
         with quiet_solution():

@@ -50,6 +50,21 @@ class Supply:
         """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""
         return content_wedge(mesh, filled & ~np.asarray(self.upwind), self.order)
 
+    def at_rupture(self, filled: Mask, mass: Array) -> Array:
+        """Mass of oil (nx, ny) from the flow out of cavitated nodes, whose first one has a higher order.
+
+        Behind a filled node the flow is 3/2 m of the node minus 1/2 m of the node before, as if oil filled
+        the node. One whose content is below the full gap thus would be under tension as a filled one, and the
+        iteration cannot go round in circles there.
+        """
+        if self.order == 1:
+            return mass
+        high = ~filled & ~np.asarray(self.upwind)
+        high[:2] = False
+        high[1:] &= (filled & ~np.asarray(self.upwind))[:-1]
+        before = np.concatenate([mass[:1], mass[:-1]])
+        return np.where(high, (2.0 * mass + before) / 3.0, mass)
+
     def injected(self, level: Level) -> Supply:
         """Supply on the next coarser grid, for its wedge term only."""
         if isinstance(self.upwind, bool):

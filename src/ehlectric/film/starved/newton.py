@@ -197,7 +197,7 @@ def assess_content(fluid: Fluid, level: Level, state: State, filled: Mask, suppl
     excess = state.pressure - fluid.ambient_pressure - level.edge_excess
     largest = np.max(np.abs(np.where(full_film, unnormed.scaled, excess)))
     norm = float(max(largest, _LOAD_WEIGHT * abs(load) / level.load))
-    mass = content(runs, rows, density * thickness, mesh.dx)
+    mass = supply.at_rupture(filled, content(runs, rows, density * thickness, mesh.dx))
     return Content(replace(unnormed, norm=norm), filled, mass)
 
 
