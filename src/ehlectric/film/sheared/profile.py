@@ -109,6 +109,11 @@ def to_points(degree: int) -> tuple[Array, Array]:
     return across.at(zeta), below
 
 
+def over_columns(values: Array, like: Array) -> Array:
+    """Values over zeta (nq,) with axes for the columns of an array ``like``, shape (nq, 1, ...)."""
+    return values.reshape((-1,) + (1,) * like.ndim)
+
+
 @dataclass(frozen=True)
 class Properties:
     """Viscosity and density of the oil across the film, each of shape (nz, nx, ny).
