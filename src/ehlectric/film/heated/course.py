@@ -12,7 +12,7 @@ from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.newton import newton
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.sheared.column import Columns
+from ehlectric.film.sheared.columns import Columns
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.profile import Across
 from ehlectric.film.state import GridSolution, NewtonStep, Progress, State

@@ -6,7 +6,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.sheared.column import Columns
+from ehlectric.film.sheared.columns import Columns
 from ehlectric.film.thermal.columns import Stream
 from ehlectric.film.thermal.oil import HotOil
 
