@@ -57,14 +57,19 @@ def channel(u, *, degree=12, nodes=41, length=1e-3, thickness=1e-6, conductivity
     )
 
 
-def paper_oil(viscosity=0.04, roelands_s0=1.1, roelands_z=0.68, at=313.15, expansion=6.5e-4, conductivity=0.14):
-    """Oil over temperature: Roelands with S0 and z, Dowson and Higginson with thermal expansion."""
+def hot_oil(viscosity=0.04, alpha=None, roelands_z=0.68, at=313.15, expansion=6.5e-4, conductivity=0.14):
+    """Oil over temperature: Roelands with S0 = 1.1, Dowson and Higginson with thermal expansion.
+
+    ``alpha`` is the pressure-viscosity coefficient at ``at``; by default that of Roelands for this viscosity.
+    """
+    p0 = 1.96e8 if alpha is None else 1.98e8
 
     def oil_at(temperature):
         reduced = np.log(viscosity) + 9.67
-        eta = np.exp(reduced * ((temperature - 138.0) / (at - 138.0)) ** -roelands_s0 - 9.67)
-        alpha = roelands_z * (np.log(eta) + 9.67) / 1.96e8
-        law = {"pressure_viscosity_coefficient": alpha, "roelands_z": roelands_z, "roelands_pressure": 1.96e8}
+        warmer = ((temperature - 138.0) / (at - 138.0)) ** -1.1
+        eta = np.exp(reduced * warmer - 9.67)
+        slope = warmer * (roelands_z * reduced / p0 if alpha is None else alpha)
+        law = {"pressure_viscosity_coefficient": slope, "roelands_z": roelands_z, "roelands_pressure": p0}
         return Oil(
             eta,
             2.2,
@@ -142,3 +147,9 @@ def hot_line(
 def _scaled(law, pressure, scale):
     value, slope = law(scale * pressure)
     return value, scale * slope
+
+
+def paper_line(**options):
+    """Line contact of Morris et al. (2022) at 1 GPa with heat, between bodies of steel."""
+    oil = hot_oil(alpha=22e-9, roelands_z=0.67)
+    return hot_line(oil, **({"radius": 14.1e-3, "inlet": -4.0} | options))
