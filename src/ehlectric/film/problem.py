@@ -13,6 +13,7 @@ from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.mixed.touching import Asperities
 from ehlectric.film.starved.supply import OilSupply
+from ehlectric.film.thermal.physics import Physics
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,8 @@ class FilmProblem:
         Largest pressure over p_h where the surfaces touch; above it asperities are flattened.
     supply : OilSupply, optional
         Supply of oil at the inlet edge; without it the inlet is flooded.
+    physics : Physics, optional
+        Rheology and heat of the film. By default the film is Newtonian and isothermal.
     """
 
     fluid: Fluid
@@ -107,6 +110,7 @@ class FilmProblem:
     boundary_film: float = 0.0
     hardness: float = np.inf
     supply: OilSupply | None = None
+    physics: Physics | None = None
 
     @property
     def asperities(self) -> Asperities:
