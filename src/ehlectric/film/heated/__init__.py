@@ -1,0 +1,1 @@
+"""Films with heat and shear thinning: pressure, film thickness and temperature solved together."""
