@@ -254,9 +254,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "hardness-low": Cause("The hardness of the surfaces is below the Hertz pressure."),
         "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
         "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
-        "estimated-alpha": Cause(
-            "The pressure-viscosity coefficient is estimated from the type of base oil."
-        ),
+        "estimated-alpha": Cause("The pressure-viscosity coefficient is estimated from the base oil."),
         # Rough surfaces
         "spacing-irregular": Cause("Samples may be missing in a file of heights."),
         "voids-filled": Cause("Voids in a measured surface were filled.", "note"),
@@ -283,6 +281,11 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "inlet-far-too-short": Cause("Above 20 % of the inlet pressure builds up upstream.", "severe"),
         "domain-too-small": Cause("The domain is too small for the contact."),
         "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
+        "newtonian-traction": Cause("The traction of a Newtonian film at high pressure is far too large."),
+        "film-temperature-range": Cause("The film is hotter or colder than the laws of the oil are known."),
+        "film-very-hot": Cause("The film is hotter than oils stand."),
+        "heat-unresolved": Cause("The grid does not resolve the heat in the film."),
+        "slow-body": Cause("A surface moves too slowly for the model of its temperature."),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
         "field-unresolved": Cause("The estimated error of the maximum field is above 2 %, or unknown."),
@@ -304,9 +307,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
         "atlas-contacts": Cause("Contacts have the films of the atlas.", "note"),
         "atlas-left": Cause("The atlas has no film of a contact, which is computed by formula."),
-        "atlas-left-light": Cause(
-            "The atlas has no film of a light contact, which is computed by formula.", "note"
-        ),
+        "atlas-left-light": Cause("A light contact beyond the atlas is computed by formula.", "note"),
         "isothermal-film": Cause("The films are isothermal and fully flooded.", "note"),
         "temperature-unused": Cause("The films use a given viscosity at any temperature.", "note"),
         "viscosity-of-base": Cause("The viscosity is that of a lubricant of the library at any temperature."),
@@ -318,9 +319,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "clearance-class": Cause("The clearance is that of a class, before the bearing is mounted."),
         "clearance-negative": Cause("Fits and temperatures preload the bearing.", "note"),
         "fit-loose": Cause("A ring that is fitted tight is loose at the temperatures of operation."),
-        "viscosity-grade": Cause(
-            "The viscosity is the middle of a grade, which allows 10 % either way.", "note"
-        ),
+        "viscosity-grade": Cause("The viscosity is that of a grade, 10 % either way.", "note"),
         "clearance-taken-up": Cause("The films are not small compared with the clearance."),
         "shoulder-reached": Cause("A contact ellipse extends beyond the shoulder of its groove."),
         "touching": Cause("The lambda ratio is below 1: contacts touch, and discharge as they open."),

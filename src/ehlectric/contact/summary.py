@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.heat.summary import heat_summary
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Solution
@@ -80,7 +81,8 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "max_pressure_error",
     )
     more = {"discretisation_error": solution.film_error, "target_error": solution.case.grid.target}
-    return {name: getattr(film, name) for name in names} | more | {"solver": solution.film_solver}
+    more |= {"solver": solution.film_solver, **heat_summary(film.heated)}
+    return {name: getattr(film, name) for name in names} | more
 
 
 def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:

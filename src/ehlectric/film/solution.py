@@ -16,6 +16,7 @@ from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
+from ehlectric.film.thermal.result import HeatedFilm
 from ehlectric.runtime.values import Values
 
 
@@ -69,6 +70,8 @@ class FilmSolution(Values):
     max_pressure_error : float or None
         Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
         highest peak of the pressure. None if there is no estimate.
+    heated : HeatedFilm or None
+        Temperature, shear stress, traction and power loss; None of an isothermal Newtonian film.
     """
 
     x: Array
@@ -88,6 +91,12 @@ class FilmSolution(Values):
     discretisation_error: float | None = None
     inlet_deficit: float | None = None
     max_pressure_error: float | None = None
+    heated: HeatedFilm | None = None
+
+    @property
+    def temperature(self) -> Array | None:
+        """Temperature at mid-film [K] at the nodes; None of an isothermal film."""
+        return None if self.heated is None else self.heated.mid_temperature
 
     @property
     def converged(self) -> bool:

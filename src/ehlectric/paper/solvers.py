@@ -21,6 +21,8 @@ def _accepted(case: Case) -> Case:
             got=shown(case.contact.geometry),
             takes="'line'",
         )
+    if case.film is not None:
+        raise InputError.worded("film", "is not solved by the solver 'paper', whose films are isothermal")
     grid = case.grid.fixed() if case.grid.error is None else case.grid
     fas.grid_sizes(grid.nodes_along)
     case = case.model_copy(update={"grid": grid})

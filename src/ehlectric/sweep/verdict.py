@@ -153,7 +153,9 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     bound = ""
     factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
     if not isinstance(results.case, BearingCase):
-        bound = "Upper bound: isothermal, fully flooded film; "
+        heated = results.case.film is not None and results.case.film.thermal
+        cold = "" if heated and "film.thermal" not in results.varied else "isothermal, "
+        bound = f"Upper bound: {cold}fully flooded film; "
     else:
         heat = "isothermal, fully flooded, smooth film" if factors & {1.0} else "smooth film"
         bound = f"Upper bound: {heat}; "

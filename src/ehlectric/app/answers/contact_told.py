@@ -54,6 +54,11 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "inlet-far-too-short": _SOLVED,
         "domain-too-small": _FILM,
         "domain-far-too-small": _SOLVED,
+        "newtonian-traction": ("traction",),
+        "film-temperature-range": (*_FILM, "temperature-rise"),
+        "film-very-hot": (*_FILM, "temperature-rise"),
+        "heat-unresolved": (*_FILM, "temperature-rise"),
+        "slow-body": (*_FILM, "temperature-rise"),
         # Electric field and discharge
         "field-grid-too-coarse": ("max-field", "capacitance", *_BREAKDOWN),
         "field-unresolved": _FIELD,

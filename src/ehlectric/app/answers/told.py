@@ -95,6 +95,11 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "inlet-far-too-short": _ALL,
         "domain-too-small": _FILM,
         "domain-far-too-small": _ALL,
+        "newtonian-traction": (),
+        "film-temperature-range": _FILM,
+        "film-very-hot": _FILM,
+        "heat-unresolved": _FILM,
+        "slow-body": _FILM,
         # Electric field and discharge
         "field-grid-too-coarse": _FIRST,
         "field-unresolved": _FIRST,
