@@ -9,8 +9,8 @@ along entrainment; across entrainment dP/dY replaces dP/dX. F is the mass flux t
 flows from high to low pressure. A face lies half-way between two nodes. Quantities that are known at nodes
 enter as a mean of the two nodes, and this mean is taken in this module only.
 
-Another relation between flux and pressure gradient, for example that of a shear-thinning fluid, is one more
-function in ``FLOWS``.
+Another relation between flux and pressure gradient is one more function in ``FLOWS``, or the value of
+``Fluid.flow``, as that of a shear-thinning fluid (``ehlectric.film.sheared``).
 """
 
 from __future__ import annotations
@@ -47,15 +47,16 @@ class Fluid:
     ambient_pressure : float
         Ambient pressure over p_h. Below it density and viscosity keep their values at ambient pressure, as
         the pressure of an iterate may be lower than a liquid can have.
-    flow : str
-        Name of the relation between flux, pressure and film thickness, a key of ``FLOWS``.
+    flow : str or callable
+        Relation between flux, pressure and film thickness: a key of ``FLOWS``, or the law itself, a function
+        of fluid, P (nx, ny), H (nx, ny) and mesh that returns a ``Flow``.
     """
 
     density: FluidLaw
     log_viscosity: FluidLaw
     velocity_parameter: float
     ambient_pressure: float
-    flow: str = "newtonian"
+    flow: str | FlowLaw = "newtonian"
 
 
 @dataclass(frozen=True)
@@ -188,7 +189,7 @@ def flow(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
     Parameters
     ----------
     fluid : Fluid
-        Lubricant; ``fluid.flow`` is the name of the law.
+        Lubricant; ``fluid.flow`` is the law, or its name.
     pressure, thickness : ndarray, shape (nx, ny)
         Pressure P and film thickness H, dimensionless, H > 0.
     mesh : Mesh
@@ -215,7 +216,8 @@ def flow(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
     >>> flow(fluid, pressure, np.ones((3, 1)), Mesh.over(3, 0.0, 1.0)).along.flux[:, 0]
     array([40., 40.])
     """
-    return FLOWS[fluid.flow](fluid, pressure, thickness, mesh)
+    law = FLOWS[fluid.flow] if isinstance(fluid.flow, str) else fluid.flow
+    return law(fluid, pressure, thickness, mesh)
 
 
 def evaluate(fluid: Fluid, pressure: Array, thickness: Array) -> Coefficients:
@@ -334,7 +336,7 @@ def _mean_fluidity(
     spacing: float,
 ) -> FaceFlow:
     """Flow along the first axis from nodal values (n, m); ``density`` and its slope are over lambda."""
-    mean, by_before, by_after = _logarithmic_mean(log_viscosity, fluidity)
+    mean, by_before, by_after = logarithmic_mean(log_viscosity, fluidity)
     gap = 0.5 * (thickness[1:] + thickness[:-1])
     cube = gap**3
     volume = mean * cube / spacing**2
@@ -356,7 +358,7 @@ def _mean_fluidity(
     )
 
 
-def _logarithmic_mean(log_viscosity: Array, fluidity: Array) -> tuple[Array, Array, Array]:
+def logarithmic_mean(log_viscosity: Array, fluidity: Array) -> tuple[Array, Array, Array]:
     """Logarithmic mean of the fluidities of two nodes, and its derivatives by ln eta of both.
 
     Where the two are nearly equal, the differences are replaced by the first terms of their series.
@@ -378,11 +380,11 @@ def _along_and_across(
     flow_along = along(*nodes, spacing=mesh.dx)
     if mesh.dy is None:
         return Flow(k, flow_along, None)
-    lines = (_with_mirror(values, mesh).T for values in nodes)
+    lines = (with_mirror(values, mesh).T for values in nodes)
     return Flow(k, flow_along, across(*lines, spacing=mesh.dy))
 
 
-def _with_mirror(values: Array, mesh: Mesh) -> Array:
+def with_mirror(values: Array, mesh: Mesh) -> Array:
     """Nodal values (nx, ny); for a symmetric mesh with one line of the mirror image before the first line."""
     return np.concatenate([values[:, 1:2], values], axis=1) if mesh.symmetric else values
 

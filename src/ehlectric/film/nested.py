@@ -129,7 +129,7 @@ def _mixed(
     if full_film is not None and full_film.status == "converged":
         near = full_film.state
     elif coarse is not None:
-        near = _interpolated(level, coarse)
+        near = interpolated(level, coarse)
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
     finest = level.nodes == problem.nodes
     yield from mixed_film(
@@ -267,12 +267,12 @@ def _from_coarser(
 
     The coarse solution is interpolated by a monotone cubic, which is smooth and does not overshoot.
     """
-    state = _interpolated(levels[0], coarse)
+    state = interpolated(levels[0], coarse)
     state = state.lifted(0.5 * float(coarse.state.thickness.min()))
     return _solve_grid(problem, levels, state, progress, spike=True)
 
 
-def _interpolated(level: Level, coarse: GridSolution) -> State:
+def interpolated(level: Level, coarse: GridSolution) -> State:
     """State on a grid with the pressure of a coarser grid, interpolated by a monotone cubic."""
     pressure = _finer(level, coarse.level.mesh, coarse.state.pressure)
     if not coarse.touches:

@@ -12,6 +12,7 @@ from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.mixed.touching import Asperities
+from ehlectric.film.thermal.physics import Physics
 
 
 @dataclass(frozen=True)
@@ -83,6 +84,8 @@ class FilmProblem:
         touch: a film that would be pierced does not converge.
     hardness : float
         Largest pressure over p_h where the surfaces touch; above it asperities are flattened.
+    physics : Physics, optional
+        Rheology and heat of the film. By default the film is Newtonian and isothermal.
     """
 
     fluid: Fluid
@@ -103,6 +106,7 @@ class FilmProblem:
     most_nodes: int = 10_000_001
     boundary_film: float = 0.0
     hardness: float = np.inf
+    physics: Physics | None = None
 
     @property
     def asperities(self) -> Asperities:

@@ -1,0 +1,214 @@
+"""Film with heat and shear thinning on a sequence of grids, after the film without them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.film.accuracy.adaptive import RefinedSolution, refined_solution
+from ehlectric.film.heated.course import Course, HeatedGrid
+from ehlectric.film.levels import Level
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.nested import NESTED_TOLERANCE, interpolated, levels_of
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.sheared.profile import on_mesh
+from ehlectric.film.sheared.traction import power_loss, traction
+from ehlectric.film.state import GridSolution, Progress, State, Status
+from ehlectric.film.thermal.balance import energy_imbalance
+from ehlectric.film.thermal.energy import Heat
+
+# Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
+_FIRST, _FIRST_POINT = 101, 33
+
+# Largest number of nodes of a line contact whose linear systems are solved directly.
+_DIRECT = 401
+
+
+@dataclass(frozen=True, eq=False)
+class HeatedSolution:
+    """Film with heat or shear thinning, and the film without both.
+
+    Attributes
+    ----------
+    refined : RefinedSolution
+        Film with heat and shear thinning on all of its grids.
+    simple : RefinedSolution
+        Isothermal Newtonian film on all of its grids.
+    temperature : ndarray, shape (nz, nx, ny), or None
+        Temperature [K] at the nodes across the film; None for an isothermal film.
+    zeta : ndarray, shape (nz,)
+        Positions z/h of these nodes.
+    heat_flux : ndarray, shape (2, nx, ny), or None
+        Heat flow into both bodies [W/m^2].
+    mid_temperature : ndarray, shape (nx, ny), or None
+        Temperature at mid-film [K].
+    max_temperature_rise, temperature_rise_error : float or None
+        Largest rise of the mid-film temperature over that of the oil that enters [K], and the estimate of its
+        error from two grids.
+    shear_stress : ndarray, shape (nx, ny)
+        Shear stress along x at mid-film [Pa].
+    traction_coefficient, rolling_coefficient : float
+        Traction coefficient of the slip, and that of rolling.
+    power_loss : float
+        Friction power, [W/m] in a line and [W] in a point contact.
+    energy_imbalance : float or None
+        Heat of the film that the bodies and the oil do not take up, over all heat.
+    outer_iterations : int
+        Number of outer loops on all grids.
+    status : str
+        "converged", "stalled" or "diverged".
+    """
+
+    refined: RefinedSolution
+    simple: RefinedSolution
+    temperature: Array | None
+    zeta: Array
+    heat_flux: Array | None
+    mid_temperature: Array | None
+    max_temperature_rise: float | None
+    temperature_rise_error: float | None
+    shear_stress: Array
+    traction_coefficient: float
+    rolling_coefficient: float
+    power_loss: float
+    energy_imbalance: float | None
+    outer_iterations: int
+    status: Status
+
+    @property
+    def surface_temperatures(self) -> Array | None:
+        """Temperatures of both surfaces [K], shape (2, nx, ny); None for an isothermal film."""
+        return None if self.temperature is None else self.temperature[[0, -1]]
+
+
+def film_of(problem: FilmProblem, progress: Progress | None = None) -> HeatedSolution:
+    """Solve the film with the physics of its problem, after the isothermal Newtonian film.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Problem of the contact with its ``physics``.
+    progress : callable, optional
+        Function that is called with (nodes, Newton step, residual) before every Newton step.
+
+    Returns
+    -------
+    HeatedSolution
+        Both films, the temperature, and the friction.
+
+    Notes
+    -----
+    The grid is that on which the isothermal film reaches the ``target_error`` of the problem. The film with
+    heat is then solved on all grids from coarse to fine.
+    """
+    assert problem.physics is not None
+    simple = refined_solution(replace(problem, physics=None), progress)
+    whole = simple.whole
+    grids = [_on(simple.problem if simple.patch is None else problem, whole, problem)]
+    least = _FIRST if problem.width is None else _FIRST_POINT
+    while len(grids) < 2 or grids[-1].nodes // 2 + 1 >= least:
+        width = None if grids[-1].width is None else grids[-1].width.coarser()
+        grids.append(replace(grids[-1], nodes=grids[-1].nodes // 2 + 1, width=width))
+    found: list[tuple[Course, HeatedGrid]] = []
+    for posed in reversed(grids):
+        course = _course(posed, finest=posed is grids[0], progress=progress)
+        state, heat = _start(course, simple, found)
+        found.append((course, course(state, heat, spike=True)))
+    return _solution(simple, found)
+
+
+def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmProblem:
+    """Problem with heat on the grid of the isothermal film over the whole domain."""
+    mesh, width = whole.level.mesh, posed.width
+    if width is not None:
+        across = mesh.whole_y.size if mesh.symmetric else mesh.y.size
+        width = replace(width, nodes=across)
+    return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=3)
+
+
+def _course(problem: FilmProblem, *, finest: bool, progress: Progress | None) -> Course:
+    """Outer iteration on the grid of a problem."""
+    levels = levels_of(problem)
+    direct = problem.width is None and problem.nodes <= _DIRECT
+    tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
+    return Course(problem, levels[:1] if direct else levels, tolerance, progress)
+
+
+def _start(
+    course: Course, simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]
+) -> tuple[State, Heat | None]:
+    """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid."""
+    level = course.levels[0]
+    if found and found[-1][1].converged:
+        coarse = found[-1][1]
+        state = interpolated(level, coarse.solution)
+        state = state.lifted(0.5 * float(coarse.solution.state.thickness.min()))
+        return state, None if coarse.heat is None else _finer(coarse.heat, coarse.solution.level, level)
+    for solution in reversed(simple.solutions):
+        if solution.level.mesh.shape == level.mesh.shape and simple.patch is None:
+            return solution.state, None
+    return interpolated(level, simple.whole), None
+
+
+def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:
+    """Temperature and fluxes on a finer grid, interpolated linearly."""
+    old, new = coarse.mesh, level.mesh
+    return Heat(on_mesh(heat.temperature, old, new), on_mesh(heat.flux, old, new))
+
+
+def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -> HeatedSolution:
+    """Results of the film on its finest grid."""
+    course, last = found[-1]
+    problem, physics = course.problem, course.physics
+    mesh, state = course.levels[0].mesh, last.solution.state
+    rises = [_rise(each, grid) for each, grid in found]
+    error = None
+    if rises[-1] is not None and len(rises) > 1 and rises[-2] is not None and found[-2][1].converged:
+        # The difference of two grids; at first order it is the error of the finer one.
+        error = abs(rises[-1] - rises[-2])
+    friction = traction(
+        last.columns, mesh, course.levels[0].load, course.stress_scale / problem.scales.pressure, last.filled
+    )
+    heat = last.heat
+    middle = None if heat is None else _middle(last, heat.temperature)
+    imbalance = None
+    if heat is not None and last.stream is not None and physics.thermal is not None:
+        imbalance = energy_imbalance(last.stream, heat, physics.thermal.inlet_temperature)
+    return HeatedSolution(
+        refined=RefinedSolution(problem, [grid.solution for _, grid in found]),
+        simple=simple,
+        temperature=None if heat is None else heat.temperature,
+        zeta=last.columns.across.zeta,
+        heat_flux=None if heat is None else heat.flux,
+        mid_temperature=middle,
+        max_temperature_rise=rises[-1],
+        temperature_rise_error=error,
+        shear_stress=course.stress_scale * last.columns.middle[0] * last.filled,
+        traction_coefficient=friction.sliding,
+        rolling_coefficient=friction.rolling,
+        power_loss=_power(course, last),
+        energy_imbalance=imbalance,
+        outer_iterations=sum(grid.loops for _, grid in found),
+        status=last.solution.status,
+    )
+
+
+def _power(course: Course, last: HeatedGrid) -> float:
+    """Friction power of the film [W/m] or [W]."""
+    return 0.0
+
+
+def _middle(grid: HeatedGrid, temperature: Array) -> Array:
+    """Temperature at mid-film (nx, ny) [K]."""
+    weights = grid.columns.across.at(np.array([0.5]))[0]
+    return np.asarray(np.tensordot(weights, temperature, axes=1))
+
+
+def _rise(course: Course, grid: HeatedGrid) -> float | None:
+    """Largest rise of the mid-film temperature [K]."""
+    thermal = course.physics.thermal
+    if grid.heat is None or thermal is None:
+        return None
+    return float(np.max(_middle(grid, grid.heat.temperature))) - thermal.inlet_temperature

@@ -1,0 +1,176 @@
+"""Properties of the oil across the film: nodes over zeta = z/h, and the values that a temperature gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Protocol
+
+import numpy as np
+from scipy.special import eval_legendre, roots_jacobi, roots_legendre
+
+from ehlectric.arrays import Array
+from ehlectric.film.mesh import Mesh
+
+# Number of Gauss points across the film. Where the stress changes by 200 Eyring stresses over the film the
+# flux is accurate to 2e-8, where it changes by 500 to 2e-3.
+_POINTS = 32
+
+
+@dataclass(frozen=True)
+class Across:
+    """Polynomial across the film, on Gauss-Lobatto nodes zeta from surface 1 (zeta = 0) to 2 (zeta = 1).
+
+    Attributes
+    ----------
+    zeta, weights : ndarray, shape (nz,)
+        Nodes and weights of the quadrature from 0 to 1.
+    cumulative : ndarray, shape (nz, nz)
+        Matrix of the integral from 0 to each node, exact for the polynomial through the nodes.
+    """
+
+    zeta: Array
+    weights: Array
+    cumulative: Array
+
+    @classmethod
+    @cache
+    def of(cls, degree: int) -> Across:
+        """Nodes and weights of a polynomial degree, at least 2.
+
+        Examples
+        --------
+        The integral of zeta^2 from zero to each node:
+
+        >>> across = Across.of(4)
+        >>> bool(np.allclose(across.cumulative @ across.zeta**2, across.zeta**3 / 3.0))
+        True
+        """
+        inner = roots_jacobi(degree - 1, 1.0, 1.0)[0]
+        zeta = 0.5 * (1.0 + np.concatenate([[-1.0], inner, [1.0]]))
+        weights = 1.0 / (degree * (degree + 1) * eval_legendre(degree, 2.0 * zeta - 1.0) ** 2)
+        return cls(zeta, weights, integrals(zeta, zeta))
+
+    def at(self, zeta: Array) -> Array:
+        """Matrix of the interpolation from the nodes to other positions ``zeta`` (n,), shape (n, nz)."""
+        return interpolation(self.zeta, zeta)
+
+
+def interpolation(nodes: Array, at: Array) -> Array:
+    """Values at ``at`` (n,) of the Lagrange polynomials of ``nodes`` (m,), shape (n, m)."""
+    columns = []
+    for k, node in enumerate(nodes):
+        others = np.delete(nodes, k)
+        columns.append(np.prod((at[:, np.newaxis] - others) / (node - others), axis=1))
+    return np.stack(columns, axis=1)
+
+
+def integrals(nodes: Array, ends: Array) -> Array:
+    """Integrals from 0 to each of ``ends`` (n,) of the Lagrange polynomials of ``nodes`` (m,), (n, m)."""
+    points, weights = roots_legendre(nodes.size // 2 + 1)
+    return np.stack([0.5 * end * weights @ interpolation(nodes, 0.5 * end * (1.0 + points)) for end in ends])
+
+
+@dataclass(frozen=True)
+class Quadrature:
+    """Gauss points across the film, and the matrices that take nodal values of a profile to them.
+
+    Attributes
+    ----------
+    offset, weights : ndarray, shape (nq,)
+        Positions zeta - 1/2 and weights.
+    """
+
+    offset: Array
+    weights: Array
+
+    @classmethod
+    @cache
+    def gauss(cls) -> Quadrature:
+        """Gauss-Legendre points of the flow across the film."""
+        points, weights = roots_legendre(_POINTS)
+        return cls(0.5 * points, 0.5 * weights)
+
+
+@cache
+def to_points(degree: int) -> tuple[Array, Array]:
+    """Matrices from the nodes of ``Across.of(degree)`` to the Gauss points, each of shape (nq, nz).
+
+    Returns
+    -------
+    values : ndarray, shape (nq, nz)
+        Interpolation.
+    below : ndarray, shape (nq, nz)
+        Integral of the values from zeta = 0 to the point, less half the integral over the film.
+    """
+    across, quadrature = Across.of(degree), Quadrature.gauss()
+    zeta = quadrature.offset + 0.5
+    below = integrals(across.zeta, zeta) - 0.5 * across.weights
+    return across.at(zeta), below
+
+
+@dataclass(frozen=True)
+class Properties:
+    """Viscosity and density of the oil across the film, each of shape (nz, nx, ny).
+
+    Attributes
+    ----------
+    log_ratio, log_ratio_p : ndarray
+        ln of the viscosity over that of ``Fluid.log_viscosity``, and its derivative by P.
+    density, density_p : ndarray
+        rho/rho_0 and its derivative by P.
+    """
+
+    log_ratio: Array
+    log_ratio_p: Array
+    density: Array
+    density_p: Array
+
+
+class Profile(Protocol):
+    """Temperature across the film, which the flow takes as fixed, with the properties of the oil at it.
+
+    Attributes
+    ----------
+    across : Across
+        Nodes across the film.
+    """
+
+    across: Across
+
+    def __call__(self, pressure: Array, mesh: Mesh) -> Properties:
+        """Properties at a pressure P (nx, ny), not below ambient, on any mesh of the same contact.
+
+        The flow is computed on coarser grids and on strips of the grid, too.
+        """
+        ...
+
+
+def on_mesh(values: Array, of: Mesh, mesh: Mesh) -> Array:
+    """Values across the film on another mesh of the same contact, by linear interpolation.
+
+    Parameters
+    ----------
+    values : ndarray, shape (nz, nx, ny)
+        Values on the mesh ``of``.
+    of, mesh : Mesh
+        Mesh of the values, and the mesh to interpolate to.
+
+    Returns
+    -------
+    ndarray, shape (nz, nx', ny')
+        Values on ``mesh``; the given array if both meshes have the same nodes.
+
+    Examples
+    --------
+    >>> of, mesh = Mesh.over(3, 0.0, 2.0), Mesh.over(5, 0.0, 2.0)
+    >>> on_mesh(np.array([[[0.0], [1.0], [4.0]]]), of, mesh)[0, :, 0].tolist()
+    [0.0, 0.5, 1.0, 2.5, 4.0]
+    """
+    for axis, (old, new) in enumerate(((of.x, mesh.x), (of.y, mesh.y)), start=1):
+        if old.size == 1 or (old.size == new.size and np.array_equal(old, new)):
+            continue
+        left = np.clip(np.searchsorted(old, new, side="right") - 1, 0, old.size - 2)
+        part = ((new - old[left]) / (old[left + 1] - old[left])).reshape((-1, 1) if axis == 1 else (-1,))
+        values = (1.0 - part) * np.take(values, left, axis) + part * np.take(values, left + 1, axis)
+    return values

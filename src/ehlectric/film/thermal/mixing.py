@@ -1,0 +1,52 @@
+"""Anderson acceleration of a fixed-point iteration."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ehlectric.arrays import Array
+
+
+class Mixing:
+    """Anderson acceleration: the next iterate from the last few iterates and their images.
+
+    The combination of the last images is taken whose change is smallest in the norm of least squares.
+
+    Notes
+    -----
+    D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305.
+
+    Examples
+    --------
+    A linear map of two unknowns is solved after three images:
+
+    >>> mixing, x = Mixing(depth=5), np.zeros(2)
+    >>> for _ in range(4):
+    ...     x = mixing(x, np.array([[0.5, 0.4], [-0.3, 0.9]]) @ x + 1.0)
+    >>> bool(np.allclose(x, np.linalg.solve([[0.5, -0.4], [0.3, 0.1]], np.ones(2))))
+    True
+    """
+
+    def __init__(self, depth: int = 5) -> None:
+        self._depth = depth
+        self._images: list[Array] = []
+        self._changes: list[Array] = []
+
+    def __call__(self, point: Array, image: Array) -> Array:
+        """Next iterate from an iterate and its image, both (n,)."""
+        change = image - point
+        self._images.append(image)
+        self._changes.append(change)
+        del self._images[: -self._depth - 1], self._changes[: -self._depth - 1]
+        if len(self._changes) == 1:
+            return image
+        differences = np.stack([change - other for other in self._changes[:-1]], axis=1)
+        # Nearly dependent differences are left out: they would combine far iterates with large factors.
+        factors, *_ = np.linalg.lstsq(differences, change, rcond=1e-8)
+        moves = np.stack([image - other for other in self._images[:-1]], axis=1)
+        return np.asarray(image - moves @ factors)
+
+    def forget(self) -> None:
+        """Start anew from the next iterate."""
+        self._images.clear()
+        self._changes.clear()

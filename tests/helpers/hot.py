@@ -1,0 +1,144 @@
+"""Oils, bodies and columns of heated films, for tests."""
+
+import numpy as np
+
+from ehlectric.film.flow import Fluid
+from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
+from ehlectric.film.sheared.laws import Rheology
+from ehlectric.film.sheared.profile import Across
+from ehlectric.film.thermal.columns import Stream
+from ehlectric.film.thermal.half_space import Surface
+from ehlectric.film.thermal.oil import HotOil
+from ehlectric.film.thermal.physics import Body, Physics, Thermal
+from ehlectric.lubricant.density import dowson_higginson
+from ehlectric.lubricant.oil import BoundLaw, Oil, OfDensity
+from ehlectric.lubricant.permittivity import constant_permittivity
+from ehlectric.lubricant.viscosity import roelands
+
+STEEL = {"thermal_conductivity": 46.0, "heat_capacity": 470.0, "density": 7850.0}
+
+
+def steel(temperature):
+    """Body of steel with a bulk temperature [K]."""
+    return Body(temperature, **STEEL)
+
+
+def cold_surface(temperature, nodes):
+    """Surface that stays at its temperature [K], whatever heat flows into it."""
+    downstream = np.zeros(nodes)
+    downstream[0] = 1e-14
+    return Surface(temperature, downstream, np.zeros(nodes))
+
+
+def channel(u, *, degree=12, nodes=41, length=1e-3, thickness=1e-6, conductivity=0.14, **other):
+    """Stream of a channel with constant thickness; ``u`` [m/s] is a function of zeta or a number."""
+    across = Across.of(degree)
+    shape = (across.zeta.size, nodes, 1)
+    speed = u(across.zeta) if callable(u) else np.full(across.zeta.size, u)
+    zeros = np.zeros(shape)
+    values = {
+        "v": zeros,
+        "density": np.full(shape, 870.0),
+        "heat_capacity": np.full(shape, 1.74e6),
+        "conductivity": np.full(shape, conductivity),
+        "heating": zeros,
+        "heating_slope": zeros,
+        "compression": zeros,
+    }
+    return Stream(
+        across=across,
+        dx=length / (nodes - 1),
+        dy=0.0,
+        symmetric=False,
+        thickness=np.full(shape[1:], thickness),
+        filling=np.ones(shape[1:]),
+        u=np.broadcast_to(speed[:, np.newaxis, np.newaxis], shape).copy(),
+        **(values | other),
+    )
+
+
+def paper_oil(viscosity=0.04, roelands_s0=1.1, roelands_z=0.68, at=313.15, expansion=6.5e-4, conductivity=0.14):
+    """Oil over temperature: Roelands with S0 and z, Dowson and Higginson with thermal expansion."""
+
+    def oil_at(temperature):
+        reduced = np.log(viscosity) + 9.67
+        eta = np.exp(reduced * ((temperature - 138.0) / (at - 138.0)) ** -roelands_s0 - 9.67)
+        alpha = roelands_z * (np.log(eta) + 9.67) / 1.96e8
+        law = {"pressure_viscosity_coefficient": alpha, "roelands_z": roelands_z, "roelands_pressure": 1.96e8}
+        return Oil(
+            eta,
+            2.2,
+            0.0,
+            BoundLaw(roelands, law, temperature),
+            BoundLaw(dowson_higginson, {"density_c1": 0.59e9, "density_c2": 1.34}, temperature),
+            OfDensity(BoundLaw(constant_permittivity, {"relative_permittivity": 2.2})),
+            temperature=temperature,
+            density=870.0 * (1.0 - expansion * (temperature - at)),
+            thermal_conductivity_law=lambda p: (np.full_like(p, conductivity), np.zeros_like(p)),
+            heat_capacity_law=lambda p: (np.full_like(p, 870.0 * 2000.0), np.zeros_like(p)),
+        )
+
+    return oil_at
+
+
+def hot_line(
+    oil_at,
+    *,
+    max_pressure=1e9,
+    speed=4.0,
+    slide_to_roll_ratio=0.0,
+    radius=0.01,
+    modulus=226e9,
+    rheology=None,
+    nodes=401,
+    inlet=-6.0,
+    outlet=2.0,
+    temperature=313.15,
+    heat=True,
+    **options,
+):
+    """Problem of a line contact with heat, between bodies of steel at the temperature of the oil."""
+    half_width = 4.0 * radius * max_pressure / modulus
+    oil = oil_at(temperature)
+    fluid = Fluid(
+        density=lambda p: _scaled(oil.density_ratio, p, max_pressure),
+        log_viscosity=lambda p: _scaled(oil.log_viscosity, p, max_pressure),
+        velocity_parameter=velocity_parameter(
+            viscosity=oil.viscosity,
+            entrainment_speed=speed,
+            radius=radius,
+            half_width=half_width,
+            max_pressure=max_pressure,
+        ),
+        ambient_pressure=0.0,
+    )
+    slip = 0.5 * slide_to_roll_ratio * speed
+    thermal = Thermal(
+        (steel(temperature), steel(temperature)),
+        temperature,
+        HotOil.through(oil_at, temperature - 30.0, temperature + 300.0),
+    )
+    physics = Physics(
+        rheology or Rheology("newtonian", {}),
+        (speed - slip, speed + slip),
+        oil.viscosity,
+        thermal if heat else None,
+    )
+    scale = half_width**2 / radius
+    guess = 1e-6 * 0.3 * (speed * oil.viscosity / 0.04) ** 0.7 / scale
+    return FilmProblem(
+        fluid,
+        nodes,
+        inlet,
+        outlet,
+        thickness_guess=guess,
+        wedge_order=3,
+        scales=Scales(half_width, max_pressure, scale, 0.0),
+        physics=physics,
+        **options,
+    )
+
+
+def _scaled(law, pressure, scale):
+    value, slope = law(scale * pressure)
+    return value, scale * slope

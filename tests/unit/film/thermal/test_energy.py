@@ -1,0 +1,119 @@
+"""March of the energy equation against exact solutions and against one system of all columns."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric.film.thermal.columns import HeatColumns
+from ehlectric.film.thermal.energy import Heat, solve_energy
+from ehlectric.film.thermal.half_space import moving_surface
+from tests.helpers.hot import channel, cold_surface, steel
+
+
+def at_rest(stream, temperature):
+    shape = stream.u.shape
+    return Heat(np.full(shape, temperature), np.zeros((2, *shape[1:])))
+
+
+def solved(stream, surfaces, inlet=300.0, **options):
+    last = at_rest(stream, inlet)
+    columns = HeatColumns.of(stream, last.temperature)
+    return solve_energy(columns, surfaces, last, inlet_temperature=inlet, **options)
+
+
+def test_uniform_heating_between_cold_surfaces_is_a_parabola():
+    stream = channel(1.0, length=1e-3)
+    heat = 1e14
+    stream = replace(stream, heating=np.full(stream.u.shape, heat))
+    found = solved(stream, (cold_surface(300.0, 41), cold_surface(300.0, 41)))
+    zeta = stream.across.zeta
+    exact = 300.0 + heat * 1e-12 / (2.0 * 0.14) * zeta * (1.0 - zeta)
+    np.testing.assert_allclose(found.temperature[:, -1, 0], exact, rtol=1e-8)
+    # Half of the heat flows into each body.
+    np.testing.assert_allclose(found.flux[:, -1, 0], 0.5 * heat * 1e-6, rtol=1e-6)
+
+
+def plug_flow(nodes, degree=16):
+    """Temperature at mid-film of oil at 0 K that enters between surfaces at 1 K, and the exact one."""
+    speed, length = 2.0, 1e-5
+    stream = channel(speed, nodes=nodes, length=length, degree=degree)
+    found = solved(stream, (cold_surface(1.0, nodes), cold_surface(1.0, nodes)), inlet=0.0)
+    # The balance of the first columns with T_inlet before them begins half a cell before the first one.
+    x = np.linspace(0.0, length, nodes) + 0.5 * stream.dx
+    odd = np.arange(1, 200, 2)[:, np.newaxis] * np.pi
+    decay = np.exp(-(odd**2) * 0.14 / 1.74e6 * x / (speed * 1e-12))
+    middle = stream.across.at(np.array([0.5]))[0] @ found.temperature[:, :, 0]
+    exact = 1.0 - np.sum(4.0 / odd * np.sin(0.5 * odd) * decay, axis=0)
+    return middle, exact
+
+
+def test_entry_of_a_plug_flow_has_second_order_along_x():
+    # Series for the slab, Carslaw and Jaeger, section 3.3. The first columns, where the surfaces jump, are
+    # left out.
+    errors = []
+    for nodes in (81, 161, 321):
+        found, exact = plug_flow(nodes)
+        errors.append(np.max(np.abs(found - exact)[nodes // 4 :]))
+    assert errors[2] < 2e-4
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.3)
+    assert np.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.3)
+
+
+def test_march_solves_the_system_of_all_columns():
+    rng = np.random.default_rng(4)
+    nodes = 24
+    stream = channel(1.0, nodes=nodes, degree=5, length=2e-5)
+    shape = stream.u.shape
+    u = 1.0 + rng.uniform(-0.5, 0.5, shape)
+    u[2:4, :9] = -0.7 * rng.uniform(size=(2, 9, 1))
+    stream = replace(stream, u=u, heating=1e12 * rng.uniform(size=shape))
+    surfaces = tuple(
+        moving_surface(steel(310.0), speed, nodes=nodes, spacing=stream.dx, half_width=1e-5)
+        for speed in (0.4, 8.0)
+    )
+    found = solved(stream, surfaces)
+    columns = HeatColumns.of(stream, np.full(shape, 300.0))
+    nz = shape[0]
+    # Unknowns: temperatures of all columns, then the fluxes into both bodies.
+    size = nodes * nz
+    matrix, right = np.zeros((size + 2 * nodes, size + 2 * nodes)), np.zeros(size + 2 * nodes)
+    for i in range(nodes):
+        rows = slice(i * nz, (i + 1) * nz)
+        matrix[rows, rows] = columns.matrix[i, 0]
+        right[rows] = columns.right[i, 0]
+        for part, step in ((columns.before, -1), (columns.second, -2), (columns.after, 1)):
+            j = i + step
+            if 0 <= j < nodes:
+                matrix[rows, j * nz : (j + 1) * nz] -= np.diag(part[i, 0])
+            elif j < 0:
+                right[rows] += part[i, 0] * 300.0
+        for body, row in ((0, 0), (1, nz - 1)):
+            flux = size + body * nodes + i
+            matrix[i * nz + row, flux] = 1.0
+            matrix[flux, i * nz + row] = 1.0
+            right[flux] = 310.0
+            for j in range(nodes):
+                surface = surfaces[body]
+                matrix[flux, size + body * nodes + j] -= (
+                    surface.downstream[i - j] if j <= i else surface.upstream[j - i]
+                )
+    exact = np.linalg.solve(matrix, right)
+    np.testing.assert_allclose(found.temperature[:, :, 0].T.ravel(), exact[:size], atol=2e-3)
+
+
+def test_heat_into_surfaces_and_oil_balances():
+    nodes = 61
+    stream = channel(lambda zeta: 1.0 + zeta, nodes=nodes, length=5e-5)
+    heating = np.full(stream.u.shape, 1e14)
+    stream = replace(stream, heating=heating)
+    surfaces = tuple(
+        moving_surface(steel(300.0), speed, nodes=nodes, spacing=stream.dx, half_width=2e-5)
+        for speed in (1.0, 2.0)
+    )
+    found = solved(stream, surfaces)
+    made = 1e14 * 1e-6 * nodes * stream.dx
+    into = found.flux.sum() * stream.dx
+    enthalpy = 1.74e6 * 1e-6 * stream.across.weights @ (stream.u * (found.temperature - 300.0))[:, :, 0]
+    # The second-order upstream difference sums to 1.5 times the last column less half of the one before.
+    assert into + 1.5 * enthalpy[-1] - 0.5 * enthalpy[-2] == pytest.approx(made, rel=1e-9)
