@@ -80,7 +80,10 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "newton_iterations",
         "max_pressure_error",
     )
-    more = {"discretisation_error": solution.film_error, "target_error": solution.case.grid.target}
+    more: dict[str, Any] = {
+        "discretisation_error": solution.film_error,
+        "target_error": solution.case.grid.target,
+    }
     more |= {"solver": solution.film_solver, **heat_summary(film.heated)}
     return {name: getattr(film, name) for name in names} | more
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ehlectric.cases.case import Case
+from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.row import Row, amount, amount_row
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.film.thermal.result import HeatedFilm
@@ -27,25 +28,14 @@ def heat_rows(result: Result | PointResult) -> Iterator[Row]:
     yield Row("rheology", RHEOLOGIES[heated.rheology], note=_constants(result.case))
     yield Row("temperature", "computed" if heated.thermal else "that of the inlet", note=_inlet(result.case))
     effect = "heat and shear" if heated.thermal else "shear"
-    for name, simple, now in (
-        (
-            "minimum film, isothermal and Newtonian",
-            heated.isothermal_minimum_thickness,
-            film.minimum_thickness,
-        ),
-        (
-            "central film, isothermal and Newtonian",
-            heated.isothermal_central_thickness,
-            film.central_thickness,
-        ),
-    ):
+    for name in ("minimum", "central"):
+        simple, now = getattr(heated, f"isothermal_{name}_thickness"), getattr(film, f"{name}_thickness")
         note = f", {100.0 * (now / simple - 1.0):+.2g} % by {effect}" if result.converged else ""
-        yield Row(name, simple, "µm", note)
+        yield Row(f"{name} film, isothermal and Newtonian", simple, "µm", note)
     yield from _temperatures(heated)
     yield Row("traction coefficient", heated.traction_coefficient, digits=".3g")
-    yield Row(
-        "coefficient of rolling friction", heated.rolling_coefficient, note="of each surface", digits=".2g"
-    )
+    rolling = heated.rolling_coefficient
+    yield Row("coefficient of rolling friction", rolling, note=", of each surface", digits=".2g")
     yield amount_row("power loss", heated.power_loss, "W/m" if isinstance(result, Result) else "W")
 
 
@@ -53,14 +43,9 @@ def _constants(case: object) -> str:
     """Note with the constants of the rheology of a case."""
     if not isinstance(case, Case) or case.film is None:
         return ""
-    named = {
-        "eyring_stress": "Pa",
-        "carreau_stress": "Pa",
-        "carreau_exponent": "",
-        "limiting_coefficient": "",
-    }
-    given = case.film.constants(case.lubricant)
-    return ", ".join(f"{key} {amount(value, named[key])}".rstrip() for key, value in given.items())
+    given = case.film.constants(case.lubricant).items()
+    texts = (f"{key} {amount(value, unit_of(f'lubricant.{key}'))}".rstrip() for key, value in given)
+    return "".join(f", {text}" for text in texts)
 
 
 def _inlet(case: object) -> str:
@@ -70,7 +55,7 @@ def _inlet(case: object) -> str:
     contact = case.contact
     found = {"oil": contact.temperature, "body 1": contact.temperature_1, "body 2": contact.temperature_2}
     known = {name: value for name, value in found.items() if value is not None}
-    return ", ".join(f"{name} at {value - 273.15:.4g} °C" for name, value in known.items())
+    return "".join(f", {name} at {value - 273.15:.4g} °C" for name, value in known.items())
 
 
 def _temperatures(heated: HeatedFilm) -> Iterator[Row]:

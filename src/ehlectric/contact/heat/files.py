@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import fields
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +25,7 @@ _NODAL: Mapping[str, tuple[bool, str, str]] = {
 _ZETA = "fraction of the film, from surface 1 to surface 2"
 
 # What the numbers are; those not named here may be null.
-_KINDS = {
+_KINDS: Mapping[str, Callable[[Any], bool]] = {
     "rheology": lambda value: isinstance(value, str),
     "traction_coefficient": is_number,
     "rolling_coefficient": is_number,
@@ -101,7 +100,5 @@ def heated_of(dataset: xr.Dataset) -> HeatedFilm | None:
     """Heat and shear of the film in a file; None if it has none."""
     if _NUMBERS not in dataset.attrs:
         return None
-    arrays = {name: dataset[name].values for name in (*_NODAL, "zeta") if name in dataset}
-    known = {field.name for field in fields(HeatedFilm)}
-    numbers = {k: v for k, v in json.loads(dataset.attrs[_NUMBERS]).items() if k in known}
-    return HeatedFilm(**numbers, **arrays)
+    arrays: dict[str, Any] = {n: dataset[n].values for n in (*_NODAL, "zeta") if n in dataset}
+    return HeatedFilm(**json.loads(dataset.attrs[_NUMBERS]), **arrays)

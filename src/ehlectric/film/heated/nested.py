@@ -10,11 +10,10 @@ from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import RefinedSolution, refined_solution
 from ehlectric.film.heated.course import Course, HeatedGrid
 from ehlectric.film.levels import Level
-from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import NESTED_TOLERANCE, interpolated, levels_of
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.sheared.profile import on_mesh
-from ehlectric.film.sheared.traction import power_loss, traction
+from ehlectric.film.sheared.traction import traction
 from ehlectric.film.state import GridSolution, Progress, State, Status
 from ehlectric.film.thermal.balance import energy_imbalance
 from ehlectric.film.thermal.energy import Heat

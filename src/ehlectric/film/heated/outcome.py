@@ -43,7 +43,7 @@ def heated_film(
     """
     physics = found.refined.problem.physics
     assert physics is not None
-    hot = found.temperature is not None
+    rows = found.temperature
     return HeatedFilm(
         rheology=physics.rheology.name,
         # A slide-to-roll ratio is positive where surface 1 is the faster one.
@@ -54,10 +54,8 @@ def heated_film(
         isothermal_minimum_thickness=minimum_thickness,
         isothermal_central_thickness=central_thickness,
         outer_iterations=found.outer_iterations,
-        zeta=found.zeta if hot else None,
-        temperature=None
-        if found.temperature is None
-        else np.stack([shaped(row) for row in found.temperature]),
+        zeta=None if rows is None else found.zeta,
+        temperature=None if rows is None else np.stack([shaped(row) for row in rows]),
         mid_temperature=None if found.mid_temperature is None else shaped(found.mid_temperature),
         max_temperature_rise=found.max_temperature_rise,
         temperature_rise_error=found.temperature_rise_error,

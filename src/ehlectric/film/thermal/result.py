@@ -12,7 +12,7 @@ from ehlectric.runtime.values import Values
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HeatedFilm(Values):
-    """Heat and shear of a film in SI units; nodal values have the shape (nx,), or (nx, ny) of a point contact.
+    """Heat and shear of a film in SI units, with nodal values (nx,), or (nx, ny) of a point contact.
 
     Attributes
     ----------
