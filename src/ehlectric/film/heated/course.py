@@ -15,6 +15,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.sheared.columns import Columns
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.profile import Across
+from ehlectric.film.sheared.traction import filled_part
 from ehlectric.film.state import GridSolution, NewtonStep, Progress, State
 from ehlectric.film.thermal.columns import HeatColumns, Stream
 from ehlectric.film.thermal.energy import Heat, solve_energy
@@ -22,7 +23,7 @@ from ehlectric.film.thermal.frozen import FrozenTemperature
 from ehlectric.film.thermal.half_space import Surface, moving_surface
 from ehlectric.film.thermal.mixing import Mixing
 from ehlectric.film.thermal.physics import Physics, Thermal
-from ehlectric.film.thermal.stream import filling, stream_of
+from ehlectric.film.thermal.stream import stream_of
 
 # Degree of the polynomial across the film.
 DEGREE = 12
@@ -145,7 +146,7 @@ class Course:
         state, mesh = solution.state, self.levels[0].mesh
         found = flow.columns(fluid, state.pressure, state.thickness, mesh)
         mass = solution.final.coefficients.density * state.thickness
-        return found, filling(mass, solution.final.full_film)
+        return found, filled_part(solution.final.full_film, mass)
 
     def stream(self, thermal: Thermal, solution: GridSolution, heat: Heat) -> tuple[Stream, Columns, Array]:
         """Flow of the energy equation at a film and a temperature."""

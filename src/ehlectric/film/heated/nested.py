@@ -168,8 +168,15 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
         # The difference of two grids; at first order it is the error of the finer one.
         error = abs(rises[-1] - rises[-2])
     friction = traction(
-        last.columns, mesh, course.levels[0].load, course.stress_scale / problem.scales.pressure, last.filled
+        last.columns,
+        state.thickness,
+        mesh,
+        load=course.levels[0].load,
+        stress_ratio=course.stress_scale / problem.scales.pressure,
+        filled=last.filled,
     )
+    scales, level = problem.scales, course.levels[0]
+    load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
     heat = last.heat
     middle = None if heat is None else _middle(last, heat.temperature)
     imbalance = None
@@ -187,16 +194,15 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
         shear_stress=course.stress_scale * last.columns.middle[0] * last.filled,
         traction_coefficient=friction.sliding,
         rolling_coefficient=friction.rolling,
-        power_loss=_power(course, last),
+        power_loss=friction.power_loss(
+            load,
+            entrainment_speed=physics.mean_speed,
+            slide_to_roll_ratio=physics.slide_to_roll_ratio,
+        ),
         energy_imbalance=imbalance,
         outer_iterations=sum(grid.loops for _, grid in found),
         status=last.solution.status,
     )
-
-
-def _power(course: Course, last: HeatedGrid) -> float:
-    """Friction power of the film [W/m] or [W]."""
-    return 0.0
 
 
 def _middle(grid: HeatedGrid, temperature: Array) -> Array:

@@ -4,40 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.sheared.columns import Columns
 from ehlectric.film.thermal.columns import Stream
 from ehlectric.film.thermal.oil import HotOil
-
-
-def filling(mass: Array, full_film: Mask) -> Array:
-    """Share of the gap that oil fills, from the oil mass of a full gap and the nodes with a full film.
-
-    Parameters
-    ----------
-    mass : ndarray, shape (nx, ny)
-        rho H of a full gap.
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes with a full film.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        One in the full film. Behind a rupture the oil mass stays the same along x.
-
-    Examples
-    --------
-    >>> mass = np.array([[2.0], [1.0], [1.0], [2.0], [4.0]])
-    >>> full = np.array([[False], [True], [True], [False], [False]])
-    >>> filling(mass, full)[:, 0].tolist()
-    [1.0, 1.0, 1.0, 0.5, 0.25]
-    """
-    found = np.ones_like(mass)
-    for i in range(1, len(mass)):
-        carried = np.minimum(1.0, found[i - 1] * mass[i - 1] / mass[i])
-        found[i] = np.where(full_film[i], 1.0, carried)
-    return found
 
 
 def stream_of(
