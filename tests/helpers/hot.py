@@ -11,7 +11,7 @@ from ehlectric.film.thermal.half_space import Surface
 from ehlectric.film.thermal.oil import HotOil
 from ehlectric.film.thermal.physics import Body, Physics, Thermal
 from ehlectric.lubricant.density import dowson_higginson
-from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil
+from ehlectric.lubricant.oil import BoundLaw, Oil, OfDensity
 from ehlectric.lubricant.permittivity import constant_permittivity
 from ehlectric.lubricant.viscosity import roelands
 
@@ -57,9 +57,7 @@ def channel(u, *, degree=12, nodes=41, length=1e-3, thickness=1e-6, conductivity
     )
 
 
-def paper_oil(
-    viscosity=0.04, roelands_s0=1.1, roelands_z=0.68, at=313.15, expansion=6.5e-4, conductivity=0.14
-):
+def paper_oil(viscosity=0.04, roelands_s0=1.1, roelands_z=0.68, at=313.15, expansion=6.5e-4, conductivity=0.14):
     """Oil over temperature: Roelands with S0 and z, Dowson and Higginson with thermal expansion."""
 
     def oil_at(temperature):

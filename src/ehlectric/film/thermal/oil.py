@@ -73,12 +73,7 @@ class HotOil:
 
     @classmethod
     def through(
-        cls,
-        oil_at: Callable[[float], Oil],
-        lowest: float,
-        highest: float,
-        *,
-        temperatures: int = _TEMPERATURES,
+        cls, oil_at: Callable[[float], Oil], lowest: float, highest: float, *, temperatures: int = _TEMPERATURES
     ) -> HotOil:
         """Oil through the oils at Chebyshev temperatures.
 
