@@ -90,7 +90,7 @@ def _temperatures(case: Case, heated: HeatedFilm) -> Iterator[ResultWarning]:
         yield ResultWarning(
             "film-very-hot",
             f"the film is up to {rise:.3g} K hotter at its middle than the oil in the inlet: oil and its "
-            "additives do not stand this for long, and its laws are hardly known; check sliding speed and load",
+            "additives do not stand this for long, and its laws are hardly known; check speeds and load",
         )
 
 
