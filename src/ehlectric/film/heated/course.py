@@ -192,7 +192,8 @@ class Course:
             return HeatedGrid(solution, None, columns, None, filled, 0)
         heat = self.start(thermal) if heat is None else heat
         surfaces = self.surfaces(thermal)
-        mixing, taken = Mixing(), list[NewtonStep]()
+        weight = _weight(self.levels[0], state)
+        mixing, taken = _mixing(weight, heat), list[NewtonStep]()
         before, rise = np.inf, 0.0
         for loop in range(_LOOPS):
             solution = self.film(state, heat, steps=_STEPS, spike=spike and loop == 0)
@@ -207,7 +208,7 @@ class Course:
                 inlet_temperature=thermal.inlet_temperature,
                 symmetric=stream.symmetric,
             )
-            change = float(np.max(np.abs(new.temperature - heat.temperature)))
+            change = float(np.max(weight * np.abs(new.temperature - heat.temperature)))
             rise = float(np.max(new.temperature)) - thermal.inlet_temperature
             central = at_centre(self.levels[0].mesh, solution.state.thickness)
             stands = change < _KELVIN + _RISE * abs(rise) and abs(central - before) < _FILM * central
@@ -219,6 +220,20 @@ class Course:
             solution = replace(solution, status="stalled")
         solution = replace(solution, steps=tuple(taken))
         return HeatedGrid(solution, heat, columns, stream, filled, loop + 1)
+
+
+def _weight(level: Level, state: State) -> Array:
+    """Weight of a change of temperature, shape (nx, ny): its effect on the pressure goes with 1/h^2.
+
+    The reverse flow far upstream would otherwise decide when the temperature stands.
+    """
+    return np.asarray(np.minimum(1.0, (at_centre(level.mesh, state.thickness) / state.thickness) ** 2))
+
+
+def _mixing(weight: Array, heat: Heat) -> Mixing:
+    """Acceleration of the outer iteration, in the weighted norm of the temperature."""
+    of_film = np.broadcast_to(weight, heat.temperature.shape).ravel()
+    return Mixing(weights=np.concatenate([of_film, np.zeros(heat.flux.size)]))
 
 
 def _mixed(mixing: Mixing, heat: Heat, new: Heat) -> Heat:

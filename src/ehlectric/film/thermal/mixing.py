@@ -10,7 +10,14 @@ from ehlectric.arrays import Array
 class Mixing:
     """Anderson acceleration: the next iterate from the last few iterates and their images.
 
-    The combination of the last images is taken whose change is smallest in the norm of least squares.
+    The combination of the last images is taken whose change is smallest in a weighted norm of least squares.
+
+    Parameters
+    ----------
+    depth : int
+        Number of earlier iterates.
+    weights : ndarray, shape (n,), or float
+        Weights of the components in the norm.
 
     Notes
     -----
@@ -27,8 +34,9 @@ class Mixing:
     True
     """
 
-    def __init__(self, depth: int = 5) -> None:
+    def __init__(self, depth: int = 5, weights: Array | float = 1.0) -> None:
         self._depth = depth
+        self._weights = np.reshape(weights, (-1, 1))
         self._images: list[Array] = []
         self._changes: list[Array] = []
 
@@ -42,7 +50,9 @@ class Mixing:
             return image
         differences = np.stack([change - other for other in self._changes[:-1]], axis=1)
         # Nearly dependent differences are left out: they would combine far iterates with large factors.
-        factors, *_ = np.linalg.lstsq(differences, change, rcond=1e-8)
+        factors, *_ = np.linalg.lstsq(
+            self._weights * differences, self._weights[:, 0] * change, rcond=1e-8
+        )
         moves = np.stack([image - other for other in self._images[:-1]], axis=1)
         return np.asarray(image - moves @ factors)
 
