@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from ehlectric.film.deflection import LINE, point_geometry
 from ehlectric.film.flow import Fluid
+from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.profile import Across
@@ -57,14 +59,19 @@ def channel(u, *, degree=12, nodes=41, length=1e-3, thickness=1e-6, conductivity
     )
 
 
-def paper_oil(viscosity=0.04, roelands_s0=1.1, roelands_z=0.68, at=313.15, expansion=6.5e-4, conductivity=0.14):
-    """Oil over temperature: Roelands with S0 and z, Dowson and Higginson with thermal expansion."""
+def hot_oil(viscosity=0.04, alpha=None, roelands_z=0.68, at=313.15, expansion=6.5e-4, conductivity=0.14):
+    """Oil over temperature: Roelands with S0 = 1.1, Dowson and Higginson with thermal expansion.
+
+    ``alpha`` is the pressure-viscosity coefficient at ``at``; by default that of Roelands for this viscosity.
+    """
+    p0 = 1.96e8 if alpha is None else 1.98e8
 
     def oil_at(temperature):
         reduced = np.log(viscosity) + 9.67
-        eta = np.exp(reduced * ((temperature - 138.0) / (at - 138.0)) ** -roelands_s0 - 9.67)
-        alpha = roelands_z * (np.log(eta) + 9.67) / 1.96e8
-        law = {"pressure_viscosity_coefficient": alpha, "roelands_z": roelands_z, "roelands_pressure": 1.96e8}
+        warmer = ((temperature - 138.0) / (at - 138.0)) ** -1.1
+        eta = np.exp(reduced * warmer - 9.67)
+        slope = warmer * (roelands_z * reduced / p0 if alpha is None else alpha)
+        law = {"pressure_viscosity_coefficient": slope, "roelands_z": roelands_z, "roelands_pressure": p0}
         return Oil(
             eta,
             2.2,
@@ -81,7 +88,7 @@ def paper_oil(viscosity=0.04, roelands_s0=1.1, roelands_z=0.68, at=313.15, expan
     return oil_at
 
 
-def hot_line(
+def hot_contact(
     oil_at,
     *,
     max_pressure=1e9,
@@ -97,8 +104,12 @@ def hot_line(
     heat=True,
     **options,
 ):
-    """Problem of a line contact with heat, between bodies of steel at the temperature of the oil."""
-    half_width = 4.0 * radius * max_pressure / modulus
+    """Problem of a contact with heat, between bodies of steel at the temperature of the oil.
+
+    It is a line contact, or with a ``width`` a circular one.
+    """
+    line = "width" not in options
+    half_width = (4.0 if line else np.pi) * radius * max_pressure / modulus
     oil = oil_at(temperature)
     fluid = Fluid(
         density=lambda p: _scaled(oil.density_ratio, p, max_pressure),
@@ -135,6 +146,7 @@ def hot_line(
         wedge_order=3,
         scales=Scales(half_width, max_pressure, scale, 0.0),
         physics=physics,
+        geometry=LINE if line else point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2),
         **options,
     )
 
@@ -142,3 +154,15 @@ def hot_line(
 def _scaled(law, pressure, scale):
     value, slope = law(scale * pressure)
     return value, scale * slope
+
+
+def paper_line(**options):
+    """Line contact of Morris et al. (2022) at 1 GPa with heat, between bodies of steel."""
+    oil = hot_oil(alpha=22e-9, roelands_z=0.67)
+    return hot_contact(oil, **({"radius": 14.1e-3, "inlet": -4.0} | options))
+
+
+def ball(nodes=65, **options):
+    """Circular contact with heat on ``nodes`` nodes along both axes."""
+    domain = {"nodes": nodes, "inlet": -4.5, "outlet": 1.5, "width": Width(nodes, 3.0)}
+    return hot_contact(hot_oil(), **(domain | {"max_pressure": 0.7e9} | options))

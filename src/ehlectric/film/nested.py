@@ -169,7 +169,7 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
         width = width.coarser()
     posed = replace(
         problem,
-        fluid=replace(problem.fluid, flow="newtonian"),
+        fluid=problem.fluid.of_highest_order(),
         nodes=nodes,
         width=width,
         wedge_order=3,

@@ -14,13 +14,12 @@ doi:10.1115/1.2920308, without its effective viscosities.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.film.sheared.even import Flux
 from ehlectric.film.sheared.laws import Constants, Rheology, ShearLaw
-from ehlectric.film.sheared.profile import Quadrature
+from ehlectric.film.sheared.profile import Quadrature, over_columns
 
 # Largest number of Newton steps for a mid-film stress, and the step at which it is exact.
 _MOST_STEPS, _EXACT = 80, 1e-12
@@ -33,31 +32,6 @@ _LARGEST = 300.0
 
 # Half the stress difference below which the flux factor is computed by its series.
 _SMALL = 0.05
-
-
-@dataclass(frozen=True)
-class Flux:
-    """Flux of columns along one axis, and its derivatives.
-
-    Attributes
-    ----------
-    flux : ndarray, shape (...)
-        Int w a phi dzeta.
-    by_gradient : ndarray, shape (d, ...)
-        Derivative by the stress difference q across the film, along this axis and, for d = 2, the other one.
-    by_slip : ndarray, shape (d, ...)
-        Derivative by the slip g along both axes.
-    by_viscosity : ndarray, shape (nq, ...)
-        Derivative by ln eta at each Gauss point; shape (1, ...) if the viscosity is uniform.
-    by_weight : ndarray, shape (nq, ...), or None
-        Derivative by w at each Gauss point; None if the properties are uniform.
-    """
-
-    flux: Array
-    by_gradient: Array
-    by_slip: Array
-    by_viscosity: Array
-    by_weight: Array | None = None
 
 
 def uniform_eyring(fluidity: Array, gradient: Array, slip: Array) -> Flux:
@@ -128,7 +102,7 @@ def middle_stress(
     Returns
     -------
     ndarray, shape (...)
-        Mid-film stress, in closed form for the Newtonian and the Eyring law.
+        Mid-film stress, in closed form for the Eyring law.
 
     Notes
     -----
@@ -137,19 +111,11 @@ def middle_stress(
     """
     weights = over_columns(quadrature.weights, gradient) * fluidity
     shape = over_columns(quadrature.offset, gradient) * gradient
-    if rheology.name == "newtonian":
-        middle: Array = (slip - np.sum(weights * shape, axis=0)) / np.sum(weights, axis=0)
-        return middle
     if rheology.name == "eyring":
         up, down = _log_integral(weights, shape), _log_integral(weights, -shape)
         half = np.exp(-0.5 * (up + down))
         return np.asarray(np.arcsinh(slip * half) - 0.5 * (up - down))
     return _by_newton(rheology.law, rheology.constants, weights, shape, slip)
-
-
-def over_columns(values: Array, like: Array) -> Array:
-    """Values over zeta (nq,) with axes for the columns of an array ``like``, shape (nq, 1, ...)."""
-    return values.reshape((-1,) + (1,) * like.ndim)
 
 
 def _log_integral(weights: Array, exponent: Array) -> Array:

@@ -8,10 +8,11 @@ from functools import cache
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.sheared.column import middle_stress, over_columns
+from ehlectric.film.sheared.column import middle_stress
+from ehlectric.film.sheared.even import EvenStress
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.plane import middle_stresses
-from ehlectric.film.sheared.profile import Across, Quadrature, integrals, to_points
+from ehlectric.film.sheared.profile import Across, Quadrature, integrals, over_columns, to_points
 
 
 @dataclass(frozen=True)
@@ -98,8 +99,12 @@ def columns_of(
     quadrature = Quadrature.gauss()
     reduced = thickness * gradient / scale
     sliding = slip / (thickness * scale)
-    if reduced[1].any():
-        slips = np.stack([sliding, np.zeros_like(sliding)])
+    slips = np.stack([sliding, np.zeros_like(sliding)])
+    even = None
+    if rheology.law.even:
+        even = EvenStress.of(rheology, fluidity, reduced, slips, quadrature)
+        middle = even.middle
+    elif reduced[1].any():
         middle = middle_stresses(rheology, fluidity, reduced, slips, quadrature)
     else:
         along = middle_stress(rheology, fluidity, reduced[0], sliding, quadrature)
@@ -107,10 +112,12 @@ def columns_of(
 
     def rates(offset: Array, fluidity: Array) -> tuple[Array, Array, Array]:
         stress = middle[:, np.newaxis] + over_columns(offset, thickness) * reduced[:, np.newaxis]
+        size = speed_unit * thickness * scale * fluidity
+        if even is not None:
+            return stress, size * even.factor * stress, np.broadcast_to(even.softening, size.shape)
         squared = np.sum(stress**2, axis=0)
         factor, slope = rheology.law.factor(squared, rheology.constants)
-        rate = speed_unit * thickness * scale * fluidity * factor * stress
-        return stress, rate, factor / (factor + 2.0 * slope * squared)
+        return stress, size * factor * stress, factor / (factor + 2.0 * slope * squared)
 
     stress, rate, softening = rates(across.zeta - 0.5, 1.0 / viscosity)
     at_points = rates(quadrature.offset, fluidity)[1]

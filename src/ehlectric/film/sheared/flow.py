@@ -29,11 +29,19 @@ from ehlectric.film.flow import (
     with_mirror,
 )
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.sheared.column import Flux, column_flux, over_columns, uniform_eyring
+from ehlectric.film.sheared.column import column_flux, uniform_eyring
 from ehlectric.film.sheared.columns import Columns, columns_of
+from ehlectric.film.sheared.even import Flux, even_flux
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.plane import plane_flux
-from ehlectric.film.sheared.profile import Across, Profile, Properties, Quadrature, to_points
+from ehlectric.film.sheared.profile import (
+    Across,
+    Profile,
+    Properties,
+    Quadrature,
+    over_columns,
+    to_points,
+)
 
 # Degree of the polynomial across a film without a temperature profile, for stresses and speeds.
 _DEGREE = 8
@@ -197,6 +205,8 @@ def _mean(values: Array) -> Array:
 
 def _flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Array, slip: Array) -> Flux:
     """Flux of columns with stresses along one axis or two, after the length of ``gradient`` (d, ...)."""
+    if rheology.law.even:
+        return even_flux(rheology, fluidity, weight, gradient, slip)
     if len(gradient) == 2:
         return plane_flux(rheology, fluidity, weight, gradient, slip)
     if rheology.name == "eyring" and len(fluidity) == 1:

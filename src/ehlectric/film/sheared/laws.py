@@ -33,11 +33,6 @@ _SMALL = 0.01
 # Exponent of the smooth transition to the limiting stress, a common choice between 1 (soft) and infinity.
 _SHARPNESS = 5.0
 
-# Stress over the limiting stress above which the shear rate continues exponentially. The stress then exceeds
-# the limit by 3 % at a shear rate of 1000 tau_L/mu. Without the continuation no stress would balance
-# a pressure gradient of h p_x > 2 tau_L, which iterates of the film have.
-_NEAR_LIMIT = 0.999
-
 # Pressure p_f [Pa] that keeps the limiting stress above zero at ambient pressure,
 # tau_L = Lambda sqrt(p^2 + p_f^2). Measured limiting stresses extrapolate to some MPa at zero pressure, and
 # Lambda p_f is as large.
@@ -101,12 +96,15 @@ class ShearLaw:
     stress : callable
         (reduced rate x = mu gamma_dot/tau_s >= 0, constants) -> (reduced stress, its derivative by x). The
         inverse of the law, or a close upper bound of it.
+    even : bool
+        Whether the rate factor is that of the mean stress, the same across the film (``even``).
     """
 
     constants: tuple[str, ...]
     factor: Callable[[Array, Constants], tuple[Array, Array]]
     scale: Callable[[Array, Constants], tuple[Array, Array]]
     stress: Callable[[Array, Constants], tuple[Array, Array]]
+    even: bool = False
 
 
 def newtonian_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
@@ -176,33 +174,12 @@ def carreau_factor(squared: Array, constants: Constants) -> tuple[Array, Array]:
 
 
 def limiting_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
-    """Rate factor of a Newtonian fluid up to a limiting shear stress, r = tau/tau_L.
-
-    tau = mu gamma_dot/(1 + (mu gamma_dot/tau_L)^5)^(1/5), solved for the rate: f = (1 - r^5)^(-1/5). Above
-    r = 0.999 the rate continues exponentially, with the same value and slope.
-    """
+    """Rate factor (1 - r^5)^(-1/5) of a Newtonian fluid below a limiting shear stress, r = tau/tau_L < 1."""
     m = _SHARPNESS
     r = np.sqrt(squared)
-    inner = np.minimum(r, _NEAR_LIMIT)
-    left = 1.0 - inner**m
+    left = 1.0 - r**m
     factor = left ** (-1.0 / m)
-    slope = 0.5 * inner ** (m - 2.0) * factor / left
-    rate, steepness = _at_limit()
-    over = np.maximum(r - _NEAR_LIMIT, 0.0)
-    beyond = rate * np.exp(np.minimum(steepness * over, _LARGEST))
-    outside = over > 0.0
-    safe = np.where(outside, r, 1.0)
-    return (
-        np.where(outside, beyond / safe, factor),
-        np.where(outside, 0.5 * beyond * (steepness - 1.0 / safe) / safe**2, slope),
-    )
-
-
-def _at_limit() -> tuple[float, float]:
-    """Reduced rate of the limiting law at the largest stress of its closed form, and d ln(rate)/dr there."""
-    left = 1.0 - _NEAR_LIMIT**_SHARPNESS
-    rate = _NEAR_LIMIT * left ** (-1.0 / _SHARPNESS)
-    return rate, 1.0 / (_NEAR_LIMIT * left)
+    return factor, 0.5 * r ** (m - 2.0) * factor / left
 
 
 def _unit_scale(pressure: Array, _constants: Constants) -> tuple[Array, Array]:
@@ -263,22 +240,19 @@ def _carreau_stress(rate: Array, constants: Constants) -> tuple[Array, Array]:
 
 
 def _limiting_stress(rate: Array, _constants: Constants) -> tuple[Array, Array]:
+    """Stress of the limiting law, r = x/(1 + x^5)^(1/5), in powers of the smaller of x and 1/x."""
     m = _SHARPNESS
-    most, steepness = _at_limit()
-    inner = np.minimum(rate, most)
-    base = 1.0 + inner**m
-    stress = inner * base ** (-1.0 / m)
-    beyond = np.maximum(rate, most)
-    outside = rate > most
-    return (
-        np.where(outside, _NEAR_LIMIT + np.log(beyond / most) / steepness, stress),
-        np.where(outside, 1.0 / (steepness * beyond), base ** (-1.0 / m - 1.0)),
-    )
+    inverse = 1.0 / np.maximum(rate, 1.0)
+    low = np.minimum(rate, 1.0)
+    base = 1.0 + np.minimum(low, inverse) ** m
+    stress = np.where(rate > 1.0, base ** (-1.0 / m), low * base ** (-1.0 / m))
+    slope = base ** (-1.0 / m - 1.0) * np.where(rate > 1.0, inverse ** (m + 1.0), 1.0)
+    return stress, slope
 
 
 # Shear-thinning laws by name.
 RHEOLOGY: Mapping[str, ShearLaw] = {
-    "newtonian": ShearLaw((), newtonian_factor, _unit_scale, _newtonian_stress),
+    "newtonian": ShearLaw((), newtonian_factor, _unit_scale, _newtonian_stress, even=True),
     "eyring": ShearLaw(("eyring_stress",), eyring_factor, _constant_scale("eyring_stress"), _eyring_stress),
     "carreau": ShearLaw(
         ("carreau_stress", "carreau_exponent"),
@@ -286,5 +260,7 @@ RHEOLOGY: Mapping[str, ShearLaw] = {
         _constant_scale("carreau_stress"),
         _carreau_stress,
     ),
-    "limiting": ShearLaw(("limiting_coefficient",), limiting_factor, limiting_stress, _limiting_stress),
+    "limiting": ShearLaw(
+        ("limiting_coefficient",), limiting_factor, limiting_stress, _limiting_stress, even=True
+    ),
 }

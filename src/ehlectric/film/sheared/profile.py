@@ -73,7 +73,7 @@ def integrals(nodes: Array, ends: Array) -> Array:
 
 @dataclass(frozen=True)
 class Quadrature:
-    """Gauss points across the film, and the matrices that take nodal values of a profile to them.
+    """Gauss points across the film.
 
     Attributes
     ----------
@@ -86,9 +86,9 @@ class Quadrature:
 
     @classmethod
     @cache
-    def gauss(cls) -> Quadrature:
+    def gauss(cls, number: int = _POINTS) -> Quadrature:
         """Gauss-Legendre points of the flow across the film."""
-        points, weights = roots_legendre(_POINTS)
+        points, weights = roots_legendre(number)
         return cls(0.5 * points, 0.5 * weights)
 
 
@@ -107,6 +107,11 @@ def to_points(degree: int) -> tuple[Array, Array]:
     zeta = quadrature.offset + 0.5
     below = integrals(across.zeta, zeta) - 0.5 * across.weights
     return across.at(zeta), below
+
+
+def over_columns(values: Array, like: Array) -> Array:
+    """Values over zeta (nq,) with axes for the columns of an array ``like``, shape (nq, 1, ...)."""
+    return values.reshape((-1,) + (1,) * like.ndim)
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
 """Traction of a lubricated contact: friction by sliding and by rolling, and the power that it takes.
 
-The shear stress in the film is tau = tau_m + (z - h/2) dp/dx. The mid-film stress tau_m drags both surfaces in
-opposite directions, and vanishes in pure rolling. The rest, h/2 dp/dx on each surface, resists the motion of
-both in the same direction. It remains in pure rolling, where the inlet has the larger film.
+The shear stress in the film is tau = tau_m + (z - h/2) dp/dx. The mid-film stress tau_m drags both surfaces
+in opposite directions, and vanishes in pure rolling. The rest, h/2 dp/dx on each surface, resists the motion
+of both in the same direction. It remains in pure rolling, where the inlet has the larger film.
 """
 
 from __future__ import annotations

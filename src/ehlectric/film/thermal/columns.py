@@ -128,9 +128,13 @@ class HeatColumns:
             right = carried * np.maximum(-stream.v, 0.0) / stream.dy
             diagonal += left + right
         source = volume * (stream.heating - stream.heating_slope * temperature + warming * temperature)
-        matrix = conduction(across, stream.filling / stream.thickness * stream.conductivity)
-        upward = across.weights[:, np.newaxis, np.newaxis] * stream.mass_divergence
-        upward *= stream.heat_capacity / stream.density
+        upward = stream.mass_divergence * stream.heat_capacity / stream.density
+        # In the wide gap far upstream the nodes do not resolve the layers between forward and reverse flow.
+        # Conduction that brings the Peclet number of a cell down to two keeps the temperature there bounded.
+        cell = np.gradient(across.zeta)[:, np.newaxis, np.newaxis]
+        conducted = stream.filling / stream.thickness * stream.conductivity
+        matrix = conduction(across, np.maximum(conducted, 0.5 * np.abs(upward) * cell))
+        upward *= across.weights[:, np.newaxis, np.newaxis]
         matrix -= _last(upward)[..., np.newaxis] * derivative(across.zeta.size - 1)
         index = np.arange(across.zeta.size)
         matrix[..., index, index] += _last(diagonal)
