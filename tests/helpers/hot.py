@@ -146,7 +146,9 @@ def hot_contact(
         wedge_order=3,
         scales=Scales(half_width, max_pressure, scale, 0.0),
         physics=physics,
-        geometry=LINE if line else point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2),
+        geometry=LINE
+        if line
+        else point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2),
         **options,
     )
 

@@ -30,7 +30,7 @@ HOT_LINE = {
     },
     "lubricant": OIL,
     "film": {"thermal": True, "rheology": "eyring"},
-    "grid": {"nodes": 401},
+    "grid": {"nodes": 201, "inlet": -6.5},
 }
 HOT_POINT = HOT_LINE | {
     "contact": {

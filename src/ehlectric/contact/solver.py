@@ -285,8 +285,7 @@ def _solved(
             *kind.case_warnings(case, conditions),
             *contact.surface_warnings(films.setup),
             *films.warnings,
-            *film_warnings(case, film),
-            *heat_warnings(case, conditions, film, contact.physics),
+            *_of_film(contact, film),
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(case, film, field),
             *meter_warnings(case, film),
@@ -305,6 +304,12 @@ def _solved(
         version=__version__,
         date=now(),
     )
+
+
+def _of_film(contact: PreparedContact, film: Film | PointFilm) -> Iterator[ResultWarning]:
+    """Warnings about a film, its heat and its shear."""
+    yield from film_warnings(contact.case, film)
+    yield from heat_warnings(contact.case, contact.conditions, film, contact.physics)
 
 
 def _of_field(

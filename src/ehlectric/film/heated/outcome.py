@@ -12,6 +12,9 @@ from ehlectric.film.heated.nested import HeatedSolution
 from ehlectric.film.state import Status
 from ehlectric.film.thermal.result import HeatedFilm
 
+# Traction coefficient below which there is none but rounding, as in pure rolling.
+_ROUNDING = 1e-14
+
 
 def film_status_of(found: HeatedSolution, status: Status) -> Status:
     """Status of a film, "converged" only if its temperature converged with it."""
@@ -43,12 +46,12 @@ def heated_film(
     """
     physics = found.refined.problem.physics
     assert physics is not None
-    rows = found.temperature
+    rows, traction = found.temperature, -found.traction_coefficient
     return HeatedFilm(
         rheology=physics.rheology.name,
         # A slide-to-roll ratio is positive where surface 1 is the faster one.
         shear_stress=-shaped(found.shear_stress),
-        traction_coefficient=-found.traction_coefficient,
+        traction_coefficient=traction if abs(traction) > _ROUNDING else 0.0,
         rolling_coefficient=found.rolling_coefficient,
         power_loss=found.power_loss,
         isothermal_minimum_thickness=minimum_thickness,
