@@ -106,9 +106,9 @@ def _accuracy(heated: HeatedFilm) -> Iterator[ResultWarning]:
     if error is not None and error > _RISE_ERROR * rise:
         yield ResultWarning(
             "heat-unresolved",
-            f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %: where "
-            "surfaces hardly slide it is that of the pressure spike, whose height depends on the grid; use more "
-            "grid.nodes, or the temperature elsewhere in the film",
+            f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %: "
+            "where surfaces hardly slide it is that of the pressure spike, whose height depends on the grid; "
+            "use more grid.nodes, or the temperature elsewhere in the film",
         )
     elif lost is not None and abs(lost) > _IMBALANCE:
         yield ResultWarning(
