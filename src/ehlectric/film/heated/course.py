@@ -32,11 +32,11 @@ DEGREE = 12
 _MOST_CHANGE = 40.0
 
 # Largest number of outer loops, and of Newton steps in each of them.
-_LOOPS, _STEPS = 60, 4
+_LOOPS, _STEPS = 60, 2
 
 # Change of the temperature, relative to its largest rise and absolute [K], and relative change of the central
-# film thickness, at which the film and its temperature stand.
-_RISE, _KELVIN, _FILM = 1e-3, 5e-3, 2e-5
+# film thickness, at which film and temperature stand. On the coarser grids five times as much is enough.
+_RISE, _KELVIN, _FILM, _COARSE = 2e-3, 5e-3, 5e-5, 5.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +84,8 @@ class Course:
         Grid, and the coarser grids of its preconditioner.
     tolerance : float
         Tolerance of the residual of the film.
+    finest : bool
+        Whether this is the last grid.
     progress : callable or None
         Function that is called before every Newton step.
     """
@@ -91,6 +93,7 @@ class Course:
     problem: FilmProblem
     levels: list[Level]
     tolerance: float
+    finest: bool
     progress: Progress | None
 
     @property
@@ -194,7 +197,7 @@ class Course:
         surfaces = self.surfaces(thermal)
         weight = _weight(self.levels[0], state)
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
-        before, rise = np.inf, 0.0
+        before = np.inf
         for loop in range(_LOOPS):
             solution = self.film(state, heat, steps=_STEPS, spike=spike and loop == 0)
             taken += solution.steps
@@ -208,11 +211,9 @@ class Course:
                 inlet_temperature=thermal.inlet_temperature,
                 symmetric=stream.symmetric,
             )
-            change = float(np.max(weight * np.abs(new.temperature - heat.temperature)))
-            rise = float(np.max(new.temperature)) - thermal.inlet_temperature
             central = at_centre(self.levels[0].mesh, solution.state.thickness)
-            stands = change < _KELVIN + _RISE * abs(rise) and abs(central - before) < _FILM * central
-            if stands and solution.status == "converged":
+            change = max(_change(weight, heat, new, thermal), abs(central - before) / (_FILM * central))
+            if change < (1.0 if self.finest else _COARSE) and solution.status == "converged":
                 break
             before, state = central, solution.state
             heat = _mixed(mixing, heat, new)
@@ -220,6 +221,13 @@ class Course:
             solution = replace(solution, status="stalled")
         solution = replace(solution, steps=tuple(taken))
         return HeatedGrid(solution, heat, columns, stream, filled, loop + 1)
+
+
+def _change(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
+    """Change of the temperature over that at which it stands."""
+    rise = float(np.max(new.temperature)) - thermal.inlet_temperature
+    change = np.max(weight * np.abs(new.temperature - heat.temperature))
+    return float(change) / (_KELVIN + _RISE * abs(rise))
 
 
 def _weight(level: Level, state: State) -> Array:

@@ -132,7 +132,7 @@ def _course(problem: FilmProblem, *, finest: bool, progress: Progress | None) ->
     levels = levels_of(problem)
     direct = problem.width is None and problem.nodes <= _DIRECT
     tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
-    return Course(problem, levels[:1] if direct else levels, tolerance, progress)
+    return Course(problem, levels[:1] if direct else levels, tolerance, finest, progress)
 
 
 def _start(

@@ -4,7 +4,7 @@ The march solves the columns from the inlet to the outlet. The fluxes into the b
 implicit, those of the columns before it enter by the history of the moving surfaces. In the reverse flow of
 the inlet the columns depend on those behind them; there a block elimination is exact. Three parts are taken
 from the last iterate: the history of the surfaces in the reverse flow, the heat that a slow body conducts
-upstream, and the convection across the contact. They are repeated until they stand.
+upstream, and the convection across the contact. The march is repeated for the last two.
 """
 
 from __future__ import annotations
@@ -46,6 +46,7 @@ def solve_energy(
     inlet_temperature: float,
     symmetric: bool = False,
     marches: int = _MARCHES,
+    enough: float = 0.02,
 ) -> Heat:
     """Temperature of the film for a given flow.
 
@@ -63,6 +64,8 @@ def solve_energy(
         Whether the first line is a line of symmetry.
     marches : int
         Largest number of marches.
+    enough : float
+        Change of temperature in a march, over that in the first one, at which to stop.
 
     Returns
     -------
@@ -70,14 +73,14 @@ def solve_energy(
         Temperature and heat flow into the bodies.
     """
     march = _March.of(columns, surfaces)
-    lagged = march.reverse > 0 or any(s.acts_upstream for s in surfaces) or columns.from_left.any()
-    now = last
-    mixing = Mixing()
+    lagged = any(surface.is_slow for surface in surfaces) or bool(columns.from_left.any())
+    now, mixing, first = last, Mixing(), 0.0
     for _ in range(marches if lagged else 1):
         new = march(now, inlet_temperature, symmetric)
         change = float(np.max(np.abs(new.temperature - now.temperature)))
-        if not lagged or change < _STANDS:
-            return new
+        first = max(first, change)
+        if not change > max(_STANDS, enough * first):
+            break
         mixed = mixing(
             np.concatenate([now.temperature.ravel(), now.flux.ravel()]),
             np.concatenate([new.temperature.ravel(), new.flux.ravel()]),
@@ -123,7 +126,7 @@ class _March:
         nx = len(columns.right)
         old = np.moveaxis(last.temperature, 0, -1)
         right = columns.right + self._from_sides(old, inlet_temperature, symmetric)
-        ahead = [_upstream(surface, flux) for surface, flux in zip(self.surfaces, last.flux, strict=True)]
+        ahead = [surface.rise_ahead(flux) for surface, flux in zip(self.surfaces, last.flux, strict=True)]
         new = np.empty_like(old)
         flux = last.flux.copy()
         inlet = np.full(old.shape[1:], inlet_temperature)
@@ -178,13 +181,3 @@ class _March:
         if symmetric:
             padded[:, 0] = old[:, 1]
         return np.asarray(self.columns.from_left * padded[:, :-2] + self.columns.from_right * padded[:, 2:])
-
-
-def _upstream(surface: Surface, flux: Array) -> Array:
-    """Temperature rise (nx, ny) by the fluxes (nx, ny) of the nodes further downstream."""
-    if not surface.acts_upstream:
-        return np.zeros_like(flux)
-    n = len(flux)
-    apart = np.subtract.outer(np.arange(n), np.arange(n))
-    matrix = np.where(apart < 0, surface.upstream[np.abs(apart)], 0.0)
-    return np.asarray(matrix @ flux)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from scipy.linalg import toeplitz
 from scipy.special import k0e, k1e
 
 from ehlectric.arrays import Array
@@ -17,6 +19,9 @@ _FAST = 1000.0
 # Least Peclet number. The temperature of a body at rest under a line contact has no steady state; it rises as
 # the logarithm of time.
 _SLOWEST = 0.01
+
+# Influence upstream over that downstream above which a body counts as slow.
+_SLOW = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,16 +44,24 @@ class Surface:
     upstream: Array
 
     @property
-    def acts_upstream(self) -> bool:
-        """Whether a flux heats the surface upstream of itself."""
-        return bool(np.any(self.upstream))
+    def is_slow(self) -> bool:
+        """Whether a flux heats much of the surface upstream of itself."""
+        return float(self.upstream.sum()) > _SLOW * float(self.downstream.sum())
 
     def rise(self, flux: Array) -> Array:
         """Temperature rise (nx, ny) [K] by a flux (nx, ny) into the body [W/m^2]."""
-        n = len(flux)
-        apart = np.subtract.outer(np.arange(n), np.arange(n))
-        matrix = np.where(apart >= 0, self.downstream[np.abs(apart)], self.upstream[np.abs(apart)])
-        return np.asarray(matrix @ flux)
+        return np.asarray((toeplitz(self.downstream, np.zeros(len(flux))) + self._ahead) @ flux)
+
+    def rise_ahead(self, flux: Array) -> Array:
+        """Part of the temperature rise (nx, ny) [K] by the flux further downstream."""
+        if not self.upstream.any():
+            return np.zeros_like(flux)
+        return np.asarray(self._ahead @ flux)
+
+    @cached_property
+    def _ahead(self) -> Array:
+        """Matrix of the influence upstream, (nx, nx)."""
+        return np.asarray(toeplitz(np.zeros(self.upstream.size), self.upstream))
 
 
 def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half_width: float) -> Surface:

@@ -50,9 +50,7 @@ class Mixing:
             return image
         differences = np.stack([change - other for other in self._changes[:-1]], axis=1)
         # Nearly dependent differences are left out: they would combine far iterates with large factors.
-        factors, *_ = np.linalg.lstsq(
-            self._weights * differences, self._weights[:, 0] * change, rcond=1e-8
-        )
+        factors, *_ = np.linalg.lstsq(self._weights * differences, self._weights[:, 0] * change, rcond=1e-8)
         moves = np.stack([image - other for other in self._images[:-1]], axis=1)
         return np.asarray(image - moves @ factors)
 

@@ -17,19 +17,57 @@ from ehlectric.lubricant.oil import Oil
 _TEMPERATURES = 12
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Property:
-    """Property of the oil with its derivatives by pressure [1/Pa] and by temperature [1/K].
+    """Property of the oil over temperature at given pressures, computed as far as it is asked for.
 
     Attributes
     ----------
-    value, by_pressure, by_temperature : ndarray
-        Values in one shape.
+    values, slopes : ndarray, shape (n, ...)
+        Chebyshev coefficients of the property and of its derivative by pressure.
+    t : ndarray
+        Temperature on the range of the series, mapped to -1 ... 1.
+    half_range : float
+        Half of this range [K].
     """
 
-    value: Array
-    by_pressure: Array
-    by_temperature: Array
+    values: Array
+    slopes: Array
+    t: Array
+    half_range: float
+
+    @cached_property
+    def _inside(self) -> Array:
+        return np.clip(self.t, -1.0, 1.0)
+
+    @cached_property
+    def _by_t(self) -> Array:
+        return _series(_derived(self.values), self._inside)
+
+    @cached_property
+    def _beyond(self) -> Array | None:
+        """Distance from the range, or None where all temperatures are inside."""
+        beyond = self.t - self._inside
+        return beyond if beyond.any() else None
+
+    @cached_property
+    def value(self) -> Array:
+        """Values of the property."""
+        inside = _series(self.values, self._inside)
+        return inside if self._beyond is None else inside + self._by_t * self._beyond
+
+    @cached_property
+    def by_pressure(self) -> Array:
+        """Derivative by pressure [1/Pa]."""
+        inside = _series(self.slopes, self._inside)
+        if self._beyond is None:
+            return inside
+        return inside + _series(_derived(self.slopes), self._inside) * self._beyond
+
+    @cached_property
+    def by_temperature(self) -> Array:
+        """Derivative by temperature [1/K]."""
+        return self._by_t / self.half_range
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +111,12 @@ class HotOil:
 
     @classmethod
     def through(
-        cls, oil_at: Callable[[float], Oil], lowest: float, highest: float, *, temperatures: int = _TEMPERATURES
+        cls,
+        oil_at: Callable[[float], Oil],
+        lowest: float,
+        highest: float,
+        *,
+        temperatures: int = _TEMPERATURES,
     ) -> HotOil:
         """Oil through the oils at Chebyshev temperatures.
 
@@ -156,22 +199,27 @@ class HotOil:
         values = np.stack([np.broadcast_to(value, pressure.shape) for value, _ in pairs])
         slopes = np.stack([np.broadcast_to(slope, pressure.shape) for _, slope in pairs])
         half = 0.5 * (self.highest - self.lowest)
-        t = (temperature - self.lowest) / half - 1.0
-        inside = np.clip(t, -1.0, 1.0)
-        beyond = t - inside
-        of_value = np.tensordot(self._to_coefficients, values, axes=1)
-        of_slope = np.tensordot(self._to_coefficients, slopes, axes=1)
-        value, by_t = _series(of_value, inside)
-        by_pressure, mixed = _series(of_slope, inside)
-        return Property(value + by_t * beyond, by_pressure + mixed * beyond, by_t / half)
+        return Property(
+            np.tensordot(self._to_coefficients, values, axes=1),
+            np.tensordot(self._to_coefficients, slopes, axes=1),
+            (temperature - self.lowest) / half - 1.0,
+            half,
+        )
 
 
-def _series(coefficients: Array, t: Array) -> tuple[Array, Array]:
-    """Chebyshev series (n, ...) and its derivative at t by Clenshaw's recurrence, -1 <= t <= 1."""
+def _derived(coefficients: Array) -> Array:
+    """Coefficients of the derivative of a Chebyshev series (n, ...)."""
+    return np.asarray(chebyshev.chebder(coefficients, axis=0))
+
+
+def _series(coefficients: Array, t: Array) -> Array:
+    """Chebyshev series (n, ...) at t by Clenshaw's recurrence, -1 <= t <= 1."""
     shape = np.broadcast_shapes(coefficients.shape[1:], t.shape)
     one, two = np.zeros(shape), np.zeros(shape)
-    d_one, d_two = np.zeros(shape), np.zeros(shape)
     double = 2.0 * t
     for c in coefficients[:0:-1]:
-        one, two, d_one, d_two = c + double * one - two, one, 2.0 * one + double * d_one - d_two, d_one
-    return coefficients[0] + t * one - two, one + t * d_one - d_two
+        next_one = double * one
+        next_one += c
+        next_one -= two
+        one, two = next_one, one
+    return np.asarray(coefficients[0] + t * one - two)

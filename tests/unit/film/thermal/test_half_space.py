@@ -57,4 +57,4 @@ def test_exact_solution_reaches_the_fast_limit():
 def test_body_at_rest_is_heated_on_both_sides_alike():
     surface = moving_surface(STEEL, 0.0, nodes=50, spacing=1e-6, half_width=1e-4)
     np.testing.assert_allclose(surface.upstream[1:], surface.downstream[1:], rtol=1e-2)
-    assert surface.acts_upstream
+    assert surface.is_slow
