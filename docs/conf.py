@@ -23,6 +23,7 @@ extensions = [
     "myst_parser",
     "numpydoc",
     "oil_figures",
+    "sheared_figures",
     "sketches",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",

@@ -16,7 +16,7 @@ Another relation between flux and pressure gradient is one more function in ``FL
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
@@ -57,13 +57,6 @@ class Fluid:
     velocity_parameter: float
     ambient_pressure: float
     flow: str | FlowLaw = "newtonian"
-
-    def of_highest_order(self) -> Fluid:
-        """Fluid of the same rheology with the most accurate flow through a face.
-
-        The laws by name are those of a Newtonian fluid; another law is its own.
-        """
-        return replace(self, flow="newtonian") if isinstance(self.flow, str) else self
 
 
 @dataclass(frozen=True)

@@ -164,12 +164,15 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
         Last iterate on the grid with ``nodes`` nodes. Its tolerance is that of the coarser grids of the
         nested iteration.
     """
-    width = problem.width
+    width, fluid = problem.width, problem.fluid
+    # All laws by name are those of a Newtonian fluid. The law of a sheared oil stays.
+    if isinstance(fluid.flow, str):
+        fluid = replace(fluid, flow="newtonian")
     if width is not None and nodes != problem.nodes:
         width = width.coarser()
     posed = replace(
         problem,
-        fluid=problem.fluid.of_highest_order(),
+        fluid=fluid,
         nodes=nodes,
         width=width,
         wedge_order=3,

@@ -8,6 +8,9 @@ from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve
 from ehlectric.film import nested, newton
 from ehlectric.film.line import solve_film
+from ehlectric.film.nested import accurate_film, nested_iteration
+from ehlectric.film.sheared.laws import Rheology
+from tests.unit.film.sheared.contacts import line_contact
 
 
 def problem_of(paper_case, **changes):
@@ -64,3 +67,14 @@ def test_other_domains_and_wedges_have_other_grids(paper_case):
         assert level is not kept
         same = level.mesh.shape == kept.mesh.shape and np.array_equal(level.mesh.x, kept.mesh.x)
         assert not (same and np.array_equal(level.wedge.coefficients, kept.wedge.coefficients))
+
+
+def test_accurate_films_keep_the_law_of_a_sheared_oil():
+    """The film of the highest order replaces laws by name only: that of a thinned oil stays thinner."""
+    law = Rheology("carreau", {"carreau_stress": 1e5, "carreau_exponent": 0.6})
+    films = []
+    for rheology in (None, law):
+        problem = line_contact(rheology=rheology, nodes=201)
+        start = nested_iteration(problem, None)[-1]
+        films.append(accurate_film(problem, 201, start.state).state.thickness.min())
+    assert films[1] < 0.8 * films[0]

@@ -60,7 +60,8 @@ class ShearedFlow:
     pressure_scale : float
         Hertz pressure p_h [Pa].
     slide_to_roll_ratio : float
-        Slip of the surfaces over their mean speed, (u_2 - u_1)/u_m.
+        Slip of the surfaces over their mean speed, (u_2 - u_1)/u_m: positive where surface 2 is faster. The
+        ratio of a case is its negative.
     profile : Profile or None
         Viscosity and density across the film, at a fixed temperature; None where they are uniform.
 
