@@ -17,6 +17,9 @@ from ehlectric.film.thermal.result import HeatedFilm
 # too large.
 _NEWTONIAN = 0.5e9
 
+# Rheologies whose shear stress grows without a bound, and that of oils does not.
+_UNBOUNDED = ("newtonian", "carreau")
+
 # Slide-to-roll ratio from which there is a traction to warn of.
 _PURE_ROLLING = 1e-4
 
@@ -64,14 +67,14 @@ def heat_warnings(
 
 
 def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
-    """Warning about the traction of a Newtonian film at high pressure."""
+    """Warning about the traction of a film at high pressure whose shear stress has no bound."""
     slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
-    if heated.rheology == "newtonian" and slides and conditions.max_pressure > _NEWTONIAN:
+    if heated.rheology in _UNBOUNDED and slides and conditions.max_pressure > _NEWTONIAN:
         yield ResultWarning(
             "newtonian-traction",
             f"do not use the traction coefficient of {abs(heated.traction_coefficient):.3g}: above "
-            f"{_NEWTONIAN / 1e9:g} GPa that of a Newtonian film is several times too large; give film."
-            "rheology, as 'eyring'",
+            f"{_NEWTONIAN / 1e9:g} GPa that of a {heated.rheology.capitalize()} film is several times too "
+            "large, as its shear stress has no limit; give film.rheology 'eyring' or 'limiting'",
         )
 
 
