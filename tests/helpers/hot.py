@@ -4,18 +4,22 @@ import numpy as np
 
 from ehlectric.film.deflection import LINE, point_geometry
 from ehlectric.film.flow import Fluid
-from ehlectric.film.mesh import Width
+from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
+from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.profile import Across
-from ehlectric.film.thermal.columns import Stream
+from ehlectric.film.thermal.columns import HeatColumns, Stream
+from ehlectric.film.thermal.energy import Heat, solve_energy
+from ehlectric.film.thermal.frozen import FrozenTemperature
 from ehlectric.film.thermal.half_space import Surface
 from ehlectric.film.thermal.oil import HotOil
 from ehlectric.film.thermal.physics import Body, Physics, Thermal
-from ehlectric.lubricant.density import dowson_higginson
+from ehlectric.film.thermal.stream import stream_of
+from ehlectric.lubricant.density import dowson_higginson, incompressible
 from ehlectric.lubricant.oil import BoundLaw, Oil, OfDensity
 from ehlectric.lubricant.permittivity import constant_permittivity
-from ehlectric.lubricant.viscosity import roelands
+from ehlectric.lubricant.viscosity import barus, roelands
 
 STEEL = {"thermal_conductivity": 46.0, "heat_capacity": 470.0, "density": 7850.0}
 
@@ -109,6 +113,7 @@ def hot_contact(
     It is a line contact, or with a ``width`` a circular one.
     """
     line = "width" not in options
+    circle = point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2)
     half_width = (4.0 if line else np.pi) * radius * max_pressure / modulus
     oil = oil_at(temperature)
     fluid = Fluid(
@@ -168,3 +173,68 @@ def ball(nodes=65, **options):
     """Circular contact with heat on ``nodes`` nodes along both axes."""
     domain = {"nodes": nodes, "inlet": -4.5, "outlet": 1.5, "width": Width(nodes, 3.0)}
     return hot_contact(hot_oil(), **(domain | {"max_pressure": 0.7e9} | options))
+
+
+def couette(nahme, reduced_rate=None, *, degree=12, loops=60):
+    """Oil between surfaces at one temperature that slide, far from the entry, at the nodes across.
+
+    The viscosity is eta0 exp(-beta (T - T_w)). The functions are those of a contact: flow with a frozen
+    temperature, its heat, and the march of the energy equation. The result is theta = beta (T - T_w) and the
+    stress over eta0 U/h.
+    """
+    beta, eta, conductivity, wall, gap, length = 0.03, 0.01, 0.14, 300.0, 1e-6, 1.0
+    slip = np.sqrt(nahme * conductivity / (beta * eta))
+    speed, hertz = 2.0 * slip, 1e9
+    law = Rheology("newtonian")
+    if reduced_rate is not None:
+        law = Rheology("eyring", {"eyring_stress": eta * slip / (gap * reduced_rate)})
+    none = BoundLaw(barus, {"pressure_viscosity_coefficient": 0.0})
+    eps = OfDensity(BoundLaw(constant_permittivity, {"relative_permittivity": 2.2}))
+
+    def oil_at(temperature):
+        return Oil(
+            eta * np.exp(-beta * (temperature - wall)),
+            2.2,
+            0.0,
+            none,
+            BoundLaw(incompressible, {}),
+            eps,
+            density=870.0,
+            thermal_conductivity_law=lambda p: (np.full_like(p, conductivity), np.zeros_like(p)),
+            heat_capacity_law=lambda p: (np.full_like(p, 1.74e6), np.zeros_like(p)),
+        )
+
+    oil = HotOil.through(oil_at, wall - 10.0, wall + 200.0)
+    mesh, across = Mesh.over(9, 0.0, 1.0), Across.of(degree)
+    flat = np.ones(mesh.shape)
+    fluid = Fluid(
+        lambda p: (np.ones_like(p), np.zeros_like(p)),
+        lambda p: (np.zeros_like(p), np.zeros_like(p)),
+        velocity_parameter=12.0 * eta * speed * length / (gap**2 * hertz),
+        ambient_pressure=0.0,
+    )
+    stress = hertz * gap / length
+    heat = Heat(np.full((degree + 1, *mesh.shape), wall), np.zeros((2, *mesh.shape)))
+    for _ in range(loops):
+        profile = FrozenTemperature(across, mesh, heat.temperature, oil, wall, hertz)
+        flow = ShearedFlow(law, stress, hertz, slip / speed, profile)
+        columns = flow.columns(fluid, 0.0 * flat, flat, mesh)
+        stream = stream_of(
+            oil,
+            columns,
+            heat.temperature,
+            pressure=0.0 * flat,
+            thickness=gap * flat,
+            filled=flat,
+            mesh=mesh,
+            length=length,
+            pressure_scale=hertz,
+            speed=speed,
+            stress=stress,
+        )
+        surfaces = (cold_surface(wall, mesh.x.size), cold_surface(wall, mesh.x.size))
+        heat = solve_energy(
+            HeatColumns.of(stream, heat.temperature), surfaces, heat, inlet_temperature=wall
+        )
+    theta = beta * (heat.temperature[:, -1, 0] - wall)
+    return across.zeta, theta, columns.stress[0, :, -1, 0] * stress * gap / (eta * slip)

@@ -76,7 +76,7 @@ def solve_energy(
     lagged = any(surface.is_slow for surface in surfaces) or bool(columns.from_left.any())
     now, mixing, first = last, Mixing(), 0.0
     for _ in range(marches if lagged else 1):
-        new = march(now, inlet_temperature, symmetric)
+        new = march(now, inlet_temperature, symmetric=symmetric)
         change = float(np.max(np.abs(new.temperature - now.temperature)))
         first = max(first, change)
         if not change > max(_STANDS, enough * first):
@@ -119,13 +119,14 @@ class _March:
                 matrix[i] -= known
             if i < reverse:
                 passed[i] = np.linalg.inv(matrix[i]) * columns.after[i][..., np.newaxis, :]
-        return cls(columns, surfaces, reverse, np.linalg.inv(matrix), passed)
+        inverse: Array = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+        return cls(columns, surfaces, reverse, inverse, passed)
 
-    def __call__(self, last: Heat, inlet_temperature: float, symmetric: bool) -> Heat:
+    def __call__(self, last: Heat, inlet_temperature: float, *, symmetric: bool) -> Heat:
         columns, reverse = self.columns, self.reverse
         nx = len(columns.right)
         old = np.moveaxis(last.temperature, 0, -1)
-        right = columns.right + self._from_sides(old, inlet_temperature, symmetric)
+        right = columns.right + self._from_sides(old, inlet_temperature, symmetric=symmetric)
         ahead = [surface.rise_ahead(flux) for surface, flux in zip(self.surfaces, last.flux, strict=True)]
         new = np.empty_like(old)
         flux = last.flux.copy()
@@ -173,7 +174,7 @@ class _March:
             for body, row in ((0, 0), (1, -1)):
                 flux[body, i] = (new[i, :, row] - held[i, body]) / self.surfaces[body].downstream[0]
 
-    def _from_sides(self, old: Array, inlet_temperature: float, symmetric: bool) -> Array | float:
+    def _from_sides(self, old: Array, inlet_temperature: float, *, symmetric: bool) -> Array | float:
         """Heat that the flow across the contact carries from the neighbouring lines of the last iterate."""
         if not self.columns.from_left.any() and not self.columns.from_right.any():
             return 0.0
