@@ -26,6 +26,16 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("measured_and_computed.png",),
     ),
     "oil_contact": (("run", "oil_contact.toml"), ("meter.png",)),
+    "hot_contact": (("run", "hot_contact.toml"), ("temperature.png",)),
+    "traction_curve": (("sweep", "traction_curve.toml"), ("lines_film.traction_coefficient.png",)),
+}
+
+# Arguments of a second command, which draws figures in the folder that the first one wrote.
+_THEN = {
+    "traction_curve": (
+        *("--x", "contact.slide_to_roll_ratio", "--y", "film.thermal"),
+        *("--value", "film.traction_coefficient"),
+    ),
 }
 
 
@@ -41,6 +51,9 @@ def _write(app: Sphinx) -> None:
         shutil.rmtree(folder, ignore_errors=True)
         command = [sys.executable, "-m", "ehlectric", *arguments, "-o", str(folder), "--quiet"]
         done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=examples)
+        if not done.returncode and name in _THEN:
+            drawing = [sys.executable, "-m", "ehlectric", "map", str(folder), *_THEN[name], "--quiet"]
+            done = subprocess.run(drawing, capture_output=True, text=True, check=False, cwd=examples)
         missing = [file for file in shown if not (folder / file).exists()]
         if done.returncode or missing:
             raise ExtensionError(f"figures of {name} {missing}: status {done.returncode}, {done.stderr}")

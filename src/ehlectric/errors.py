@@ -132,13 +132,7 @@ class InputError(ValueError):
     takes: str | None
 
     def __init__(
-        self,
-        key: object = None,
-        says: str | None = None,
-        /,
-        *,
-        got: object = None,
-        takes: str | None = None,
+        self, key: object = None, says: str | None = None, /, *, got: object = None, takes: str | None = None
     ) -> None:
         if says is None and got is None and takes is None:
             key, wrong = None, "" if key is None else str(key)
@@ -284,6 +278,11 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "oil-layer-thick": Cause("The layer of oil is thicker than what the contact takes.", "note"),
         "meniscus-at-edge": Cause("The meniscus is at the edge of the domain or of the Hertz zone."),
         "film-ratio-missed": Cause("No layer of oil was found that gives the ratio of films asked for."),
+        "newtonian-traction": Cause("The traction of a Newtonian film at high pressure is far too large."),
+        "film-temperature-range": Cause("The film is hotter or colder than the laws of the oil are known."),
+        "film-very-hot": Cause("The film is hotter than oils stand."),
+        "heat-unresolved": Cause("The grid does not resolve the heat in the film."),
+        "slow-body": Cause("A surface moves too slowly for the model of its temperature."),
         # Electric field and discharge
         "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
         "field-unresolved": Cause("The estimated error of the maximum field is above 2 %, or unknown."),
@@ -305,9 +304,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
         "atlas-contacts": Cause("Contacts have the films of the atlas.", "note"),
         "atlas-left": Cause("The atlas has no film of a contact, which is computed by formula."),
-        "atlas-left-light": Cause(
-            "The atlas has no film of a light contact, which is computed by formula.", "note"
-        ),
+        "atlas-left-light": Cause("A light contact beyond the atlas is computed by formula.", "note"),
         "isothermal-film": Cause("The films are isothermal and fully flooded.", "note"),
         "temperature-unused": Cause("The films use a given viscosity at any temperature.", "note"),
         "viscosity-of-base": Cause("The viscosity is that of a lubricant of the library at any temperature."),

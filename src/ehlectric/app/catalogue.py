@@ -52,12 +52,15 @@ def choices() -> dict[str, tuple[Choice, ...]]:
     """Choices by key: ``bearing.base``, ``lubricant.base``, ``bearing.coating.base`` and materials."""
     rolling = tuple(Choice(name, name) for name in library.solid_names(rolling=True))
     solids = tuple(Choice(name, name) for name in library.solid_names())
+    thermal = tuple(Choice(name, name) for name in library.solid_names(thermal=True))
     return {
         "bearing.base": tuple(_bearing(name) for name in library.bearing_names()),
         "lubricant.base": tuple(_oil(name) for name in library.lubricant_names()),
         "bearing.coating.base": tuple(_coating(name) for name in library.coating_names()),
         "bearing.element_material": rolling,
         "bearing.ring_material": rolling,
+        "contact.body_1.material": thermal,
+        "contact.body_2.material": thermal,
         "bearing.fits.shaft_material": solids,
         "bearing.fits.housing_material": solids,
     }

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, Unpack
 from pydantic import PrivateAttr, model_validator
 
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
-from ehlectric.cases.contact import Contact
+from ehlectric.cases.contact import Contact, geometry_of
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.films.inlet import Inlet
+from ehlectric.cases.films.physics import FilmPhysics, refuse_unused
 from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
@@ -54,7 +55,7 @@ class Case(Tabled, Table):
         Title of tables and figures.
     roughness : sequence of mapping, optional
         Tables of the rough surfaces.
-    electric, discharge, meter, inlet, motion, grid, solver : mapping, optional
+    film, electric, discharge, meter, inlet, motion, grid, solver : mapping, optional
         Further tables, as in a case file.
 
     Raises
@@ -82,6 +83,7 @@ class Case(Tabled, Table):
             lubricant: Lubricant | Keys,
             title: str = ...,
             roughness: Sequence[Roughness | Keys] = ...,
+            film: FilmPhysics | Keys | None = ...,
             electric: Electric | Keys = ...,
             discharge: Discharge | Keys | None = ...,
             meter: Meter | Keys | None = ...,
@@ -102,6 +104,7 @@ class Case(Tabled, Table):
     contact: Contact
     lubricant: Lubricant
     roughness: tuple[Roughness, ...] = ()
+    film: FilmPhysics | None = None
     electric: Electric = Electric()
     discharge: Discharge | None = None
     meter: Meter | None = None
@@ -114,7 +117,7 @@ class Case(Tabled, Table):
     @classmethod
     def _point_grid(cls, table: Any) -> Any:
         """Add the defaults of a point contact's grid for the keys that the case does not give."""
-        if not isinstance(table, Mapping) or _geometry(table.get("contact")) != "point":
+        if not isinstance(table, Mapping) or geometry_of(table.get("contact")) != "point":
             return table
         grid = table.get("grid", {})
         if isinstance(grid, Grid):
@@ -126,6 +129,10 @@ class Case(Tabled, Table):
         self.grid.check_geometry(self.contact.geometry)
         self.lubricant.at(self.contact.temperature)
         check_geometry(self.roughness, self.contact.geometry)
+        if self.film is None or not self.film.thermal:
+            refuse_unused(self.contact)
+        if self.film is not None:
+            self.film.check(self.contact, self.lubricant, moves=self.motion is not None)
         if self.discharge is not None:
             self.discharge.check_geometry(self.contact.geometry)
         if self.meter is not None:
@@ -181,6 +188,7 @@ class Case(Tabled, Table):
         lubricant: Lubricant | Keys | str,
         title: str = "",
         roughness: Sequence[Roughness | Keys] = (),
+        film: FilmPhysics | Keys | None = None,
         electric: Electric | Keys | None = None,
         discharge: Discharge | Keys | None = None,
         meter: Meter | Keys | None = None,
@@ -197,7 +205,7 @@ class Case(Tabled, Table):
             Name of a lubricant of the library, or its table.
         title : str, optional
             Title of tables and figures.
-        roughness, electric, discharge, meter, inlet, grid, solver : optional
+        roughness, film, electric, discharge, meter, inlet, grid, solver : optional
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
@@ -226,7 +234,7 @@ class Case(Tabled, Table):
         0.0141
         """
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
-        given |= tables(meter=meter, inlet=inlet, grid=grid, solver=solver)
+        given |= tables(film=film, meter=meter, inlet=inlet, grid=grid, solver=solver)
         table = {"geometry": "line", **contact}
         return LineCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
 
@@ -238,6 +246,7 @@ class Case(Tabled, Table):
         lubricant: Lubricant | Keys | str,
         title: str = "",
         roughness: Sequence[Roughness | Keys] = (),
+        film: FilmPhysics | Keys | None = None,
         electric: Electric | Keys | None = None,
         discharge: Discharge | Keys | None = None,
         meter: Meter | Keys | None = None,
@@ -254,7 +263,7 @@ class Case(Tabled, Table):
             Name of a lubricant of the library, or its table.
         title : str, optional
             Title of tables and figures.
-        roughness, electric, discharge, meter, inlet, grid, solver : optional
+        roughness, film, electric, discharge, meter, inlet, grid, solver : optional
             Further tables, as in a case file.
         **contact
             Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
@@ -284,7 +293,7 @@ class Case(Tabled, Table):
         <PointCase point contact, load 20 N, entrainment_speed 2 m/s>
         """
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
-        given |= tables(meter=meter, inlet=inlet, grid=grid, solver=solver)
+        given |= tables(film=film, meter=meter, inlet=inlet, grid=grid, solver=solver)
         table = {"geometry": "point", **contact}
         return PointCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
 
@@ -390,9 +399,3 @@ def _of_kind(case: C, geometry: str) -> C:
     if case.motion is not None:
         raise InputError.worded("motion", f"is no table of a {name}; Case.from_dict takes it")
     return case
-
-
-def _geometry(contact: Any) -> Any:
-    if isinstance(contact, Mapping):
-        return contact.get("geometry")
-    return getattr(contact, "geometry", None)

@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import model_validator
+from pydantic import AfterValidator, model_validator
 
+from ehlectric.cases import library
 from ehlectric.cases.defaults import BOUNDARY_FILM
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, shown
 
 _Radius = Annotated[float, Quantity("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
 _SignedRadius = Annotated[float, Quantity("m", least=-1e3, most=1e3, reason="negative for a concave body")]
 _Modulus = Annotated[float, Quantity("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")]
 _Speed = Annotated[float, Quantity("m/s", least=-1e4, most=1e4, reason="surface speeds of machines")]
+_Surface = Annotated[float, Quantity("K", least=200.0, most=700.0, reason="absolute, of a body far below")]
+
+
+def _material(name: str) -> str:
+    names = library.solid_names(thermal=True)
+    if name not in names:
+        raise InputError(
+            got=shown(name), takes=f"a solid with thermal properties in the library: {', '.join(names)}"
+        )
+    return name
 
 
 class Body(Table):
-    """Elastic constants of one body and, for a point contact, its radii in both planes."""
+    """Elastic and thermal properties of one body and, for a point contact, its radii in both planes."""
 
     youngs_modulus: _Modulus | None = None
     poissons_ratio: (
@@ -26,20 +38,30 @@ class Body(Table):
     ) = None
     radius_x: _SignedRadius | None = None
     radius_y: _SignedRadius | None = None
+    material: Annotated[str, AfterValidator(_material)] | None = None
+    thermal_conductivity: (
+        Annotated[float, Quantity("W/m/K", least=0.05, most=3000.0, reason="from polymers to diamond")] | None
+    ) = None
+    heat_capacity: (
+        Annotated[float, Quantity("J/kg/K", least=100.0, most=5000.0, reason="of a solid, per mass")] | None
+    ) = None
+    density: (
+        Annotated[float, Quantity("kg/m**3", least=500.0, most=23e3, reason="from polymers to osmium")] | None
+    ) = None
 
 
 # Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
 _ATOM = 5e-11
 
-# Alternative inputs by geometry: a case gives all keys of exactly one row of each group. In a line contact
-# the tables of both bodies form a row. In a point contact radii and elastic constants are in two groups.
+# Alternative inputs by geometry: a case gives all keys of exactly one row of each group.
 Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
 _SPEEDS = (("entrainment_speed",), ("speed_1", "speed_2"))
 _BODIES = ("body_1", "body_2")
+_ELASTIC = tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio"))
 CONTACT_ALTERNATIVES: dict[str, Alternatives] = {
     "line": (
         (("reduced_radius",), ("radius_1", "radius_2")),
-        (("reduced_modulus",), _BODIES),
+        (("reduced_modulus",), _ELASTIC),
         (("load_per_length",), ("max_hertz_pressure",)),
         _SPEEDS,
     ),
@@ -48,10 +70,7 @@ CONTACT_ALTERNATIVES: dict[str, Alternatives] = {
             ("radius_x", "radius_y"),
             tuple(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
         ),
-        (
-            ("reduced_modulus",),
-            tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio")),
-        ),
+        (("reduced_modulus",), _ELASTIC),
         (("load",), ("max_hertz_pressure",)),
         _SPEEDS,
     ),
@@ -100,6 +119,8 @@ class Contact(Table):
         Annotated[float, Quantity("K", least=200.0, most=700.0, reason="absolute, of the oil in the inlet")]
         | None
     ) = None
+    temperature_1: _Surface | None = None
+    temperature_2: _Surface | None = None
     slide_to_roll_ratio: (
         Annotated[float, Quantity("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
     ) = None
@@ -138,7 +159,7 @@ class Contact(Table):
         return None if part is None else getattr(part, leaf)
 
     def _check_geometry(self) -> None:
-        """Raise an InputError for keys of the other geometry, and for incomplete bodies of a line contact."""
+        """Raise an InputError for keys of the other geometry."""
         for key in ONLY[OTHER[self.geometry]]:
             if self.value(key) is not None:
                 radii, _, load, _ = CONTACT_ALTERNATIVES[self.geometry]
@@ -146,13 +167,6 @@ class Contact(Table):
                 raise InputError.worded(
                     key, f"is not used by a {self.geometry} contact; expected {takes}", takes=takes
                 )
-        for name in _BODIES if self.geometry == "line" else ():
-            body = getattr(self, name)
-            keys = () if body is None else ("youngs_modulus", "poissons_ratio")
-            missing = [key for key in keys if getattr(body, key) is None]
-            if missing:
-                more = f"; also missing: {missing[1]}" if missing[1:] else ""
-                raise InputError.worded(f"{name}.{missing[0]}", f"required{more}", takes="a value")
 
     def _check_radii(self) -> None:
         names = ("radius_1", "radius_2", *ONLY["point"][3:])
@@ -188,3 +202,14 @@ class Contact(Table):
         for name in group[used[0]]:
             if name not in present[used[0]]:
                 raise InputError.missing(name, f"either {choices}")
+
+
+def geometry_of(contact: Any) -> Any:
+    """Geometry of a table ``contact`` that may be a mapping; None if it says none.
+
+    Examples
+    --------
+    >>> geometry_of({"geometry": "point"}), geometry_of({})
+    ('point', None)
+    """
+    return contact.get("geometry") if isinstance(contact, Mapping) else getattr(contact, "geometry", None)

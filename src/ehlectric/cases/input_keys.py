@@ -21,6 +21,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
 from ehlectric.cases.films.inlet import Inlet, LayerTable
+from ehlectric.cases.films.physics import FilmPhysics
 from ehlectric.cases.grid import Electric, Grid, Solver
 from ehlectric.cases.meter import Coating, Meter
 from ehlectric.cases.motion import Motion
@@ -42,6 +43,8 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "contact.speed_1": ("speed of surface 1", "$u_1$"),
     "contact.speed_2": ("speed of surface 2", "$u_2$"),
     "contact.temperature": ("temperature", "$T$"),
+    "contact.temperature_1": ("temperature of body 1", "$T_1$"),
+    "contact.temperature_2": ("temperature of body 2", "$T_2$"),
     "contact.slide_to_roll_ratio": ("slide-to-roll ratio", ""),
     "contact.boundary_film": ("boundary film", r"$h_\mathrm{s}$"),
     "contact.hardness": ("hardness", r"$H_\mathrm{v}$"),
@@ -54,6 +57,12 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
     "contact.radius_y": ("reduced radius across entrainment", "$R_y$"),
     "contact.reduced_modulus": ("reduced modulus", "$E'$"),
     "lubricant.base": ("lubricant", ""),
+    "film.thermal": ("thermal film", ""),
+    "film.rheology": ("rheology", ""),
+    "lubricant.eyring_stress": ("Eyring stress", r"$\tau_0$"),
+    "lubricant.carreau_stress": ("Carreau stress", "$G$"),
+    "lubricant.carreau_exponent": ("Carreau exponent", "$n$"),
+    "lubricant.limiting_coefficient": ("limiting shear stress over pressure", r"$\Lambda$"),
     "lubricant.viscosity": ("viscosity", r"$\eta_0$"),
     "electric.potential_1": ("potential of surface 1", "$V_1$"),
     "electric.potential_2": ("potential of surface 2", "$V_2$"),
@@ -132,6 +141,7 @@ INPUT_NAMES: Mapping[str, tuple[str, str]] = {
 TABLES: Mapping[str, type[Table]] = {
     "contact": Contact,
     "contact.body": Body,
+    "film": FilmPhysics,
     "lubricant": Lubricant,
     "roughness": Roughness,
     "electric": Electric,
@@ -236,6 +246,9 @@ _LATEX = {
     r"\\(?:mathrm|text)\{([^}]*)\}": r"\1",
     r"\\sqrt\{((?:[^{}]|\{[^}]*\})*)\}": r"√(\1)",
     r"\\eta": "η",
+    r"\\tau": "τ",
+    r"\\mu": "µ",
+    r"\\Lambda": "Λ",
     r"\\nu": "ν",
     r"\\omega": "ω",
     r"\\sigma": "σ",

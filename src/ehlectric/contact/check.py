@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.heat.physics import physics_of
 from ehlectric.contact.kinds import KINDS, AnyKind
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.problems import check_tolerance, heights_of
 from ehlectric.contact.setup import Setup
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.thermal.physics import Physics
 from ehlectric.lubricant.own import OF_STRENGTH, Laws
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.rough_maps import RoughMap
@@ -48,6 +52,17 @@ class PreparedContact:
     def kind(self) -> AnyKind:
         """Functions of the kind of this contact, line or point."""
         return KINDS[self.conditions.geometry]
+
+    @cached_property
+    def physics(self) -> Physics | None:
+        """Heat and shear of the film; None of an isothermal Newtonian film."""
+        return physics_of(self.case, self.conditions)
+
+    def film_problem(self, setup: Setup, *, rough: bool = True) -> FilmProblem:
+        """Film problem of the contact on the grid of a setup, with its roughness or with smooth surfaces."""
+        surfaces = self.rough if rough else ()
+        problem = self.kind.film_problem(setup, self.conditions, surfaces)
+        return problem if self.physics is None else replace(problem, physics=self.physics)
 
     def composite_roughness(self) -> float | None:
         """Rq of the sum of both surfaces in the Hertz zone, undeformed [m]; None for smooth surfaces."""
@@ -94,6 +109,8 @@ def check_case(case: Case) -> PreparedContact:
     check_tolerance(case.solver)
     check_memory(case)
     domain = kind.domain(case, conditions)
+    # Its film is refused here where it cannot be heated.
+    physics_of(case, conditions)
     return PreparedContact(case, conditions, domain, kind.rough(case.roughness, domain))
 
 
@@ -119,6 +136,11 @@ def with_laws(case: Case, laws: Laws) -> Case:
     InputError
         If the contact has no temperature, or a law has no valid values at its pressures.
     """
+    if case.film is not None and case.film.thermal:
+        raise InputError.worded(
+            "film.thermal",
+            "is not used with laws of your own, which are those at one temperature",
+        )
     conditions = KINDS[case.contact.geometry].resolve(case)
     sampled = laws.sampled(case.contact.temperature, conditions.max_pressure)
     strength = sampled.samples.get("strength")

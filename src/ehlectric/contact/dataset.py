@@ -12,6 +12,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
+from ehlectric.contact.heat import files as heat
 from ehlectric.contact.solution import Solution
 from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.contact.starved.stored import check_starvation, starvation_attribute, starvation_of
@@ -102,12 +103,9 @@ def on_columns(*grid: str) -> Variables:
     }
 
 
-def _density(grid: tuple[str, ...], long_name: str) -> Variables:
-    return {"capacitance_density": ("capacitance_density", grid, long_name, "F/m^2")}
-
-
 X = {"x": ("x", ("x",), "position along entrainment", "m")}
 X_FIELD = {"x_field": ("x", ("x_field",), "position along entrainment, columns of the field", "m")}
+_DENSITY = "capacitance_density"
 S = {"s": ("s", ("s",), "fraction of the gap, from surface 1 to surface 2", "1")}
 FILM_NUMBERS = (
     "status",
@@ -134,7 +132,7 @@ LINE_LAYOUT = Layout(
         **S,
         "y": ("y", ("x_field", "s"), "height", "m"),
         **on_columns("x_field"),
-        **_density(("x_field",), "capacitance per length and width"),
+        _DENSITY: (_DENSITY, ("x_field",), "capacitance per length and width", "F/m^2"),
     },
     film_grid=("x",),
     field_grid=("x_field",),
@@ -152,7 +150,7 @@ POINT_LAYOUT = Layout(
         "z": ("z", ("x_field", "y_field", "s"), "height", "m"),
         **on_columns("x_field", "y_field"),
         "field_z": ("field_z", ("x_field", "y_field", "s"), "electric field along z", "V/m"),
-        **_density(("x_field", "y_field"), "capacitance per area"),
+        _DENSITY: (_DENSITY, ("x_field", "y_field"), "capacitance per area", "F/m^2"),
     },
     film_grid=("x", "y"),
     field_grid=("x_field", "y_field"),
@@ -218,6 +216,7 @@ def variables(
             values = np.asarray(getattr(part, attribute))
             values = values.astype(np.int8) if values.dtype == bool else values
             named[name] = (dimensions, values, {"long_name": long_name, "units": unit})
+    named |= heat.heated_variables(film.heated, layout.film_grid)
     for name, (attribute, long_name) in _HISTORY.items():
         values = np.array([getattr(step, attribute) for step in film.steps])
         named[name] = ("step", values, {"long_name": long_name, "units": "1"})
@@ -276,6 +275,7 @@ def dataset_of(solution: Solution[Any, Any, Any], layout: Layout, summary: Mappi
                 "seconds": json.dumps([solution.film_seconds, solution.field_seconds]),
                 **starvation_attribute(solution.film.starvation),
                 **attributes(layout, solution.film, solution.field),
+                **heat.heated_attributes(solution.film.heated),
             },
         )
         .set_coords(layout.coordinates)
@@ -329,6 +329,7 @@ def rules(layout: Layout, *, smooth: bool) -> dict[str, Rule]:
         for name, (_, dims, _, unit) in table.items()
     }
     found |= {name: Rule(("step",), "not negative", "1") for name in _HISTORY}
+    found |= heat.heated_rules(layout.film_grid)
     found |= {f"roughness_{k}": Rule(layout.film_grid, unit="m") for k in (1, 2)}
     for name, (grid, _, unit) in _SMOOTH.items() if smooth else ():
         found[f"smooth_{name}"] = Rule(getattr(layout, grid), _VALUES.get(name, "finite"), unit)
@@ -350,6 +351,7 @@ def check(layout: Layout, dataset: xr.Dataset) -> None:
         others = dict.fromkeys(numbers, is_number_or_null)
         json_of(dataset.attrs, name, partial(is_table, columns=columns, others=others))
     _check_field(layout, dataset)
+    heat.check_heated(dataset)
     json_of(dataset.attrs, "seconds", partial(is_list, right=_is_time))
     json_of(dataset.attrs, "rough", partial(is_list, right=lambda item: isinstance(item, dict)))
     if "coarser" in dataset.attrs:
@@ -381,7 +383,7 @@ def film_parts(layout: Layout, dataset: xr.Dataset) -> dict[str, Any]:
     """Arguments of the class of the film, read from a dataset, without the scales of the film."""
     arrays: dict[str, Any] = dict(_arrays(dataset, layout.film))
     arrays["cavitated"] = arrays["cavitated"].astype(bool)
-    arrays["starvation"] = starvation_of(dataset.attrs)
+    arrays |= {"starvation": starvation_of(dataset.attrs), "heated": heat.heated_of(dataset)}
     history = zip(*(dataset[name].values for name in _HISTORY), strict=True)
     steps = tuple(NewtonStep(int(n), float(residual), int(krylov)) for n, residual, krylov in history)
     return {**arrays, **json.loads(dataset.attrs["film"]), "steps": steps}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ehlectric.cases.oils.keys import OIL_KEYS
 from ehlectric.cases.result_key import Keys, ResultKey, under
+from ehlectric.contact.heat.keys import heat_keys
 from ehlectric.contact.meter.keys import METER_KEYS
 from ehlectric.contact.spots import keys as spot_keys
 from ehlectric.contact.starved.keys import STARVED_KEYS
@@ -229,7 +230,7 @@ LINE_KEYS: Keys = {
     **under("lubricant", OIL_KEYS),
     **under("groups", _GROUPS),
     **under("hertz", _LINE_HERTZ),
-    **under("film", _FILM),
+    **under("film", {**_FILM, **heat_keys("W/m")}),
     **under("field", _LINE_FIELD),
     **under("film_formulas", _FORMULAS),
     **under("seconds", _SECONDS),
@@ -245,7 +246,7 @@ POINT_KEYS: Keys = {
     **under("lubricant", OIL_KEYS),
     **under("groups", _GROUPS),
     **under("hertz", _POINT_HERTZ),
-    **under("film", _POINT_FILM),
+    **under("film", {**_POINT_FILM, **heat_keys("W")}),
     **under("field", _POINT_FIELD),
     **under("film_formulas", _FORMULAS),
     **under("seconds", _SECONDS),

@@ -191,6 +191,7 @@ class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
             error=self.film_error,
             field_error=self.field.strength_error,
             flooded=self.conditions.film_factor == 1.0 and self.film.starvation is None,
+            isothermal=self.film.temperature is None,
         )
 
     @cached_property

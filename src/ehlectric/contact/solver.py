@@ -17,6 +17,7 @@ from ehlectric.cases.grid import Electric, Grid, Solver
 from ehlectric.cases.roughness import Roughness
 from ehlectric.contact.check import PreparedContact, check_case, with_laws
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.heat.warnings import heat_warnings
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.memory import check_grid
 from ehlectric.contact.meter.reading import meter_warnings
@@ -249,7 +250,7 @@ def _solved(
     films = refined(
         Setup.of(case),
         geometry,
-        lambda setup: kind.film_problem(setup, conditions, rough),
+        contact.film_problem,
         lambda problem: solvers.film[geometry](problem, progress=_logged(progress)),
     )
     film = films.film
@@ -307,9 +308,10 @@ def _solved(
 
 
 def _of_film(contact: PreparedContact, films: Refined) -> Iterator[ResultWarning]:
-    """Warnings about a film and its supply of oil."""
+    """Warnings about a film, its supply of oil, its heat and its shear."""
     yield from film_warnings(contact.case, films.film)
     yield from starvation_warnings(films.setup, contact.conditions, films.film)
+    yield from heat_warnings(contact.case, contact.conditions, films.film, contact.physics)
 
 
 def _of_field(
@@ -342,7 +344,7 @@ def _smooth(
     """
     kind, conditions = contact.kind, contact.conditions
     first, last = (replace(setup, roughness=()) for setup in (films.first, films.setup))
-    problem = kind.film_problem(first, conditions, ())
+    problem = contact.film_problem(first, rough=False)
     if last.grid.nodes_along > first.grid.nodes_along:
         # Refined as often as the rough film, whatever its error.
         problem = replace(problem, target_error=0.0, most_nodes=last.grid.nodes_along)
@@ -364,8 +366,7 @@ def _coarser(contact: PreparedContact, films: Refined, solvers: Solvers) -> Coar
 
     None if this grid has fewer nodes than a case may have, or if its film does not converge.
     """
-    kind, conditions = contact.kind, contact.conditions
-    problem = kind.film_problem(films.setup, conditions, contact.rough)
+    conditions, problem = contact.conditions, contact.film_problem(films.setup)
     nodes, width = problem.nodes // 2 + 1, problem.width
     if nodes < _LEAST_NODES:
         return None

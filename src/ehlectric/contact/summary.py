@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.heat.summary import heat_summary
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Solution
@@ -80,8 +81,12 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "newton_iterations",
         "max_pressure_error",
     )
-    more = {"discretisation_error": solution.film_error, "target_error": solution.case.grid.target}
-    more |= {"solver": solution.film_solver} | starved_summary(film.starvation)
+    more: dict[str, Any] = {
+        "discretisation_error": solution.film_error,
+        "target_error": solution.case.grid.target,
+        "solver": solution.film_solver,
+    }
+    more |= starved_summary(film.starvation) | heat_summary(film.heated)
     return {name: getattr(film, name) for name in names} | more
 
 

@@ -55,7 +55,8 @@ class FieldUtilisation:
     def of(cls, discharge: Discharge, film: Film | PointFilm, field: Field | PointField) -> FieldUtilisation:
         """Utilisation of the dielectric strength in a solved contact."""
         strength, columns = field.column_strength, field.axes
-        limit = dielectric_strength(discharge, at_columns(film, field, film.pressure))
+        warm = None if film.temperature is None else at_columns(film, field, film.temperature)
+        limit = dielectric_strength(discharge, at_columns(film, field, film.pressure), warm)
         utilisation = strength / limit
         place = np.unravel_index(np.argmax(utilisation), utilisation.shape)
         thin = field.voltage / np.maximum(film.thickness, ATOM)
@@ -70,7 +71,7 @@ class FieldUtilisation:
         )
 
 
-def dielectric_strength(discharge: Discharge, pressure: Array) -> Array:
+def dielectric_strength(discharge: Discharge, pressure: Array, temperature: Array | None = None) -> Array:
     """Dielectric strength of a film at given pressures.
 
     Parameters
@@ -79,6 +80,8 @@ def dielectric_strength(discharge: Discharge, pressure: Array) -> Array:
         Inputs of the discharge: a constant strength, a table over pressure or temperature, or neither.
     pressure : ndarray, shape (...)
         Pressure in the film [Pa].
+    temperature : ndarray, shape (...), optional
+        Temperature in a film with heat [K], in place of that of the discharge.
 
     Returns
     -------
@@ -97,6 +100,7 @@ def dielectric_strength(discharge: Discharge, pressure: Array) -> Array:
     if table is None:
         constant = discharge.dielectric_strength
         return np.full_like(pressure, 1.0 if constant is None else constant)
-    at = pressure if table.over == "pressure" else np.full_like(pressure, discharge.temperature)
+    warm = np.full_like(pressure, discharge.temperature) if temperature is None else temperature
+    at = pressure if table.over == "pressure" else warm
     strength: Array = np.interp(at, table.places, table.strength)
     return strength

@@ -171,6 +171,7 @@ def contact_verdict(
     warnings: Iterable[ResultWarning],
     error: float | None,
     flooded: bool,
+    isothermal: bool = True,
     field_error: float | None = None,
 ) -> Verdict:
     """Verdict on a solved contact.
@@ -188,7 +189,9 @@ def contact_verdict(
     error : float or None
         Estimated discretisation error of the film, relative; None where it is not known.
     flooded : bool
-        Whether the film is that of isothermal, fully flooded oil.
+        Whether the film is that of fully flooded oil.
+    isothermal : bool
+        Whether the heating of the oil is left out.
     field_error : float or None
         Estimated error of the largest field strength by the grid of the field, relative; None where it is
         not known.
@@ -228,7 +231,7 @@ def contact_verdict(
     if level == "yellow" and off > 0.0 and abs(margin - 1.0) <= off:
         part, name = (of_film, "film") if of_film >= of_field else (of_field, "maximum field")
         doubts.insert(0, f"The {name} may be {100.0 * part:.2g} % off on this grid.")
-    bound = "Upper bound: isothermal, fully flooded film; " if flooded else ""
+    bound = f"Upper bound: {'isothermal, ' if isothermal else ''}fully flooded film; " if flooded else ""
     last = f"{bound}{assumption_of(discharge)}."
     text = (
         f"{lead_of(level, margin)}: applied voltage {voltage:.3g} V, breakdown voltage {at:.3g} V{span} "

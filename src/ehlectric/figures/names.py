@@ -20,8 +20,8 @@ FORMATS = ("png", "svg", "pdf")
 STYLES = ("screen", "journal")
 
 # Figures of contacts. The roughness is drawn of rough contacts only, the breakdown of contacts with a
-# dielectric strength only, the capacitance at a meter of cases with a table meter only, and the spots of
-# contacts whose surfaces touch only.
+# dielectric strength only, the capacitance at a meter of cases with a table meter only, the spots of contacts
+# whose surfaces touch only, and temperature or shear stress of cases with a table film only.
 FIGURE_FILES = (
     "film.png",
     "field_strength.png",
@@ -37,7 +37,7 @@ POINT_FIGURE_FILES = (
     "cuts.png",
 )
 ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE = "roughness.png", "breakdown.png", "meter.png"
-SPOTS_FIGURE = "spots.png"
+SPOTS_FIGURE, TEMPERATURE_FIGURE, SHEAR_FIGURE = "spots.png", "temperature.png", "shear_stress.png"
 
 # Figures of stationary contacts, line or point. Earlier versions drew the potential of line contacts too.
 ALL_FIGURES = tuple(
@@ -46,6 +46,7 @@ ALL_FIGURES = tuple(
             *FIGURE_FILES,
             *POINT_FIGURE_FILES,
             *(ROUGHNESS_FIGURE, BREAKDOWN_FIGURE, METER_FIGURE, SPOTS_FIGURE),
+            *(TEMPERATURE_FIGURE, SHEAR_FIGURE),
             "potential.png",
         )
     )

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
+from ehlectric.film.accuracy.adaptive import RefinedSolution
+from ehlectric.film.heated.nested import film_of
+from ehlectric.film.heated.outcome import film_status_of, heated_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
 from ehlectric.film.starved.nested import supplied_solution
@@ -101,4 +106,25 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     'converged'
     """
     with quiet_solution():
-        return Film.of(stationary_film(supplied_solution(problem, progress), lambda values: values[:, 0]))
+        if problem.physics is None:
+            return _film(supplied_solution(problem, progress))
+        found = film_of(problem, progress)
+        simple, film = _film(found.simple), _film(found.refined)
+        heated = heated_film(
+            found,
+            _on_line,
+            minimum_thickness=simple.minimum_thickness,
+            central_thickness=simple.central_thickness,
+        )
+        return replace(film, heated=heated, status=film_status_of(found, film.status))
+
+
+def _film(found: RefinedSolution) -> Film:
+    """Film in SI units from the dimensionless solutions on all grids."""
+    return Film.of(stationary_film(found, _on_line))
+
+
+def _on_line(values: NDArray[Any]) -> NDArray[Any]:
+    """Nodal values (nx,) from those with one node across (nx, 1)."""
+    line: NDArray[Any] = values[:, 0]
+    return line

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
+from ehlectric.film.accuracy.adaptive import RefinedSolution
 from ehlectric.film.estimates import side_deficit
+from ehlectric.film.heated.nested import film_of
+from ehlectric.film.heated.outcome import film_status_of, heated_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
 from ehlectric.film.starved.nested import StarvedSolution, supplied_solution
@@ -161,18 +164,32 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     """
     assert problem.width is not None
     with quiet_solution():
-        found = supplied_solution(problem, progress)
-        whole, patch = found.whole, found.patch
-        mesh = whole.level.mesh
-        y = mesh.whole_y if patch is None else patch.join(found.last.level.mesh).y
-        return PointFilm.of(
-            stationary_film(found, mesh.mirrored),
-            y=problem.scales.length * y,
-            semi_axis_y=semi_axis_across(problem),
-            side_deficit=0.0
-            if isinstance(found, StarvedSolution) and found.starved_at_sides
-            else side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),
+        if problem.physics is None:
+            return _film(problem, supplied_solution(problem, progress))
+        found = film_of(problem, progress)
+        simple, film = _film(problem, found.simple), _film(problem, found.refined)
+        heated = heated_film(
+            found,
+            found.refined.last.level.mesh.mirrored,
+            minimum_thickness=simple.minimum_thickness,
+            central_thickness=simple.central_thickness,
         )
+        return replace(film, heated=heated, status=film_status_of(found, film.status))
+
+
+def _film(problem: FilmProblem, found: RefinedSolution) -> PointFilm:
+    """Film in SI units from the dimensionless solutions on all grids."""
+    whole, patch = found.whole, found.patch
+    mesh = whole.level.mesh
+    y = mesh.whole_y if patch is None else patch.join(found.last.level.mesh).y
+    return PointFilm.of(
+        stationary_film(found, mesh.mirrored),
+        y=problem.scales.length * y,
+        semi_axis_y=semi_axis_across(problem),
+        side_deficit=0.0
+        if isinstance(found, StarvedSolution) and found.starved_at_sides
+        else side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),
+    )
 
 
 def semi_axis_across(problem: FilmProblem) -> float:

@@ -18,6 +18,7 @@ from ehlectric.film.problem import Scales
 from ehlectric.film.starved.nested import StarvedSolution
 from ehlectric.film.starved.supply import Starvation
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
+from ehlectric.film.thermal.result import HeatedFilm
 from ehlectric.runtime.values import Values
 
 
@@ -76,6 +77,8 @@ class FilmSolution(Values):
         it does in a flooded contact.
     starvation : Starvation or None
         Supply of oil, meniscus and flooded film. None where the supply of oil is not given.
+    heated : HeatedFilm or None
+        Temperature, shear stress, traction and power loss; None of an isothermal Newtonian film.
     """
 
     x: Array
@@ -97,6 +100,12 @@ class FilmSolution(Values):
     max_pressure_error: float | None = None
     film_fraction: Array | None = None
     starvation: Starvation | None = None
+    heated: HeatedFilm | None = None
+
+    @property
+    def temperature(self) -> Array | None:
+        """Temperature at mid-film [K] at the nodes; None of an isothermal film."""
+        return None if self.heated is None else self.heated.mid_temperature
 
     @property
     def converged(self) -> bool:

@@ -23,6 +23,8 @@ def _accepted(case: Case) -> Case:
         )
     if case.inlet is not None:
         raise InputError("inlet", got="[inlet] for the solver 'paper'", takes="the solver 'ehlectric'")
+    if case.film is not None:
+        raise InputError.worded("film", "is not solved by the solver 'paper', whose films are isothermal")
     grid = case.grid.fixed() if case.grid.error is None else case.grid
     fas.grid_sizes(grid.nodes_along)
     case = case.model_copy(update={"grid": grid})

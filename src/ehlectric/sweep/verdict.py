@@ -154,7 +154,10 @@ def _assumptions(results: SweepPoints) -> Iterator[str]:
     factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
     if not isinstance(results.case, BearingCase):
         supplied = results.case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
-        bound = f"Upper bound: isothermal{'' if supplied else ', fully flooded'} film; "
+        heated = results.case.film is not None and results.case.film.thermal
+        cold = "" if heated and "film.thermal" not in results.varied else "isothermal"
+        kinds = [kind for kind in (cold, "" if supplied else "fully flooded") if kind]
+        bound = f"Upper bound: {', '.join(kinds)} film; " if kinds else ""
     else:
         heat = "isothermal, fully flooded, smooth film" if factors & {1.0} else "smooth film"
         bound = f"Upper bound: {heat}; "

@@ -18,6 +18,7 @@ from ehlectric.formulas.film_point import regime as point_regime
 from ehlectric.lubricant.oil import Oil
 from ehlectric.tables.asperities import asperity_rows
 from ehlectric.tables.discharge import discharge_rows
+from ehlectric.tables.heat import heat_rows
 from ehlectric.tables.meter import meter_rows
 
 _FORMULAS: Mapping[str, Mapping[str, Formula[Any]]] = {"line": LINE_FORMULAS, "point": POINT_FORMULAS}
@@ -168,8 +169,8 @@ def result_rows(result: Result | PointResult) -> list[Row]:
         Values in SI units.
     """
     rows = [*_status(result), *condition_rows(result.conditions, result.field.voltage, result.case.oil)]
-    rows += [*_dry_contact(result.conditions), *_film(result), *_roughness(result), *asperity_rows(result)]
-    rows += _field(result)
+    rows += [*_dry_contact(result.conditions), *_film(result), *heat_rows(result)]
+    rows += [*_roughness(result), *asperity_rows(result), *_field(result)]
     return [*rows, *discharge_rows(result), *meter_rows(result), *_formulas(result)]
 
 

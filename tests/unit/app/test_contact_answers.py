@@ -30,6 +30,7 @@ from ehlectric.runs.meaning import check
 from ehlectric.runs.results import load
 from ehlectric.runtime.progress import silent
 from ehlectric.tables.contact import result_rows
+from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import EXAMPLES
 
 
@@ -177,6 +178,7 @@ def test_places_of_warnings_are_numbers_of_a_contact(tmp_path):
     shown = {one.key for one in solved_coarsely(tmp_path).numbers}
     shown |= {one.key for one in check_contact(table_of("ball_contact"), str(tmp_path)).numbers}
     shown |= {one.key for one in view_of(solve(touching_case("line"))).spots}
+    shown |= {one.key for one in view_of(solve(Case.from_dict(HOT_LINE))).numbers}
     assert {name for names in CONTACT_PLACES.values() for name in names} <= shown
 
 

@@ -10,12 +10,14 @@ from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.input_keys import INPUT_NAMES, input_field
 from ehlectric.cases.quantity import to_si
 from ehlectric.cases.result_key import key_of
+from ehlectric.contact.heat.keys import heat_keys
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.sweep.labels import label_of, result_keys, scale_for
 from ehlectric.sweep.results import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.moving_cases import TABLES, moving
 
 ROUGH = {"surface": 1, "generator": "gaussian", "rq": "5 nm", "correlation_length": "40 um", "seed": 1}
@@ -26,6 +28,8 @@ EVERYTHING = {
 LENGTHS = {"line": {"length": "10 mm"}, "point": {}}
 METER = {"fill": "oil", "coating": {"thickness": "1 um", "relative_permittivity": 9}}
 KINDS = ["line", "point", "balls", "rollers", "moving line", "moving point"]
+# Keys within the table film of a summary of heat and shear; both kinds of contact have the same ones.
+HEAT = {f"film.{key}" for key in heat_keys("W")}
 DATA = Path(__file__).parent / "labels.csv"
 
 
@@ -88,14 +92,23 @@ def test_every_entry_is_a_key_of_a_summary(summaries, kind):
     """An entry without a number behind it says something about results that is not so.
 
     A list of the summary has an entry for the documentation. Statistics of a measured profile that is
-    extended to a map, and voltages of a Weibull law, stand in other summaries.
+    extended to a map, voltages of a Weibull law, heat and shear stand in other summaries.
     """
     keys = result_keys(case_of(kind))
     parts = {".".join(part for part in key.split(".") if not part.isdigit()) for key in summaries(kind)}
     lists = {"discharge", "stationary", "beside_stationary", "contacts", "rough", "inputs", "margin.effects"}
-    lists |= {"roughness.surfaces", "roughness.surfaces.steps", "rough.steps", "discharge.sources"}
+    lists |= {"roughness.surfaces", "roughness.surfaces.steps", "rough.steps", "discharge.sources"} | HEAT
     missing = {key for key in keys if "*" not in key} - parts - lists
     assert {key for key in missing if ".steps." not in key} == set()
+
+
+def test_keys_of_heat_and_shear_are_those_of_a_summary():
+    """A film with heat and one with shear alone have the same keys, those of an isothermal film null."""
+    for film in ({"thermal": True}, {"rheology": "eyring"}):
+        found = solve(Case.from_dict(HOT_LINE | {"film": film})).summary()
+        keys = {key for key in flat(found) if key.startswith("film.") and key in HEAT}
+        assert keys == HEAT
+        assert (found["film"]["max_temperature_rise"] is None) == ("rheology" in film)
 
 
 @pytest.mark.parametrize("kind", KINDS)

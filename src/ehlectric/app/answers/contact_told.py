@@ -57,6 +57,11 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "oil-layer-thick": _FILM,
         "meniscus-at-edge": _FILM,
         "film-ratio-missed": _FILM,
+        "newtonian-traction": ("traction",),
+        "film-temperature-range": (*_FILM, "temperature-rise"),
+        "film-very-hot": (*_FILM, "temperature-rise"),
+        "heat-unresolved": (*_FILM, "temperature-rise"),
+        "slow-body": (*_FILM, "temperature-rise"),
         # Electric field and discharge
         "field-grid-too-coarse": ("max-field", "capacitance", *_BREAKDOWN),
         "field-unresolved": _FIELD,

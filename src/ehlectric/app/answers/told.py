@@ -98,6 +98,11 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "oil-layer-thick": _FILM,
         "meniscus-at-edge": _FILM,
         "film-ratio-missed": _FILM,
+        "newtonian-traction": (),
+        "film-temperature-range": _FILM,
+        "film-very-hot": _FILM,
+        "heat-unresolved": _FILM,
+        "slow-body": _FILM,
         # Electric field and discharge
         "field-grid-too-coarse": _FIRST,
         "field-unresolved": _FIRST,

@@ -13,6 +13,7 @@ from ehlectric.app.answers.contact_told import CONTACT_PLACES
 from ehlectric.app.answers.figure import Shown
 from ehlectric.app.answers.told import Told, beside
 from ehlectric.app.compute.cases import case_of
+from ehlectric.app.compute.heat import bound_of, heat_numbers
 from ehlectric.app.compute.lines import lines_of
 from ehlectric.app.compute.numbers import number_of
 from ehlectric.app.compute.touching import spot_numbers
@@ -103,9 +104,9 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
 
 
 def _is_quick(case: Case) -> bool:
-    smooth, grid = not case.roughness and case.motion is None, case.grid
+    plain, grid = not case.roughness and case.motion is None and case.film is None, case.grid
     quick = grid.nodes_along <= _QUICK and (grid.target is None or grid.target >= _QUICK_ERROR)
-    return smooth and quick and case.contact.geometry == "line"
+    return plain and quick and case.contact.geometry == "line"
 
 
 def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:
@@ -293,9 +294,9 @@ def _result_numbers(result: Result | PointResult) -> list[Number]:
                 breakdown, bound="≤", note=f"{_IN_SPOTS}; metal may conduct there at any voltage"
             )
         elif _is_flooded(result):
-            breakdown = replace(breakdown, bound="≤", note=_BOUND)
+            breakdown = replace(breakdown, bound="≤", note=bound_of(result))
         found.append(breakdown)
-    return found
+    return [*found, *heat_numbers(result)]
 
 
 def _films(result: Result | PointResult) -> list[Number]:

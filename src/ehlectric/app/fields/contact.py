@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ehlectric.app.fields.field import Field, Group, Way
+from ehlectric.app.fields.heat import HEAT, HEAT_OF_CONTACT
 from ehlectric.app.fields.oil import OIL as OIL_OF_BEARING
 from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
@@ -22,7 +23,8 @@ def _no_sheet(inputs: Inputs) -> bool:
 
 
 def _bodies(inputs: Inputs) -> bool:
-    return inputs.value("contact.body_1") is not None or inputs.value("contact.body_2") is not None
+    keys = (f"contact.body_{number}.{key}" for number in (1, 2) for key in (_MODULUS, _RATIO))
+    return any(inputs.value(key) is not None for key in keys)
 
 
 def _body(number: int, what: str, label: str, unit: str, ends: tuple[float, float]) -> Field:
@@ -311,12 +313,15 @@ def _grid(label: str, ends: tuple[float, float], nodes: int, *more: Field) -> Gr
 
 
 _GROUPS: Mapping[str, tuple[Group, ...]] = {
-    "line": (_LINE, _OIL, _FIELD_OF_LINE, _MATERIALS, _grid("Nodes", (201.0, 12801.0), 3201)),
-    "point": (_POINT, _OIL, _FIELD, _MATERIALS, _grid("Nodes along each side", (65.0, 513.0), 257, _SIDE)),
+    "line": (_LINE, _OIL, _FIELD_OF_LINE, HEAT, _MATERIALS, _grid("Nodes", (201.0, 12801.0), 3201)),
+    "point": (
+        *(_POINT, _OIL, _FIELD, HEAT, _MATERIALS),
+        _grid("Nodes along each side", (65.0, 513.0), 257, _SIDE),
+    ),
 }
 
 # Tables and keys that line and point contacts share, which a change from one to the other keeps.
-_SHARED = ("lubricant", "electric", "discharge", "inlet")
+_SHARED = ("lubricant", "electric", "discharge", "film", "inlet")
 _SHARED_CONTACT = (
     "reduced_modulus",
     "entrainment_speed",
@@ -329,6 +334,7 @@ _SHARED_CONTACT = (
     "hardness",
     "boundary_friction",
     *(f"body_{k}.{key}" for k in (1, 2) for key in (_MODULUS, _RATIO)),
+    *HEAT_OF_CONTACT,
 )
 
 

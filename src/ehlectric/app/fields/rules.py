@@ -17,6 +17,7 @@ Rows = tuple[tuple[str, ...], ...]
 
 _SPEEDS: Rows = (("contact.slide_to_roll_ratio",), ("contact.speed_1", "contact.speed_2"))
 _BODIES = ("contact.body_1", "contact.body_2")
+_ELASTIC = tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio"))
 
 ALTERNATIVES: tuple[Rows, ...] = (
     (("bearing.radial_clearance",), ("bearing.clearance_class",), ("bearing.fits.unmounted_clearance",)),
@@ -53,17 +54,14 @@ ALTERNATIVES: tuple[Rows, ...] = (
 OF_GEOMETRY: Mapping[str, tuple[Rows, ...]] = {
     "line": (
         (("contact.reduced_radius",), ("contact.radius_1", "contact.radius_2")),
-        (("contact.reduced_modulus",), _BODIES),
+        (("contact.reduced_modulus",), _ELASTIC),
     ),
     "point": (
         (
             ("contact.radius_x", "contact.radius_y"),
             tuple(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
         ),
-        (
-            ("contact.reduced_modulus",),
-            tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio")),
-        ),
+        (("contact.reduced_modulus",), _ELASTIC),
     ),
 }
 

@@ -40,13 +40,16 @@ class LineKeys(TypedDict, total=False):
     reduced_modulus : float, str or quantity
         Reduced modulus E' with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [Pa].
     body_1, body_2 : mapping
-        ``youngs_modulus`` [Pa] and ``poissons_ratio`` of both bodies, in place of the reduced modulus.
+        ``youngs_modulus`` [Pa] and ``poissons_ratio`` of both bodies, in place of the reduced modulus, and
+        their thermal properties.
     load_per_length, max_hertz_pressure : float, str or quantity
         Load per length [N/m] or Hertz pressure [Pa].
     entrainment_speed, slide_to_roll_ratio, speed_1, speed_2 : float, str or quantity
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
     temperature : float, str or quantity
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
+    temperature_1, temperature_2 : float, str or quantity
+        Bulk temperatures of both bodies of a thermal film [K].
     boundary_film : float, str or quantity
         Gap at which the surfaces touch [m].
     hardness : float, str or quantity
@@ -65,6 +68,8 @@ class LineKeys(TypedDict, total=False):
     max_hertz_pressure: Value
     entrainment_speed: Value
     temperature: Value
+    temperature_1: Value
+    temperature_2: Value
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value
@@ -84,13 +89,15 @@ class PointKeys(TypedDict, total=False):
         Reduced modulus E' with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [Pa].
     body_1, body_2 : mapping
         ``youngs_modulus`` [Pa] and ``poissons_ratio``, or ``radius_x`` and ``radius_y`` [m], of both bodies,
-        in place of the reduced values.
+        in place of the reduced values, and their thermal properties.
     load, max_hertz_pressure : float, str or quantity
         Load [N] or Hertz pressure [Pa].
     entrainment_speed, slide_to_roll_ratio, speed_1, speed_2 : float, str or quantity
         Mean speed of the surfaces [m/s] with the slide-to-roll ratio, or the speeds of both [m/s].
     temperature : float, str or quantity
         Absolute temperature of oil and surfaces [K]; write "70 degC" for degrees Celsius.
+    temperature_1, temperature_2 : float, str or quantity
+        Bulk temperatures of both bodies of a thermal film [K].
     boundary_film : float, str or quantity
         Gap at which the surfaces touch [m].
     hardness : float, str or quantity
@@ -108,6 +115,8 @@ class PointKeys(TypedDict, total=False):
     max_hertz_pressure: Value
     entrainment_speed: Value
     temperature: Value
+    temperature_1: Value
+    temperature_2: Value
     slide_to_roll_ratio: Value
     speed_1: Value
     speed_2: Value

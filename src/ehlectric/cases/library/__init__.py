@@ -42,13 +42,18 @@ def lubricant(name: str) -> dict[str, Any]:
     return _table("lubricant", name)
 
 
-def solid_names(*, rolling: bool = False) -> list[str]:
-    """Names of solids that a bearing file can use as materials; only of rings and elements if ``rolling``."""
-    return [name for name in _names("solid") if not rolling or solid(name)["rolling"]]
+def solid_names(*, rolling: bool = False, thermal: bool = False) -> list[str]:
+    """Names of solids that a file can use as materials.
+
+    Only those of rings and elements if ``rolling``, and only those with known thermal properties if
+    ``thermal``.
+    """
+    names = [name for name in _names("solid") if not rolling or solid(name)["rolling"]]
+    return [name for name in names if not thermal or "thermal_conductivity" in solid(name)]
 
 
 def solid(name: str) -> dict[str, Any]:
-    """Elastic constants, density and thermal expansion of a named solid, and whether it conducts and rolls.
+    """Properties of a named solid: elastic, thermal, and whether it conducts and rolls.
 
     Quantities are texts with units. A solid rolls if it is hard enough for rings and rolling elements.
     """

@@ -63,6 +63,20 @@ class Properties(Table):
         Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="of the volume of an oil")] | None
     ) = None
     reference_temperature: Annotated[float, TEMPERATURE] | None = None
+    eyring_stress: (
+        Annotated[float, Quantity("Pa", least=1e4, most=1e9, reason="oils have 2 to 20 MPa")] | None
+    ) = None
+    carreau_stress: (
+        Annotated[float, Quantity("Pa", least=1e2, most=1e9, reason="10 kPa of thickened oils to 10 MPa")]
+        | None
+    ) = None
+    carreau_exponent: (
+        Annotated[float, Quantity("", least=0.1, most=1.0, reason="1 is a Newtonian oil")] | None
+    ) = None
+    limiting_coefficient: (
+        Annotated[float, Quantity("", least=1e-3, most=0.5, reason="limiting shear stress over pressure")]
+        | None
+    ) = None
     temperature_range: Annotated[tuple[float, ...], Quantities(TEMPERATURE, least=2)] | None = None
     temperature: OilTemperature | None = None
     ambient_pressure: Annotated[float, Quantity("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5

@@ -13,7 +13,14 @@ from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.spots.warnings import about_share
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.names import BREAKDOWN_FIGURE, METER_FIGURE, ROUGHNESS_FIGURE, SPOTS_FIGURE
+from ehlectric.figures.names import (
+    BREAKDOWN_FIGURE,
+    METER_FIGURE,
+    ROUGHNESS_FIGURE,
+    SHEAR_FIGURE,
+    SPOTS_FIGURE,
+    TEMPERATURE_FIGURE,
+)
 
 AnyContact = Result | PointResult
 
@@ -262,6 +269,28 @@ def spots_text(result: AnyContact) -> str:
     return f"{number} {share} of the load on this grid: the contact is {found.electrical.behaviour}"
 
 
+def temperature_text(result: AnyContact) -> str:
+    """Temperature rise in the film, and what heat and shear make of the minimum film."""
+    heated = result.film.heated
+    assert heated is not None and heated.max_temperature_rise is not None
+    rise = f"Film up to {heated.max_temperature_rise:.3g} K hotter than the oil in the inlet"
+    return f"{rise}; {_thinning(result)}"
+
+
+def shear_text(result: AnyContact) -> str:
+    """Traction coefficient, and what shear makes of the minimum film."""
+    heated = result.film.heated
+    assert heated is not None
+    return signed(f"Traction coefficient {heated.traction_coefficient:.3g}; {_thinning(result)}")
+
+
+def _thinning(result: AnyContact) -> str:
+    heated = result.film.heated
+    assert heated is not None
+    change = result.film.minimum_thickness / heated.isothermal_minimum_thickness - 1.0
+    return f"{_more(change, 'thicker', 'thinner')} than isothermal and Newtonian"
+
+
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     "film.png": film_text,
     "field_strength.png": strength_text,
@@ -271,6 +300,8 @@ LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
     SPOTS_FIGURE: spots_text,
+    TEMPERATURE_FIGURE: temperature_text,
+    SHEAR_FIGURE: shear_text,
 }
 POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     "film_map.png": film_text,
@@ -283,6 +314,8 @@ POINT_FINDINGS: Mapping[str, Callable[[PointResult], str]] = {
     BREAKDOWN_FIGURE: breakdown_text,
     METER_FIGURE: meter_text,
     SPOTS_FIGURE: spots_text,
+    TEMPERATURE_FIGURE: temperature_text,
+    SHEAR_FIGURE: shear_text,
 }
 
 

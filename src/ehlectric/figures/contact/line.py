@@ -15,6 +15,7 @@ from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
 from ehlectric.figures.contact.breakdown import breakdown_figures_of, limit_line
 from ehlectric.figures.contact.findings import cut_offs, disagreement, per_cent, strength_limit
+from ehlectric.figures.contact.heat import heat_figures_of
 from ehlectric.figures.contact.line_maps import field_strength
 from ehlectric.figures.contact.meter import meter_figures_of
 from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
@@ -366,6 +367,5 @@ FIGURES: dict[str, Callable[..., Axes]] = {
 def figures_of(result: Result) -> dict[str, Callable[..., Axes]]:
     """Functions that draw the figures of a line contact, by file name."""
     rough = {ROUGHNESS_FIGURE: roughness} if np.any(result.roughness) else {}
-    return (
-        FIGURES | rough | breakdown_figures_of(result) | meter_figures_of(result) | spots_figures_of(result)
-    )
+    more = heat_figures_of(result) | breakdown_figures_of(result) | meter_figures_of(result)
+    return FIGURES | rough | more | spots_figures_of(result)

@@ -18,6 +18,7 @@ from ehlectric.field.zones import HIGH_FIELD
 from ehlectric.figures.contact.breakdown import breakdown_figures_of
 from ehlectric.figures.contact.cuts import cuts, field_sections
 from ehlectric.figures.contact.findings import has_spike
+from ehlectric.figures.contact.heat import heat_figures_of
 from ehlectric.figures.contact.maps import (
     Range,
     colour_bar,
@@ -349,6 +350,7 @@ def point_figures_of(result: PointResult) -> dict[str, Callable[..., Axes]]:
     return (
         POINT_FIGURES
         | rough
+        | heat_figures_of(result)
         | breakdown_figures_of(result)
         | meter_figures_of(result)
         | spots_figures_of(result)

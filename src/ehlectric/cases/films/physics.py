@@ -1,0 +1,146 @@
+"""Table ``film`` of a case: heat and shear of the oil in the film, and the checks of what they need."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal
+
+from ehlectric.cases import library
+from ehlectric.cases.contact import Body, Contact
+from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.oils.resolution import density_at, viscosity_over_temperature
+from ehlectric.cases.quantity import to_si
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
+
+# Constants of the lubricant that each rheology needs.
+CONSTANTS: Mapping[str, tuple[str, ...]] = {
+    "newtonian": (),
+    "eyring": ("eyring_stress",),
+    "carreau": ("carreau_stress", "carreau_exponent"),
+    "limiting": ("limiting_coefficient",),
+}
+
+# Thermal properties of a body and their units.
+_OF_BODIES = {"thermal_conductivity": "W/m/K", "heat_capacity": "J/kg/K", "density": "kg/m**3"}
+
+
+class FilmPhysics(Table):
+    """Heat and shear of the oil in the film; without the table it is isothermal and Newtonian.
+
+    Examples
+    --------
+    >>> FilmPhysics.from_dict({"rheology": "eyring"}).thermal
+    False
+    """
+
+    thermal: bool = False
+    rheology: Literal["newtonian", "eyring", "carreau", "limiting"] = "newtonian"
+
+    def check(self, contact: Contact, lubricant: Lubricant, *, moves: bool) -> None:
+        """Check that a case has all that a film with heat or shear needs.
+
+        Parameters
+        ----------
+        contact : Contact
+            Table of the contact.
+        lubricant : Lubricant
+            Table of the oil.
+        moves : bool
+            Whether the roughness moves.
+
+        Raises
+        ------
+        InputError
+            If a property of the oil, of a body or a temperature is missing, or the contact is transient.
+        """
+        if moves:
+            raise InputError.worded(
+                "film", "is not used with [motion], whose films are isothermal and Newtonian; leave it out"
+            )
+        for key in CONSTANTS[self.rheology]:
+            if getattr(lubricant, key) is None:
+                raise InputError.missing(
+                    f"lubricant.{key}", f"a value, which rheology {self.rheology!r} needs"
+                )
+        if self.thermal:
+            if contact.temperature is None:
+                raise InputError.missing(
+                    "contact.temperature", "that of the oil in the inlet; a thermal film needs it"
+                )
+            _check_oil(lubricant, contact.temperature)
+            for name in ("body_1", "body_2"):
+                thermal_properties(getattr(contact, name), f"contact.{name}")
+
+    def constants(self, lubricant: Lubricant) -> dict[str, float]:
+        """Constants of the rheology of an oil by their keys, SI units."""
+        return {key: getattr(lubricant, key) for key in CONSTANTS[self.rheology]}
+
+
+def refuse_unused(contact: Contact) -> None:
+    """Raise an InputError for temperatures of the surfaces, which an isothermal film does not use."""
+    for key in ("temperature_1", "temperature_2"):
+        if getattr(contact, key) is not None:
+            raise InputError.worded(
+                f"contact.{key}",
+                "is used by a thermal film only; give [film] thermal = true, or contact.temperature alone",
+            )
+
+
+def _check_oil(oil: Lubricant, temperature: float) -> None:
+    """Raise an InputError if a property of the oil, over temperature, is missing."""
+    if viscosity_over_temperature(oil) is None:
+        raise InputError.missing(
+            "lubricant.atmospheric_law",
+            "it or [lubricant.temperature]: a thermal film needs the viscosity over temperature",
+        )
+    for key, ways in _missing(oil, temperature):
+        raise InputError.missing(f"lubricant.{key}", f"{ways}; a thermal film needs it")
+
+
+def _missing(oil: Lubricant, temperature: float) -> Iterator[tuple[str, str]]:
+    """Keys of thermal properties that an oil lacks, each with the ways to give it."""
+    if density_at(oil, temperature) is None:
+        yield "density", "the density of the oil"
+    sheet = oil.temperature
+    if oil.law("thermal_conductivity_law") is None and (sheet is None or sheet.thermal_conductivity is None):
+        yield "thermal_conductivity", "it or thermal_conductivity_law"
+    if oil.law("heat_capacity_law") is None:
+        yield "heat_capacity", "it or heat_capacity_law"
+
+
+def thermal_properties(body: Body | None, name: str) -> dict[str, float]:
+    """Thermal properties of a body: its own, or those of its material.
+
+    Parameters
+    ----------
+    body : Body or None
+        Table of the body.
+    name : str
+        Key of the table, for messages.
+
+    Returns
+    -------
+    dict
+        ``thermal_conductivity`` [W/(m K)], ``heat_capacity`` [J/(kg K)] and ``density`` [kg/m^3].
+
+    Raises
+    ------
+    InputError
+        If one of them is missing.
+
+    Examples
+    --------
+    >>> thermal_properties(Body.from_dict({"material": "steel", "density": 7850.0}), "contact.body_1")
+    {'thermal_conductivity': 46.0, 'heat_capacity': 470.0, 'density': 7850.0}
+    """
+    material = {} if body is None or body.material is None else library.solid(body.material)
+    found: dict[str, float] = {}
+    for key, unit in _OF_BODIES.items():
+        own = None if body is None else getattr(body, key)
+        if own is None and key not in material:
+            raise InputError.missing(
+                f"{name}.{key}", f'a value, or {name}.material = "steel"; a thermal film needs it'
+            )
+        found[key] = to_si(material[key], unit) if own is None else own
+    return found

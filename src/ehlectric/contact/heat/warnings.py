@@ -1,0 +1,135 @@
+"""Warnings about the heat and the shear of the film of a contact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ehlectric.cases.case import Case
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.setup import Setup
+from ehlectric.errors import ResultWarning
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
+from ehlectric.film.thermal.physics import Body, Physics
+from ehlectric.film.thermal.result import HeatedFilm
+
+# Hertz pressure from which the traction of a Newtonian film is meaningless [Pa]: at 1 GPa it is 5 to 30 times
+# too large.
+_NEWTONIAN = 0.5e9
+
+# Rheologies whose shear stress grows without a bound, and that of oils does not.
+_UNBOUNDED = ("newtonian", "carreau")
+
+# Slide-to-roll ratio from which there is a traction to warn of.
+_PURE_ROLLING = 1e-4
+
+# Peclet number u b/(2 kappa) of a body below which the conduction along its surface matters: of a line
+# contact, whose conduction along is computed, near the steady state that a body at rest does not have.
+_SLOW = {"line": 0.1, "point": 5.0}
+
+# Error of the temperature rise over the rise, and of the balance of heat, above which there is a warning.
+_RISE_ERROR, _IMBALANCE = 0.05, 0.02
+
+# Rise whose error is of no interest [K], and rise from which the model is doubtful [K].
+_SMALL_RISE, _LARGE_RISE = 1.0, 200.0
+
+_CELSIUS = 273.15
+
+
+def heat_warnings(
+    case: Case | Setup,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    physics: Physics | None,
+) -> Iterator[ResultWarning]:
+    """Warnings about a film with heat or shear; none for an isothermal Newtonian film, or an unconverged one.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Solved film.
+    physics : Physics or None
+        Heat and shear as they were solved.
+    """
+    heated = film.heated
+    if heated is None or physics is None or not film.converged:
+        return
+    yield from _traction(heated, conditions)
+    if physics.thermal is not None and isinstance(case, Case):
+        yield from _temperatures(case, heated)
+        yield from _accuracy(heated)
+        for number, (body, speed) in enumerate(zip(physics.thermal.bodies, physics.speeds, strict=True), 1):
+            yield from _slow(number, body, speed, conditions)
+
+
+def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
+    """Warning about the traction of a film at high pressure whose shear stress has no bound."""
+    slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
+    if heated.rheology in _UNBOUNDED and slides and conditions.max_pressure > _NEWTONIAN:
+        yield ResultWarning(
+            "newtonian-traction",
+            f"do not use the traction coefficient of {abs(heated.traction_coefficient):.3g}: above "
+            f"{_NEWTONIAN / 1e9:g} GPa that of a {heated.rheology.capitalize()} film is several times too "
+            "large, as its shear stress has no limit; give film.rheology 'eyring' or 'limiting'",
+        )
+
+
+def _temperatures(case: Case, heated: HeatedFilm) -> Iterator[ResultWarning]:
+    """Warnings about temperatures at which oil, laws or model are not known."""
+    found, known = heated.temperature_range, case.lubricant.temperature_range
+    assert found is not None
+    if known is not None and not (known[0] <= found[0] and found[1] <= known[1]):
+        yield ResultWarning(
+            "film-temperature-range",
+            f"the film has {_celsius(*found)}, but the laws of the oil hold for {_celsius(*known)} "
+            "(lubricant.temperature_range): they are extrapolated",
+        )
+    rise = heated.max_temperature_rise or 0.0
+    if rise > _LARGE_RISE:
+        yield ResultWarning(
+            "film-very-hot",
+            f"the film is up to {rise:.3g} K hotter at its middle than the oil in the inlet: oil and its "
+            "additives do not stand this for long, and its laws are hardly known; check speeds and load",
+        )
+
+
+def _celsius(low: float, high: float) -> str:
+    return f"{low - _CELSIUS:.4g} to {high - _CELSIUS:.4g} °C"
+
+
+def _accuracy(heated: HeatedFilm) -> Iterator[ResultWarning]:
+    """Warning about a temperature rise that the grid does not resolve."""
+    rise, error, lost = heated.max_temperature_rise, heated.temperature_rise_error, heated.energy_imbalance
+    if rise is None or rise < _SMALL_RISE:
+        return
+    if error is not None and error > _RISE_ERROR * rise:
+        yield ResultWarning(
+            "heat-unresolved",
+            f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %: "
+            "where surfaces hardly slide it is that of the pressure spike, whose height depends on the grid; "
+            "use more grid.nodes, or the temperature elsewhere in the film",
+        )
+    elif lost is not None and abs(lost) > _IMBALANCE:
+        yield ResultWarning(
+            "heat-unresolved",
+            f"the balance of heat in the film is {100 * abs(lost):.2g} % off; use more grid.nodes",
+        )
+
+
+def _slow(
+    number: int, body: Body, speed: float, conditions: Conditions | PointConditions
+) -> Iterator[ResultWarning]:
+    """Warning about a surface that moves so slowly that its temperature is not that of the model."""
+    peclet = speed * conditions.semi_axes[0] / (2.0 * body.diffusivity)
+    if peclet < _SLOW[conditions.geometry]:
+        along = "sideways" if conditions.geometry == "point" else "without a steady state"
+        yield ResultWarning(
+            "slow-body",
+            f"surface {number} moves at {speed:.3g} m/s, a Peclet number of {peclet:.2g} below "
+            f"{_SLOW[conditions.geometry]:g}: heat spreads in it {along}, which is left out, so that its "
+            "temperature is an estimate",
+        )

@@ -1,0 +1,66 @@
+"""Conversion of a heated or sheared film to SI units at the nodes of the whole domain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlectric.film.heated.nested import HeatedSolution
+from ehlectric.film.state import Status
+from ehlectric.film.thermal.result import HeatedFilm
+
+# Traction coefficient below which there is none but rounding, as in pure rolling.
+_ROUNDING = 1e-14
+
+
+def film_status_of(found: HeatedSolution, status: Status) -> Status:
+    """Status of a film, "converged" only if its temperature converged with it."""
+    return found.status if status == "converged" else status
+
+
+def heated_film(
+    found: HeatedSolution,
+    shaped: Callable[[NDArray[Any]], NDArray[Any]],
+    *,
+    minimum_thickness: float,
+    central_thickness: float,
+) -> HeatedFilm:
+    """Heat and shear of a solution, at the nodes of the whole domain.
+
+    Parameters
+    ----------
+    found : HeatedSolution
+        Film with its temperature and shear stress.
+    shaped : callable
+        Function that brings nodal values (nx, ny) into their shape in the film.
+    minimum_thickness, central_thickness : float
+        Film thicknesses without heat and shear [m].
+
+    Returns
+    -------
+    HeatedFilm
+        Nodal values and totals, SI units.
+    """
+    physics = found.refined.problem.physics
+    assert physics is not None
+    rows, traction = found.temperature, -found.traction_coefficient
+    return HeatedFilm(
+        rheology=physics.rheology.name,
+        # A slide-to-roll ratio is positive where surface 1 is the faster one.
+        shear_stress=-shaped(found.shear_stress),
+        traction_coefficient=traction if abs(traction) > _ROUNDING else 0.0,
+        rolling_coefficient=found.rolling_coefficient,
+        power_loss=found.power_loss,
+        isothermal_minimum_thickness=minimum_thickness,
+        isothermal_central_thickness=central_thickness,
+        outer_iterations=found.outer_iterations,
+        zeta=None if rows is None else found.zeta,
+        temperature=None if rows is None else np.stack([shaped(row) for row in rows]),
+        mid_temperature=None if found.mid_temperature is None else shaped(found.mid_temperature),
+        max_temperature_rise=found.max_temperature_rise,
+        temperature_rise_error=found.temperature_rise_error,
+        energy_imbalance=found.energy_imbalance,
+    )

@@ -1,0 +1,224 @@
+"""Contacts with heat and shear from their case to their files: what is solved, told, stored and drawn."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric import Case, InputError, Laws, solve
+from ehlectric.contact.check import check_case
+from ehlectric.contact.files import load, save
+from ehlectric.contact.heat.oil import hot_oil, oil_over_temperature
+from ehlectric.contact.heat.physics import physics_of
+from ehlectric.contact.heat.warnings import heat_warnings
+from ehlectric.contact.resolve import resolve
+from ehlectric.discharge.utilisation import FieldUtilisation
+from ehlectric.errors import DamagedError
+from ehlectric.figures.contact.save import figure
+from ehlectric.paper.solvers import PAPER
+from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.tables.contact import result_rows
+from tests.helpers.hot_cases import HOT_LINE
+
+
+@pytest.fixture(scope="module")
+def hot():
+    """Solved film with heat and shear."""
+    table = {"temperature": [273.15, 473.15], "strength": ["30 V/um", "10 V/um"]}
+    discharge = {"strength_table": table, "temperature": "40 degC"}
+    return solve(Case.from_dict(HOT_LINE | {"discharge": discharge}))
+
+
+@pytest.fixture(scope="module")
+def sheared():
+    """Solved isothermal film with shear, with the faster surface on the other side."""
+    contact = HOT_LINE["contact"] | {"slide_to_roll_ratio": -0.1}
+    return solve(Case.from_dict(HOT_LINE | {"contact": contact, "film": {"rheology": "eyring"}}))
+
+
+def case_with(table, **keys):
+    return Case.from_dict(HOT_LINE | {table: HOT_LINE[table] | keys})
+
+
+def test_heat_and_shear_make_the_film_thinner(hot):
+    """The isothermal Newtonian film stands beside it, and is that of the case without the table film."""
+    plain = solve(Case.from_dict({key: part for key, part in HOT_LINE.items() if key != "film"}))
+    film = hot.summary()["film"]
+    beside = film["isothermal"]
+    assert plain.film.heated is None
+    assert beside["minimum_thickness"] == pytest.approx(plain.film.minimum_thickness, rel=1e-9)
+    assert beside["central_thickness"] == pytest.approx(plain.film.central_thickness, rel=1e-9)
+    assert film["minimum_thickness"] < 0.99 * beside["minimum_thickness"]
+    assert "rheology" not in plain.summary()["film"]
+
+
+def test_traction_has_the_sign_of_the_sliding(hot, sheared):
+    assert hot.film.heated.traction_coefficient > 0.0 > sheared.film.heated.traction_coefficient
+    assert np.max(hot.film.heated.shear_stress) > 0.0 > np.min(sheared.film.heated.shear_stress)
+    # Heat makes the oil thinner, and so the traction smaller.
+    assert hot.film.heated.traction_coefficient < -sheared.film.heated.traction_coefficient
+
+
+def test_power_is_that_of_sliding_and_of_rolling(hot):
+    """Load times speeds: the traction acts over the sliding speed, rolling friction over both surfaces."""
+    film, conditions = hot.film.heated, hot.conditions
+    slide = abs(conditions.slide_to_roll_ratio) * conditions.entrainment_speed
+    rolling = 2.0 * film.rolling_coefficient * conditions.entrainment_speed
+    power = conditions.load_per_length * (abs(film.traction_coefficient) * slide + rolling)
+    assert film.power_loss == pytest.approx(power, rel=0.05)
+
+
+def test_temperatures_of_the_film(hot):
+    """Both surfaces are warmer than the oil in the inlet, and the middle of the film is hotter than they."""
+    heated, inlet = hot.film.heated, hot.case.contact.temperature
+    assert heated.temperature.shape == (heated.zeta.size, hot.film.x.size)
+    assert np.array_equal(hot.film.temperature, heated.mid_temperature)
+    assert np.max(heated.mid_temperature) - inlet == pytest.approx(heated.max_temperature_rise)
+    centre = int(np.argmin(np.abs(hot.film.x)))
+    for surface in heated.surface_temperatures[:, centre]:
+        assert inlet < surface < heated.mid_temperature[centre]
+
+
+def test_files_bring_heat_and_shear_back(hot, sheared, tmp_path):
+    for result in (hot, sheared):
+        folder = tmp_path / result.film.heated.rheology / str(result.film.heated.thermal)
+        save(result, folder)
+        loaded = load(folder / "result.nc")
+        assert loaded.summary() == result.summary()
+        for name, value in vars(result.film.heated).items():
+            assert np.array_equal(getattr(loaded.film.heated, name), value), name
+
+
+def test_a_film_without_heat_has_none_in_its_file(tmp_path):
+    plain = solve(Case.from_dict({key: part for key, part in HOT_LINE.items() if key != "film"}))
+    save(plain, tmp_path)
+    dataset = read_dataset(tmp_path / "result.nc")
+    assert "heated" not in dataset.attrs
+    assert not {"temperature", "zeta", "shear_stress"} & set(dataset.variables)
+
+
+def test_damaged_numbers_are_refused(hot, tmp_path):
+    path = tmp_path / "result.nc"
+    dataset = hot.to_xarray()
+    dataset.attrs["heated"] = dataset.attrs["heated"].replace("traction_coefficient", "traction")
+    dataset.to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(DamagedError, match="heated is not as it was written"):
+        load(path)
+
+
+def test_tables_tell_what_heat_and_shear_change(hot, sheared):
+    rows = {row.name: row.text for row in result_rows(hot)}
+    assert rows["rheology"] == "Ree-Eyring, eyring_stress 5 MPa"
+    assert "% by heat and shear" in rows["minimum film, isothermal and Newtonian"]
+    assert rows["largest temperature rise at mid-film"].split()[1] in ("K", "K,")
+    rows = {row.name: row.text for row in result_rows(sheared)}
+    assert rows["minimum film, isothermal and Newtonian"].endswith("% by shear")
+    assert "largest temperature rise at mid-film" not in rows
+
+
+def test_a_strength_over_temperature_is_that_of_the_local_film(hot):
+    """30 V/um at 0 degC and 10 V/um at 200 degC: 0.1 V/um less per kelvin, at mid-film, not in the inlet."""
+    found = FieldUtilisation.of(hot.case.discharge, hot.film, hot.field).dielectric_strength
+    warm = np.interp(hot.field.x, hot.film.x, hot.film.temperature)
+    assert found == pytest.approx(30e6 - 0.1e6 * (warm - 273.15), rel=1e-6)
+    assert "Upper bound: fully flooded film" in hot.verdict.text
+
+
+def test_permittivity_follows_the_density_of_the_hot_film(hot):
+    """Clausius and Mossotti at the mean density across the film, which heat lowers."""
+    cold = hot.case.oil.density_ratio(hot.film.pressure)[0]
+    contact = np.abs(hot.film.x) < 0.5 * hot.conditions.half_width
+    assert np.all(hot.film.density[contact] < cold[contact])
+    centre = int(np.argmin(np.abs(hot.field.x)))
+    node = int(np.argmin(np.abs(hot.film.x - hot.field.x[centre])))
+    at = hot.film.pressure[[node]]
+    expected = hot.case.oil.permittivity(at, hot.film.density[[node]])
+    assert hot.field.permittivity[centre, 0] == pytest.approx(expected[0])
+    assert expected < hot.case.oil.permittivity(at, cold[[node]])
+
+
+def test_figures(hot, sheared):
+    drawn = figure(hot, "temperature.png")
+    assert "K hotter than the oil" in " ".join(text.get_text() for text in drawn.texts)
+    assert len([ax for ax in drawn.axes if ax.get_ylabel().startswith(("height", "temp", "shear"))]) >= 3
+    drawn = figure(sheared, "shear_stress.png")
+    assert "Traction coefficient −0.0" in " ".join(text.get_text() for text in drawn.texts)
+    with pytest.raises(InputError):
+        figure(sheared, "temperature.png")
+
+
+def test_bodies_and_speeds_of_the_solver():
+    case = case_with("contact", temperature_2="60 degC", body_2={"material": "steel", "density": 3000.0})
+    physics = physics_of(case, resolve(case))
+    assert physics.speeds == pytest.approx((3.15, 2.85))
+    assert [body.temperature for body in physics.thermal.bodies] == [313.15, 333.15]
+    assert [body.density for body in physics.thermal.bodies] == [7830.0, 3000.0]
+    assert physics.thermal.inlet_temperature == 313.15
+    assert physics.thermal.oil.lowest < 313.15 < 333.15 + 200.0 < physics.thermal.oil.highest
+
+
+def test_the_oil_of_the_solver_is_that_of_the_case_at_other_temperatures():
+    case = case_with("contact")
+    hot = physics_of(case, resolve(case)).thermal.oil
+    pressure = np.array([0.0, 0.3e9, 0.6e9])
+    for temperature in (300.0, 350.0, 420.0):
+        oil = case.lubricant.at(temperature)
+        expected = np.log(oil.viscosity) + oil.log_viscosity(pressure)[0]
+        assert hot.log_viscosity(pressure, np.full(3, temperature)).value == pytest.approx(expected, abs=1e-5)
+
+
+def test_laws_go_on_beyond_the_range_of_the_oil():
+    """The range of an oil bounds the temperature of a case, but not those in its film."""
+    case = case_with("lubricant", temperature_range=["20 degC", "60 degC"])
+    with pytest.raises(InputError, match="temperature"):
+        case.lubricant.at(400.0)
+    beyond, known = oil_over_temperature(case.lubricant)(400.0), case_with("lubricant").lubricant.at(400.0)
+    assert beyond.viscosity == known.viscosity
+
+
+def test_the_range_ends_where_a_law_has_no_values():
+    """A density that falls by 0.2 % per kelvin is zero 500 K above its reference."""
+    case = case_with("lubricant", thermal_expansion=2e-3, reference_temperature=313.15)
+    oil = hot_oil(case.lubricant, (400.0, 600.0), 1e9)
+    assert 600.0 + 30.0 <= oil.highest < 813.15
+
+
+@pytest.mark.parametrize("ratio", [2.5, -2.5])
+def test_a_surface_against_entrainment_is_refused(ratio):
+    case = case_with("contact", slide_to_roll_ratio=ratio)
+    with pytest.raises(InputError, match=r"^contact\.slide_to_roll_ratio: got .*against entrainment"):
+        check_case(case)
+
+
+def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
+    case = case_with("contact")
+    with pytest.raises(InputError, match=r"^film\.thermal: is not used with laws of your own"):
+        solve(case, laws=Laws(viscosity=lambda p, _: 0.04 * np.exp(2e-8 * p)))
+    with pytest.raises(InputError, match=r"^film: is not solved by the solver 'paper'"):
+        solve(case, solvers=PAPER)
+
+
+def codes(result, case=None, **changes):
+    """Codes of the warnings about a film whose heat and shear differ in some values."""
+    film = replace(result.film, heated=replace(result.film.heated, **changes))
+    case = result.case if case is None else case
+    conditions = resolve(case)
+    return [each.code for each in heat_warnings(case, conditions, film, physics_of(case, conditions))]
+
+
+def test_warnings(hot, sheared):
+    assert codes(hot, temperature_rise_error=0.0) == []
+    newtonian = Case.from_dict(HOT_LINE | {"film": {"rheology": "newtonian"}})
+    assert codes(sheared, newtonian, rheology="newtonian") == ["newtonian-traction"]
+    low = newtonian.replace({"contact.max_hertz_pressure": "0.4 GPa"})
+    rolling = newtonian.replace({"contact.slide_to_roll_ratio": 0.0})
+    for case in (low, rolling):
+        assert codes(sheared, case, rheology="newtonian") == []
+    narrow = case_with("lubricant", temperature_range=["39 degC", "41 degC"])
+    assert codes(hot, narrow, temperature_rise_error=0.0) == ["film-temperature-range"]
+    assert codes(hot, temperature_rise_error=1.0, max_temperature_rise=10.0) == ["heat-unresolved"]
+    assert codes(hot, temperature_rise_error=0.1, max_temperature_rise=10.0) == []
+    assert codes(hot, temperature_rise_error=0.0, energy_imbalance=0.05) == ["heat-unresolved"]
+    assert codes(hot, temperature_rise_error=0.0, max_temperature_rise=250.0) == ["film-very-hot"]
+    slow = case_with("contact", slide_to_roll_ratio=1.9999)
+    assert codes(hot, slow, temperature_rise_error=0.0) == ["slow-body"]
