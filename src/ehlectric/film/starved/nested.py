@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.accuracy.adaptive import RefinedSolution, refined_solution
+from ehlectric.film.accuracy.adaptive import UNKNOWN, RefinedSolution, refined_solution
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.estimates import richardson
 from ehlectric.film.mesh import Mesh, at_centre
@@ -56,9 +56,11 @@ class StarvedSolution(RefinedSolution):
     def error(self) -> float | None:
         """Relative discretisation error, estimated from the last grids; None if unknown.
 
-        Beside the meniscus the scheme is of first order, which in a point contact changes the film.
+        The position of the meniscus is known to a node, which in a point contact changes the film.
         """
         order = self.problem.wedge_order
+        if self.film is None:
+            return rough_film_error(self.problem, self.last, self.coarser)
         error = rough_film_error(replace(self.problem, wedge_order=max(2, order)), self.last, self.coarser)
         if error is None or (self.problem.width is None and order > 1):
             return error
@@ -126,9 +128,11 @@ def _refined(problem: FilmProblem, supply: OilSupply, progress: Progress | None)
     """
     flooded = nested_iteration(problem, progress)
     found = _on_grids(problem, supply, flooded, [], progress)
-    target, doubled = problem.target_error, 0
+    target, doubled, unknown = problem.target_error, 0, 0
     while target is not None and (found.error is None or found.error > target):
-        doubled += 1
+        doubled, unknown = doubled + 1, unknown + 1 if found.error is None else 0
+        if unknown >= UNKNOWN:
+            break
         if problem.width is not None and doubled > _MOST_REFINED_POINT:
             break
         finer = problem.doubled()
