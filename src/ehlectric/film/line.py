@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.film.accuracy.starved import supplied_solution
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
-from ehlectric.film.starved.nested import supplied_solution
 from ehlectric.film.state import COLLAPSED, Progress
 from ehlectric.runtime.threads import quiet_solution
 

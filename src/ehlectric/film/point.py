@@ -8,10 +8,10 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
+from ehlectric.film.accuracy.starved import StarvedSolution, supplied_solution
 from ehlectric.film.estimates import side_deficit
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
-from ehlectric.film.starved.nested import StarvedSolution, supplied_solution
 from ehlectric.film.state import COLLAPSED, Progress
 from ehlectric.runtime.threads import quiet_solution
 
