@@ -21,10 +21,10 @@ from ehlectric import Case
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.problems import point_film_problem
 from ehlectric.contact.resolve import resolve_point
+from ehlectric.film.accuracy.starved import StarvedSolution, supplied_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.starved.nested import StarvedSolution, supplied_solution
-from ehlectric.film.starved.supply import OilSupply
+from ehlectric.film.problem import OilSupply
 from ehlectric.runtime.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]

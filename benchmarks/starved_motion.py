@@ -1,7 +1,7 @@
 """Waviness that rolls through a starved line contact: film at the centre over time, and oil in the inlet.
 
-python -m benchmarks.starved_motion    (a minute: writes the table of docs/data and its figure)
-python -m benchmarks.starved_motion --figure    (figure from the existing tables)
+python -m benchmarks.starved_motion    (minutes: writes the table of docs/data and its figure)
+python -m benchmarks.starved_motion --figure    (figure from the existing table)
 """
 
 from __future__ import annotations
@@ -19,8 +19,7 @@ from ehlectric.contact.resolve import resolve
 from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.problem import FilmProblem
-from ehlectric.film.starved.supply import OilSupply
+from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.unsteady import History
 from ehlectric.runtime.threads import quiet_solution
 
@@ -36,8 +35,8 @@ AMPLITUDE, WAVELENGTH, END = 100e-9, 50e-6, 7.0
 NODES = 801
 
 HEADER = """\
-# Film thickness at the centre [m] over time T = t u_m/b while waviness of 100 nm and 50 um rolls through a line
-# contact of 1 GPa and 4 m/s, by benchmarks/starved_motion.py; columns by layer of oil over rho_c h_ff.
+# Film thickness at the centre [m] over time T = t u_m/b, while waviness of 100 nm and 50 um rolls through a
+# line contact of 1 GPa and 4 m/s, by benchmarks/starved_motion.py; columns by layer of oil over rho_c h_ff.
 """
 
 
@@ -126,7 +125,7 @@ def draw() -> None:
     ax.set_xlim(2.5, END)
     ax.set_ylim(bottom=0.0)
     ax.legend(fontsize=8, frameon=False, ncols=4, loc="upper left")
-    ax.margins(y=0.15)
+    ax.set_ylim(top=1.12)
     figure.savefig(FIGURE, dpi=150)
 
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.contact.kinds import KINDS
+from ehlectric.film.accuracy.starved import supplied_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.starved.nested import supplied_solution
-from ehlectric.film.starved.supply import OilSupply
+from ehlectric.film.problem import OilSupply
 from ehlectric.runtime.threads import quiet_solution
 
 

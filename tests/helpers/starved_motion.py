@@ -10,8 +10,8 @@ from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.problem import OilSupply
 from ehlectric.film.starved.motion import sums
-from ehlectric.film.starved.supply import OilSupply
 from ehlectric.runtime.threads import quiet_solution
 
 

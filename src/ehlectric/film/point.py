@@ -9,12 +9,12 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import RefinedSolution
+from ehlectric.film.accuracy.starved import StarvedSolution, supplied_solution
 from ehlectric.film.estimates import side_deficit
 from ehlectric.film.heated.nested import film_of
 from ehlectric.film.heated.outcome import film_status_of, heated_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
-from ehlectric.film.starved.nested import StarvedSolution, supplied_solution
 from ehlectric.film.state import COLLAPSED, Progress
 from ehlectric.runtime.threads import quiet_solution
 

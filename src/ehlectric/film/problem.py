@@ -12,7 +12,6 @@ from ehlectric.film.deflection import LINE, Geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.mixed.touching import Asperities
-from ehlectric.film.starved.supply import OilSupply
 from ehlectric.film.thermal.physics import Physics
 
 
@@ -36,6 +35,29 @@ class Scales:
     pressure: float = 1.0
     thickness: float = 1.0
     ambient_pressure: float = 0.0
+
+
+@dataclass(frozen=True)
+class OilSupply:
+    """Supply of oil to the inlet of a contact; either a layer or a ratio of films is given.
+
+    Attributes
+    ----------
+    layer : callable or None
+        Thickness H of the oil on both surfaces together at the inlet edge and at ambient pressure: function
+        of Y (ny,) -> H (ny,), dimensionless.
+    film_ratio : float or None
+        Central film thickness over that of the flooded contact, above 0 and up to 1, for which a uniform
+        layer is searched.
+
+    Examples
+    --------
+    >>> OilSupply(film_ratio=0.5).layer is None
+    True
+    """
+
+    layer: Callable[[Array], Array] | None = None
+    film_ratio: float | None = None
 
 
 @dataclass(frozen=True)

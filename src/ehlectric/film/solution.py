@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.accuracy.adaptive import RefinedSolution
 from ehlectric.film.accuracy.max_pressure import max_pressure_error
+from ehlectric.film.accuracy.starved import Starvation, StarvedSolution
 from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
-from ehlectric.film.starved.nested import StarvedSolution
-from ehlectric.film.starved.supply import Starvation
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
 from ehlectric.film.thermal.result import HeatedFilm
 from ehlectric.runtime.values import Values

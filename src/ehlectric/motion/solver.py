@@ -16,12 +16,12 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.accuracy.moving_patch import MovingFilm
+from ehlectric.film.accuracy.starved import meniscus_of
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.solution import FilmSolution, pressure_of
-from ehlectric.film.starved.nested import meniscus_of
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.asperities import Touch, Toucher
 from ehlectric.motion.companion import KeyFilms

@@ -13,8 +13,7 @@ from ehlectric.film.deflection import RIGID_LINE
 from ehlectric.film.flow import Fluid
 from ehlectric.film.line import solve_film
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.problem import FilmProblem
-from ehlectric.film.starved.supply import OilSupply
+from ehlectric.film.problem import FilmProblem, OilSupply
 from tests.helpers.starved_films import flooded_flow, posed, supplied
 from tests.reference.martin import exit_angle, film_coefficient
 

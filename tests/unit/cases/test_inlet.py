@@ -81,13 +81,13 @@ def test_one_supply_replaces_another():
         (
             LINE,
             {
-                "inlet": {"oil_layer": "1 um"},
+                "inlet": {"film_ratio": 0.5},
                 "motion": {"passes": 1.0},
                 "roughness": [
                     {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "60 um"}
                 ],
             },
-            r"inlet: got \[inlet\] beside \[motion\]",
+            r"inlet\.film_ratio: got 0\.5 beside \[motion\]",
         ),
     ],
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ehlectric.cases.result_key import Keys, ResultKey
-from ehlectric.film.starved.supply import Starvation
+from ehlectric.film.accuracy.starved import Starvation
 
 _ONLY = "; only with `[inlet]`"
 

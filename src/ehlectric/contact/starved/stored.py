@@ -8,7 +8,7 @@ from dataclasses import fields
 from functools import partial
 from typing import Any
 
-from ehlectric.film.starved.supply import Starvation
+from ehlectric.film.accuracy.starved import Starvation
 from ehlectric.runtime.checks.schema import is_number_or_null, is_table, json_of
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.cases.films.inlet import Inlet
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.film.starved.supply import OilSupply
+from ehlectric.film.problem import OilSupply
 
 
 def oil_supply(inlet: Inlet | None, conditions: Conditions | PointConditions) -> OilSupply | None:

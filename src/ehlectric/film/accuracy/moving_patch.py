@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.accuracy.patch import Patch
+from ehlectric.film.accuracy.starved import StarvedSolution, supplied_solution
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.starved.course import StarvedFilm
-from ehlectric.film.starved.nested import StarvedSolution, supplied_solution
 from ehlectric.film.state import GridSolution, State
 from ehlectric.film.unsteady import History, Instant, MovingGap, UnsteadyFilm
 from ehlectric.runtime.threads import quiet_solution

@@ -14,10 +14,9 @@ from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.estimates import richardson
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import NESTED_TOLERANCE, interpolated_state, levels_of, nested_iteration
-from ehlectric.film.problem import FilmProblem
+from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.starved.course import Course, StarvedFilm, at_centre_line
 from ehlectric.film.starved.ratio import film_of_ratio
-from ehlectric.film.starved.supply import OilSupply, Starvation
 from ehlectric.film.state import GridSolution, Progress, State
 
 # Largest number of times that the grid of a point contact is refined, over the whole domain.
@@ -32,6 +31,29 @@ _MORE = 3
 
 # Relative excess of the flow of a flooded film over its supply that is rounding.
 _ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Starvation:
+    """Supply of oil of a solved film, and the flooded film beside it, SI units.
+
+    Attributes
+    ----------
+    oil_layer : float
+        Thickness of the layer of oil on both surfaces together, on the line y = 0 [m].
+    film_ratio : float
+        Central film thickness over that of the flooded film.
+    meniscus : float or None
+        Position of the first node on the line y = 0 that oil fills [m]; None if the film is flooded.
+    flooded_minimum_thickness, flooded_central_thickness : float
+        Minimum and central film thickness of the flooded film on the same grid [m].
+    """
+
+    oil_layer: float
+    film_ratio: float
+    meniscus: float | None
+    flooded_minimum_thickness: float
+    flooded_central_thickness: float
 
 
 @dataclass(frozen=True)
