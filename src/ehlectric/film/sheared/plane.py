@@ -130,14 +130,24 @@ class _Iteration:
 
 def _size(vector: Array) -> Array:
     """Length of vectors (2, ...)."""
-    return np.asarray(np.hypot(vector[0], vector[1]))
+    x, y = vector
+    return np.asarray(np.sqrt(x * x + y * y))
 
 
 def _rates(law: ShearLaw, constants: Constants, weights: Array, stress: Array) -> tuple[Array, Array]:
     """Rates along both axes (2, ...) of stresses (2, nq, ...), and their derivatives (xx, xy, yy) by t."""
-    factor, slope = law.factor(np.sum(stress**2, axis=0), constants)
-    rate = np.sum(weights * factor * stress, axis=1)
-    return rate, np.sum(weights * _tangent(factor, slope, stress), axis=1)
+    x, y = stress
+    factor, slope = law.factor(x * x + y * y, constants)
+    even, steep = weights * factor, 2.0 * weights * slope
+    along, across = steep * x, steep * y
+    total = np.sum(even, axis=0)
+    rate = np.stack([_over(even, x), _over(even, y)])
+    return rate, np.stack([total + _over(along, x), _over(along, y), total + _over(across, y)])
+
+
+def _over(first: Array, second: Array) -> Array:
+    """Sum over the points across the film, the first axis, of a product of two arrays."""
+    return np.asarray(np.einsum("kn,kn->n", first, second))
 
 
 def _tangent(factor: Array, slope: Array, stress: Array) -> Array:
