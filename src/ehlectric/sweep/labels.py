@@ -11,7 +11,8 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.input_keys import INPUT_NAMES, kind_of, unit_of
+from ehlectric.cases.input_keys import kind_of, unit_of
+from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.oils.laws import law_parameters
 from ehlectric.cases.result_key import Keys, key_of
 from ehlectric.contact.keys import CONTACT_KEYS

@@ -5,7 +5,8 @@ import pytest
 from ehlectric import InputError
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.input_keys import INPUT_NAMES, TABLES, describe, descriptions, input_field
+from ehlectric.cases.input_keys import TABLES, describe, descriptions, input_field
+from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.table import Table, table_of
 from ehlectric.sweep.inputs import Sweep
 

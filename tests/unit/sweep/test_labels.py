@@ -7,7 +7,8 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.input_keys import INPUT_NAMES, input_field
+from ehlectric.cases.input_keys import input_field
+from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.quantity import to_si
 from ehlectric.cases.result_key import key_of
 from ehlectric.contact.heat.keys import heat_keys

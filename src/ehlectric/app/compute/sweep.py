@@ -19,7 +19,8 @@ from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.cases.any_case import AnyCase, case_of_dict
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
-from ehlectric.cases.input_keys import INPUT_NAMES, kind_of, unit_of
+from ehlectric.cases.input_keys import kind_of, unit_of
+from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError

@@ -10,7 +10,7 @@ from typing import Any
 from ehlectric.bearing.margin.quick_margins import QuickMargins
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.input_keys import INPUT_NAMES
+from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.library.clearance import clearance_range
 from ehlectric.cases.oils.resolution import depends_on_temperature
 from ehlectric.cases.row import value_at
