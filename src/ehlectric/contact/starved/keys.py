@@ -28,12 +28,15 @@ STARVED_KEYS: Keys = {
         "position of the meniscus",
         r"$x_\mathrm{m}$",
     ),
-    "flooded": ResultKey(f"the same contact with a flooded inlet, on the same grid{_ONLY}"),
     "flooded.minimum_thickness": ResultKey(
-        "minimum film thickness of the flooded contact", "m", "minimum film thickness, flooded"
+        f"minimum film thickness of the same contact with a flooded inlet, on the same grid{_ONLY}",
+        "m",
+        "minimum film thickness, flooded",
     ),
     "flooded.central_thickness": ResultKey(
-        "central film thickness of the flooded contact", "m", "central film thickness, flooded"
+        f"central film thickness of the same contact with a flooded inlet{_ONLY}",
+        "m",
+        "central film thickness, flooded",
     ),
 }
 

@@ -1,0 +1,109 @@
+"""Parts of the starved film: derivatives, runs of cavitated nodes, and the search for a layer."""
+
+import numpy as np
+import pytest
+
+from ehlectric import Case
+from ehlectric.film.nested import levels_of, nested_iteration
+from ehlectric.film.starved.content import Runs, Supply
+from ehlectric.film.starved.jacobian import StarvedJacobian
+from ehlectric.film.starved.newton import assess_content, next_filled
+from ehlectric.film.starved.ratio import first_layer
+from ehlectric.film.state import State
+from ehlectric.runtime.threads import quiet_solution
+from tests.helpers.starved_films import posed
+
+LINE = Case.line(
+    reduced_radius="14.1 mm",
+    reduced_modulus="226 GPa",
+    max_hertz_pressure="0.5 GPa",
+    entrainment_speed="4 m/s",
+    lubricant="paper",
+    grid={"nodes": 129},
+)
+POINT = Case.point(
+    radius_x="10 mm",
+    radius_y="10 mm",
+    reduced_modulus="226 GPa",
+    load="5 N",
+    entrainment_speed="4 m/s",
+    lubricant="paper",
+    grid={"nodes": 65, "nodes_y": 65},
+)
+
+
+def state_of(case):
+    """Problem, grids and flooded state of a case, and filled nodes with a meniscus and a pocket."""
+    problem = posed(case)
+    with quiet_solution():
+        found = nested_iteration(problem, None)[-1]
+    levels = levels_of(problem)
+    mesh, filled = levels[0].mesh, found.final.full_film.copy()
+    x, y = mesh.x[:, np.newaxis], mesh.y
+    filled &= x > -1.6 + 0.3 * y**2
+    filled &= ~((x > 0.1) & (x < 0.3) & (np.abs(y) < 0.3))
+    pressure = np.where(filled, found.state.pressure, problem.fluid.ambient_pressure)
+    return problem, levels, State.of(levels[0], pressure, found.state.h00), filled
+
+
+@pytest.mark.parametrize("case", [LINE, POINT], ids=["line", "point"])
+def test_jacobian_is_the_derivative_of_the_rows(case):
+    """Central differences of the rows after the elimination, with the masses that change along."""
+    problem, levels, state, filled = state_of(case)
+    level, fluid = levels[0], problem.fluid
+    supply = Supply(np.full(level.mesh.y.shape, 0.3), problem.wedge_order)
+    now = assess_content(fluid, level, state, filled, supply)
+    with quiet_solution():
+        jacobian = StarvedJacobian.of(fluid, levels, state, now.residual, now.filled, supply)
+    change = np.where(now.residual.full_film, np.random.default_rng(1).normal(size=filled.shape), 0.0)
+    step, dh00 = 1e-7, 0.3
+
+    def rows(sign):
+        moved = State.of(level, state.pressure + sign * step * change, state.h00 + sign * step * dh00)
+        return assess_content(fluid, level, moved, filled, supply).residual.reynolds
+
+    expected = (rows(1.0) - rows(-1.0)) / (2.0 * step)
+    found, load = jacobian(change, dh00)
+    np.testing.assert_allclose(found, expected, atol=1e-5 * np.abs(expected).max())
+    assert load == pytest.approx(float(np.vdot(level.weights, change)), rel=1e-12)
+
+
+def test_content_conserves_mass_at_any_state():
+    """The sum of all rows of a line is the flow through its ends, whatever the pressure is."""
+    problem, levels, state, filled = state_of(LINE)
+    level = levels[0]
+    supply = Supply(np.array([0.3]), problem.wedge_order)
+    now = assess_content(problem.fluid, level, state, filled, supply)
+    assert not now.filled[-3:].any()
+    balance = level.mesh.dx * float(now.residual.reynolds.sum())
+    assert now.mass[-2, 0] - 0.3 == pytest.approx(balance, rel=1e-9)
+
+
+def test_nodes_that_overflow_or_are_under_tension_change():
+    problem, levels, state, filled = state_of(LINE)
+    level = levels[0]
+    # A layer thicker than the gap at the meniscus overflows there; none is left at the inlet edge.
+    thick = float(state.thickness[int(np.argmax(filled[:, 0])) - 1, 0]) * 1.01
+    supply = Supply(np.array([thick]), problem.wedge_order)
+    now = assess_content(problem.fluid, level, state, filled, supply)
+    moved = next_filled(problem.fluid, level, state, now)
+    first = int(np.argmax(filled[:, 0]))
+    assert moved[first - 1, 0]
+    pressure = state.pressure.copy()
+    pressure[first + 3] = -1.0
+    under = State(pressure, state.h00, state.thickness)
+    assert not next_filled(problem.fluid, level, under, now)[first + 3, 0]
+
+
+def test_runs_of_two_lines():
+    """By hand: rows of a run are added to the first filled node behind it, line by line."""
+    filled = np.array([[False, True], [True, False], [False, False], [True, True]])
+    rows = np.array([[1.0, 10.0], [2.0, 20.0], [4.0, 40.0], [8.0, 80.0]])
+    reduced = Runs.of(filled).reduced(rows)
+    assert reduced[filled].tolist() == [10.0, 3.0, 12.0, 140.0]
+
+
+def test_first_layer_of_a_search_inverts_the_published_relation():
+    for ratio in (0.1, 0.5, 0.9):
+        part = first_layer(ratio, line=False)
+        assert part / (1.0 + part**3) ** (1.0 / 3.0) == pytest.approx(ratio, rel=1e-12)
