@@ -4,7 +4,7 @@ import numpy as np
 
 from ehlectric.film.deflection import LINE, point_geometry
 from ehlectric.film.flow import Fluid
-from ehlectric.film.mesh import Mesh, Width
+from ehlectric.film.mesh import Mesh, Width, at_centre
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.laws import Rheology
@@ -17,16 +17,16 @@ from ehlectric.film.thermal.oil import HotOil
 from ehlectric.film.thermal.physics import Body, Physics, Thermal
 from ehlectric.film.thermal.stream import stream_of
 from ehlectric.lubricant.density import dowson_higginson, incompressible
-from ehlectric.lubricant.oil import BoundLaw, Oil, OfDensity
+from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil
 from ehlectric.lubricant.permittivity import constant_permittivity
 from ehlectric.lubricant.viscosity import barus, roelands
 
 STEEL = {"thermal_conductivity": 46.0, "heat_capacity": 470.0, "density": 7850.0}
 
 
-def steel(temperature):
-    """Body of steel with a bulk temperature [K]."""
-    return Body(temperature, **STEEL)
+def steel(temperature, **other):
+    """Body of steel with a bulk temperature [K]; ``other`` properties may differ."""
+    return Body(temperature, **(STEEL | other))
 
 
 def cold_surface(temperature, nodes):
@@ -106,6 +106,7 @@ def hot_contact(
     outlet=2.0,
     temperature=313.15,
     heat=True,
+    body=None,
     **options,
 ):
     """Problem of a contact with heat, between bodies of steel at the temperature of the oil.
@@ -130,7 +131,7 @@ def hot_contact(
     )
     slip = 0.5 * slide_to_roll_ratio * speed
     thermal = Thermal(
-        (steel(temperature), steel(temperature)),
+        (steel(temperature, **(body or {})), steel(temperature, **(body or {}))),
         temperature,
         HotOil.through(oil_at, temperature - 30.0, temperature + 300.0),
     )
@@ -151,9 +152,7 @@ def hot_contact(
         wedge_order=3,
         scales=Scales(half_width, max_pressure, scale, 0.0),
         physics=physics,
-        geometry=LINE
-        if line
-        else point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2),
+        geometry=LINE if line else circle,
         **options,
     )
 
@@ -233,8 +232,30 @@ def couette(nahme, reduced_rate=None, *, degree=12, loops=60):
             stress=stress,
         )
         surfaces = (cold_surface(wall, mesh.x.size), cold_surface(wall, mesh.x.size))
-        heat = solve_energy(
-            HeatColumns.of(stream, heat.temperature), surfaces, heat, inlet_temperature=wall
-        )
+        heat = solve_energy(HeatColumns.of(stream, heat.temperature), surfaces, heat, inlet_temperature=wall)
     theta = beta * (heat.temperature[:, -1, 0] - wall)
     return across.zeta, theta, columns.stress[0, :, -1, 0] * stress * gap / (eta * slip)
+
+
+def films(solution):
+    """Central and minimum film thickness of the film with heat and of that without [um]."""
+    found = []
+    for grid in (solution.refined.last, solution.simple.last):
+        thickness = 1e6 * solution.refined.problem.scales.thickness * grid.state.thickness
+        found += [at_centre(grid.level.mesh, thickness), float(thickness.min())]
+    return found
+
+
+def random_contact(seed, *, point=False):
+    """Random contact: 0.5 to 2 GPa, 0.5 to 20 m/s, Eyring stress of 3 to 10 MPa.
+
+    The slide-to-roll ratio is 0 to 2 in a line contact, and 0 to 0.5 in a point contact.
+    """
+    rng = np.random.default_rng(seed)
+    options = {
+        "max_pressure": rng.uniform(0.5e9, 2e9),
+        "speed": np.exp(rng.uniform(np.log(0.5), np.log(20.0))),
+        "slide_to_roll_ratio": rng.uniform(0.0, 0.5 if point else 2.0),
+        "rheology": Rheology("eyring", {"eyring_stress": rng.uniform(3e6, 1e7)}),
+    }
+    return ball(**options) if point else paper_line(nodes=401, **options)

@@ -141,7 +141,10 @@ class Profile(Protocol):
         Nodes across the film.
     """
 
-    across: Across
+    @property
+    def across(self) -> Across:
+        """Nodes across the film."""
+        ...
 
     def __call__(self, pressure: Array, mesh: Mesh) -> Properties:
         """Properties at a pressure P (nx, ny), not below ambient, on any mesh of the same contact.

@@ -102,7 +102,7 @@ def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half
     >>> bool(np.allclose(surface.rise(np.full((100, 1), 1e8))[:, 0], exact))
     True
     """
-    edges: Array = (np.arange(nodes + 1) - 0.5) * spacing
+    edges = spacing * (np.arange(nodes + 1, dtype=np.float64) - 0.5)
     per_length = speed / (2.0 * body.diffusivity)
     if per_length * half_width > _FAST:
         scale = np.sqrt(np.pi * body.density * body.heat_capacity * body.thermal_conductivity * speed)

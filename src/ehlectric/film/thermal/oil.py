@@ -189,9 +189,7 @@ class HotOil:
     def _to_coefficients(self) -> Array:
         """Matrix from the values at the Chebyshev temperatures to the coefficients of the series."""
         n = len(self.oils)
-        return np.asarray(
-            np.linalg.inv(chebyshev.chebvander(chebyshev.chebpts1(n), n - 1)), dtype=np.float64
-        )
+        return np.asarray(np.linalg.inv(chebyshev.chebvander(chebyshev.chebpts1(n), n - 1)), dtype=np.float64)
 
     def _between(
         self, law: Callable[[Oil, Array], tuple[Array, Array]], pressure: Array, temperature: Array

@@ -53,7 +53,8 @@ def stream_of(
     viscosity = oil.log_viscosity(pressure, temperature)
     density = oil.density(pressure, temperature)
     heating = columns.heating * (stress * speed / thickness)
-    gradient = columns.gradient * (pressure_scale / length)
+    along = upstream_slope(pressure, u, mesh.dx * length)
+    across = columns.gradient[1] * (pressure_scale / length)
     expansion = -density.by_temperature / density.value
     return Stream(
         across=columns.across,
@@ -69,5 +70,37 @@ def stream_of(
         conductivity=oil.thermal_conductivity(pressure, temperature).value,
         heating=heating,
         heating_slope=np.minimum(0.0, heating * columns.softening * viscosity.by_temperature),
-        compression=np.where(filled < 1.0, 0.0, expansion * (u * gradient[0] + v * gradient[1])),
+        compression=np.where(filled < 1.0, 0.0, expansion * (u * along + v * across)),
     )
+
+
+def upstream_slope(pressure: Array, u: Array, dx: float) -> Array:
+    """Slope of the pressure along the way that the oil has come.
+
+    It is the upstream difference that carries the temperature. Where no heat is exchanged, the temperature of
+    a node then depends on the pressure at this node alone, and none of its neighbours' acts upstream.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Pressure [Pa].
+    u : ndarray, shape (nz, nx, ny)
+        Velocity along x [m/s].
+    dx : float
+        Spacing [m].
+
+    Returns
+    -------
+    ndarray, shape (nz, nx, ny)
+        Difference of second order where u > 0, and of first order where u < 0 [Pa/m].
+
+    Examples
+    --------
+    >>> pressure = np.array([[0.0], [1.0], [4.0], [9.0]])
+    >>> upstream_slope(pressure, np.array([1.0, -1.0]).reshape(2, 1, 1), 1.0)[:, 2, 0].tolist()
+    [4.0, 5.0]
+    """
+    before = np.concatenate([pressure[:1], pressure[:1], pressure])
+    forward = (1.5 * pressure - 2.0 * before[1:-1] + 0.5 * before[:-2]) / dx
+    back = np.concatenate([np.diff(pressure, axis=0), np.zeros_like(pressure[:1])]) / dx
+    return np.where(u > 0.0, forward, back)

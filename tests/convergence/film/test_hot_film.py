@@ -1,0 +1,167 @@
+"""Films with heat against computed tables, limits and balances."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric.film.heated.nested import film_of
+from ehlectric.film.mesh import Width
+from ehlectric.film.sheared.laws import Rheology
+from tests.helpers.hot import ball, films, hot_contact, hot_oil, paper_line, random_contact
+
+EYRING = Rheology("eyring", {"eyring_stress": 5e6})
+
+
+def table_line(**options):
+    """Line contact of the tables: R = 10 mm, 1 GPa, 0.04 Pa s, Roelands z = 0.68, steel, 40 degC."""
+    return film_of(hot_contact(hot_oil(), nodes=301, **options))
+
+
+@pytest.mark.parametrize(
+    ("speed", "central", "minimum", "within"),
+    [
+        # An independent dense program on 301 x 25 nodes, whose ratios have a grid error of 0.003; the loss of
+        # film at 16 m/s is as large that the error is 1 % of the film.
+        (1.0, 0.992, 0.994, 0.01),
+        (2.0, 0.980, 0.984, 0.01),
+        (4.0, 0.944, 0.958, 0.01),
+        (8.0, 0.852, 0.898, 0.01),
+        (16.0, 0.685, 0.752, 0.016),
+    ],
+)
+def test_loss_of_film_in_pure_rolling(speed, central, minimum, within):
+    found = table_line(speed=speed)
+    hot, thin, cold, cold_thin = films(found)
+    assert found.status == "converged"
+    assert hot / cold == pytest.approx(central, rel=within)
+    assert thin / cold_thin == pytest.approx(minimum, rel=within)
+    assert found.energy_imbalance < 0.015
+
+
+@pytest.mark.parametrize(
+    ("slip", "central", "minimum", "traction", "rise"),
+    [
+        # The same program with an Eyring stress of 5 MPa at 4 m/s
+        (0.02, 0.944, 0.946, 0.0377, 6.1),
+        (0.1, 0.951, 0.926, 0.0404, 19.6),
+        (0.25, 0.961, 0.893, 0.0359, 46.0),
+    ],
+)
+def test_film_and_traction_over_slip(slip, central, minimum, traction, rise):
+    found = table_line(speed=4.0, slide_to_roll_ratio=slip, rheology=EYRING)
+    hot, thin, cold, cold_thin = films(found)
+    assert hot / cold == pytest.approx(central, rel=0.01)
+    assert thin / cold_thin == pytest.approx(minimum, rel=0.01)
+    assert found.traction_coefficient == pytest.approx(traction, rel=0.03)
+    assert found.max_temperature_rise == pytest.approx(rise, rel=0.05)
+    assert found.energy_imbalance < 0.01
+
+
+def test_traction_has_its_peak_at_a_tenth_of_slip():
+    slips = (0.02, 0.1, 0.5, 1.0)
+    found = [table_line(speed=4.0, slide_to_roll_ratio=s, rheology=EYRING) for s in slips]
+    tractions = [each.traction_coefficient for each in found]
+    assert int(np.argmax(tractions)) == 1
+    assert tractions[1] > tractions[2] > tractions[3]
+    minima = [films(each)[1] for each in found]
+    assert all(fast < slow for slow, fast in zip(minima, minima[1:], strict=False))
+
+
+@pytest.mark.parametrize(
+    ("speed", "thinnest", "central", "cold"),
+    [
+        # A prototype with the same equations, extrapolated from two grids; films in um
+        (5.0, 0.8084, 0.9066, (0.8676, 0.9875)),
+        (20.0, 1.5148, 1.5560, (2.2552, 2.5411)),
+    ],
+)
+def test_films_of_the_paper_oil(speed, thinnest, central, cold):
+    found = film_of(paper_line(speed=speed, nodes=401, rheology=EYRING))
+    assert films(found) == pytest.approx([central, thinnest, cold[1], cold[0]], rel=0.01)
+
+
+def test_film_without_heat_is_the_isothermal_film():
+    found = film_of(paper_line(speed=5.0, nodes=201, heat=False))
+    fine, simple = found.refined.last, found.simple.last
+    np.testing.assert_allclose(fine.state.thickness, simple.state.thickness, rtol=1e-9)
+    np.testing.assert_allclose(fine.state.pressure, simple.state.pressure, atol=1e-9)
+    assert found.temperature is None
+    assert found.max_temperature_rise is None
+
+
+def test_oil_that_keeps_its_temperature_has_the_isothermal_film():
+    # An oil with a hundred thousand times the conductivity between bodies at its temperature stays cold.
+    found = film_of(
+        hot_contact(hot_oil(conductivity=1.4e4), nodes=201, speed=2.0, body={"thermal_conductivity": 1e9})
+    )
+    hot, thin, cold, cold_thin = films(found)
+    assert found.max_temperature_rise < 0.02
+    assert [hot, thin] == pytest.approx([cold, cold_thin], rel=1e-3)
+
+
+def test_reversed_slip_mirrors_the_temperature_across():
+    plus, minus = (
+        film_of(paper_line(speed=5.0, nodes=201, slide_to_roll_ratio=s, rheology=EYRING)) for s in (0.5, -0.5)
+    )
+    assert films(plus) == pytest.approx(films(minus), rel=1e-4)
+    assert plus.traction_coefficient == pytest.approx(-minus.traction_coefficient, rel=1e-3)
+    assert plus.power_loss == pytest.approx(minus.power_loss, rel=1e-3)
+    np.testing.assert_allclose(plus.temperature, minus.temperature[::-1], atol=0.5)
+
+
+def test_order_along_x():
+    speed = {"speed": 5.0, "slide_to_roll_ratio": 0.25, "rheology": EYRING}
+    central = [films(film_of(paper_line(nodes=n, **speed)))[0] for n in (101, 201, 401)]
+    order = np.log2((central[1] - central[0]) / (central[2] - central[1]))
+    assert order > 1.0
+    assert central[2] == pytest.approx(central[1], rel=2e-3)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_lines_converge(seed):
+    found = film_of(random_contact(seed))
+    assert found.status == "converged"
+    assert found.energy_imbalance < 0.01
+
+
+def test_slow_body_under_simple_sliding():
+    # One surface stands: it is heated on both sides of the contact, more than the moving one.
+    found = film_of(paper_line(speed=2.0, nodes=201, slide_to_roll_ratio=2.0, rheology=EYRING))
+    assert found.status == "converged"
+    standing, moving = found.surface_temperatures.max(axis=(1, 2))
+    assert standing > moving + 10.0
+
+
+def test_half_of_a_point_contact_is_the_whole():
+    whole = ball(nodes=33, slide_to_roll_ratio=0.2, rheology=EYRING)
+    half = film_of(whole)
+    both = film_of(replace(whole, width=Width(33, 3.0, symmetric=False)))
+    assert films(half) == pytest.approx(films(both), rel=1e-4)
+    assert half.traction_coefficient == pytest.approx(both.traction_coefficient, rel=1e-3)
+    assert half.power_loss == pytest.approx(both.power_loss, rel=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_random_points_converge(seed):
+    found = film_of(random_contact(seed, point=True))
+    assert found.status == "converged"
+    assert found.energy_imbalance < 0.01
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(0, 200, 20))
+def test_two_hundred_random_lines_converge(first):
+    for seed in range(first, first + 20):
+        found = film_of(random_contact(seed))
+        assert found.status == "converged", seed
+        assert found.energy_imbalance < 0.01, seed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(0, 60, 10))
+def test_sixty_random_points_converge(first):
+    for seed in range(first, first + 10):
+        found = film_of(random_contact(seed, point=True))
+        assert found.status == "converged", seed
+        assert found.energy_imbalance < 0.01, seed
