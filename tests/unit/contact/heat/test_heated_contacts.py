@@ -209,6 +209,14 @@ def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
     assert any("solved without the table [film] only" in text for text in told)
 
 
+def test_heat_that_does_not_fit_into_memory_is_refused():
+    """Of a line contact it grows with the square of the nodes: 300 000 of them need above a terabyte."""
+    table = HOT_LINE | {"grid": {"nodes": 300_001}}
+    with pytest.raises(InputError, match=r"^grid\.nodes: got 300001"):
+        check_case(Case.from_dict(table))
+    check_case(Case.from_dict(table | {"film": {"rheology": "eyring"}}))
+
+
 def codes(result, case=None, **changes):
     """Codes of the warnings about a film whose heat and shear differ in some values."""
     film = replace(result.film, heated=replace(result.film.heated, **changes))
