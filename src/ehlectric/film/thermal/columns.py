@@ -64,22 +64,6 @@ class Stream:
     heating_slope: Array
     compression: Array
 
-    @property
-    def mass_divergence(self) -> Array:
-        """Divergence of the mass flow between surface a and each node, (nz, nx, ny) [kg/(m^2 s)]."""
-        carried = self.filling * self.thickness * self.density
-        total = np.gradient(np.tensordot(self.across.cumulative, carried * self.u, axes=1), self.dx, axis=1)
-        if self.dy:
-            flow = np.tensordot(self.across.cumulative, carried * self.v, axes=1)
-            if self.symmetric:
-                mirrored = np.concatenate([-flow[..., 1:2], flow], axis=2)
-                total += np.gradient(mirrored, self.dy, axis=2)[..., 1:]
-            else:
-                total += np.gradient(flow, self.dy, axis=2)
-        # No oil passes surface b; the discrete balance of mass at a node is another one than here.
-        fraction = self.across.zeta[:, np.newaxis, np.newaxis]
-        return np.asarray(total - fraction * total[-1])
-
 
 @dataclass(frozen=True, eq=False)
 class HeatColumns:
@@ -114,32 +98,64 @@ class HeatColumns:
         """
         across, filled = stream.across, stream.filling * stream.thickness
         volume = across.weights[:, np.newaxis, np.newaxis] * filled
-        carried = volume * stream.heat_capacity
-        forward = carried * np.maximum(stream.u, 0.0) / stream.dx
-        back = carried * np.maximum(-stream.u, 0.0) / stream.dx
+        specific = stream.heat_capacity / stream.density
+        flow = _Convection.of(stream)
+        carried = across.weights[:, np.newaxis, np.newaxis] * specific
         cooling = np.minimum(stream.compression, 0.0)
         warming = np.maximum(stream.compression, 0.0)
-        diagonal = 1.5 * forward + back - volume * (stream.heating_slope + cooling)
-        # The first two columns have the inlet before them, so that the sum over all columns is a balance.
-        before, second = 2.0 * forward, -0.5 * forward
-        left = right = np.zeros_like(forward)
-        if stream.dy:
-            left = carried * np.maximum(stream.v, 0.0) / stream.dy
-            right = carried * np.maximum(-stream.v, 0.0) / stream.dy
-            diagonal += left + right
+        neighbours = [carried * part for part in flow.neighbours]
+        diagonal = sum(neighbours) - volume * (stream.heating_slope + cooling)
         source = volume * (stream.heating - stream.heating_slope * temperature + warming * temperature)
-        upward = stream.mass_divergence * stream.heat_capacity / stream.density
+        upward = specific * np.tensordot(across.cumulative, flow.divergence, axes=1)
         # In the wide gap far upstream the nodes do not resolve the layers between forward and reverse flow.
         # Conduction that brings the Peclet number of a cell down to two keeps the temperature there bounded.
         cell = np.gradient(across.zeta)[:, np.newaxis, np.newaxis]
         conducted = stream.filling / stream.thickness * stream.conductivity
         matrix = conduction(across, np.maximum(conducted, 0.5 * np.abs(upward) * cell))
+        # No oil passes surface b; the discrete balance of mass at a node is another one than here.
+        upward -= across.zeta[:, np.newaxis, np.newaxis] * upward[-1]
         upward *= across.weights[:, np.newaxis, np.newaxis]
         matrix -= _last(upward)[..., np.newaxis] * derivative(across.zeta.size - 1)
         index = np.arange(across.zeta.size)
         matrix[..., index, index] += _last(diagonal)
-        parts = (source, before, second, back, left, right)
-        return cls(matrix, *(_last(part) for part in parts))
+        return cls(matrix, *(_last(part) for part in (source, *neighbours)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Convection:
+    """Mass that flows to each node from its neighbours, over the spacing, (nz, nx, ny) [kg/(m^2 s)].
+
+    D(m T) - T D(m) with the upstream difference D of the mass flow m: the factors of the neighbours, whose
+    sum is that of the node itself, and the divergence D(m). The heat of the whole film is thereby in balance.
+    """
+
+    neighbours: tuple[Array, ...]  # of the columns i - 1, i - 2, i + 1 and of the lines j - 1 and j + 1
+    divergence: Array
+
+    @classmethod
+    def of(cls, stream: Stream) -> _Convection:
+        """Convection of a stream."""
+        mass = stream.filling * stream.thickness * stream.density
+        forward, back = _parts(mass * stream.u / stream.dx)
+        # The columns upstream of the first one have the inlet temperature, and the flow of the first column.
+        one = np.concatenate([forward[:, :1], forward[:, :-1]], axis=1)
+        two = np.concatenate([one[:, :1], one[:, :-1]], axis=1)
+        ahead = np.concatenate([back[:, 1:], np.zeros_like(back[:, :1])], axis=1)
+        divergence = 1.5 * forward - 2.0 * one + 0.5 * two + back - ahead
+        divergence[:, -1] = (1.5 * forward - 2.0 * one + 0.5 * two)[:, -1]
+        left = right = np.zeros_like(forward)
+        if stream.dy:
+            upward, down = _parts(mass * stream.v / stream.dy)
+            first = down[..., 1:2] if stream.symmetric else upward[..., :1]
+            left = np.concatenate([first, upward[..., :-1]], axis=2)
+            right = np.concatenate([down[..., 1:], down[..., -1:]], axis=2)
+            divergence += upward - left + down - right
+        return cls((2.0 * one, -0.5 * two, ahead, left, right), divergence)
+
+
+def _parts(flow: Array) -> tuple[Array, Array]:
+    """Parts of a flow towards larger and towards smaller positions, both not negative."""
+    return np.maximum(flow, 0.0), np.maximum(-flow, 0.0)
 
 
 def _last(values: Array) -> Array:
