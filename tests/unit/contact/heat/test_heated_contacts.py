@@ -198,6 +198,25 @@ def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
         solve(case, solvers=PAPER)
 
 
+def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
+    """The film does not converge, and a warning says why."""
+    rough = {"surface": 1, "generator": "gaussian", "rq": "150 nm", "correlation_length": "20 um", "seed": 1}
+    contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
+    table = HOT_LINE | {"contact": contact, "roughness": [rough], "grid": {"nodes": 401}}
+    result = solve(Case.from_dict(table | {"film": {"rheology": "eyring"}}), beside_smooth=False)
+    assert not result.converged
+    told = [each.text for each in result.warnings if each.code == "surfaces-touch"]
+    assert any("solved without the table [film] only" in text for text in told)
+
+
+def test_heat_that_does_not_fit_into_memory_is_refused():
+    """Of a line contact it grows with the square of the nodes: 300 000 of them need above a terabyte."""
+    table = HOT_LINE | {"grid": {"nodes": 300_001}}
+    with pytest.raises(InputError, match=r"^grid\.nodes: got 300001"):
+        check_case(Case.from_dict(table))
+    check_case(Case.from_dict(table | {"film": {"rheology": "eyring"}}))
+
+
 def codes(result, case=None, **changes):
     """Codes of the warnings about a film whose heat and shear differ in some values."""
     film = replace(result.film, heated=replace(result.film.heated, **changes))
