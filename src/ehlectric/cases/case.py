@@ -140,8 +140,9 @@ class Case(Tabled, Table):
             moves = self.motion is not None
             self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
         if self.inlet is not None:
-            others = {"moves": self.motion is not None, "metered": self.meter is not None}
-            self.inlet.check(self.contact.geometry, **others)
+            self.inlet.check(
+                self.contact.geometry, beside=[name for name, table in self if table is not None]
+            )
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
             object.__setattr__(self, "grid", self.grid.fixed())
