@@ -62,11 +62,12 @@ def heat_warnings(
     if heated is None or physics is None:
         return
     if not film.converged:
-        if heated.isothermal_minimum_thickness < _TOUCHING * conditions.boundary_film:
+        thinnest = min(heated.isothermal_minimum_thickness, film.minimum_thickness)
+        if thinnest < _TOUCHING * conditions.boundary_film:
             yield ResultWarning(
                 "surfaces-touch",
-                "the surfaces touch in the film without heat and shear: such films are solved without the "
-                "table [film] only; leave it out, lower the roughness, or raise speed or viscosity",
+                "the surfaces would touch: films whose surfaces touch are solved without the table [film] "
+                "only; leave it out, lower the roughness, or raise speed or viscosity",
             )
         return
     yield from _traction(heated, conditions)
