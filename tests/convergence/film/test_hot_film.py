@@ -1,6 +1,7 @@
 """Films with heat against computed tables, limits and balances."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -69,7 +70,7 @@ def test_traction_has_its_peak_at_a_tenth_of_slip():
     assert int(np.argmax(tractions)) == 1
     assert tractions[1] > tractions[2] > tractions[3]
     minima = [films(each)[1] for each in found]
-    assert all(fast < slow for slow, fast in zip(minima, minima[1:], strict=False))
+    assert all(fast < slow for slow, fast in pairwise(minima))
 
 
 @pytest.mark.parametrize(
