@@ -18,7 +18,7 @@ from ehlectric.figures.contact.save import figure
 from ehlectric.paper.solvers import PAPER
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.tables.contact import result_rows
-from tests.helpers.hot_cases import HOT_LINE
+from tests.helpers.hot_cases import HOT_LINE, HOT_POINT
 
 
 @pytest.fixture(scope="module")
@@ -215,6 +215,22 @@ def test_heat_that_does_not_fit_into_memory_is_refused():
     with pytest.raises(InputError, match=r"^grid\.nodes: got 300001"):
         check_case(Case.from_dict(table))
     check_case(Case.from_dict(table | {"film": {"rheology": "eyring"}}))
+
+
+def test_a_point_contact_is_hot_on_both_sides_alike(tmp_path):
+    """Half of the contact is solved; its temperature stands at all nodes, in the file and in a figure too."""
+    result = solve(Case.from_dict(HOT_POINT))
+    heated, shape = result.film.heated, result.film.thickness.shape
+    assert heated.temperature.shape == (heated.zeta.size, *shape)
+    assert np.array_equal(heated.temperature, heated.temperature[:, :, ::-1])
+    assert np.array_equal(heated.shear_stress, heated.shear_stress[:, ::-1])
+    # The largest rise lies within the contact, and most of the film beside it is as cold as the oil.
+    i, j = np.unravel_index(np.argmax(heated.mid_temperature), shape)
+    assert result.film.x[i] ** 2 + result.film.y[j] ** 2 < result.conditions.semi_axis_x**2
+    assert np.median(heated.mid_temperature) < 313.15 + 0.2 * heated.max_temperature_rise
+    save(result, tmp_path)
+    assert load(tmp_path / "result.nc").summary() == result.summary()
+    assert figure(result, "temperature.png").axes
 
 
 def codes(result, case=None, **changes):
