@@ -9,11 +9,13 @@ from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.laws import Rheology
+from ehlectric.film.sheared.profile import Across
 from ehlectric.film.sheared.traction import filled_part, traction
 from tests.unit.film.sheared.contacts import (
     ALPHA,
     RADIUS,
     VISCOSITY,
+    Warm,
     circular_contact,
     fluid_of,
     line_contact,
@@ -103,12 +105,12 @@ def test_traction_under_a_hertz_pressure(width, share):
     assert found.sliding == pytest.approx(expected, rel=3e-3)
 
 
-@pytest.mark.parametrize("contact", [line_contact, circular_contact])
-def test_reversed_slip_gives_the_same_film(contact):
+@pytest.mark.parametrize(("contact", "nodes"), [(line_contact, 401), (circular_contact, 33)])
+def test_reversed_slip_gives_the_same_film(contact, nodes):
     """Equal bodies: the film is the same, the traction has the other sign."""
     films, tractions = [], []
     for ratio in (0.3, -0.3):
-        problem = replace(contact(ratio=ratio, rheology=EYRING), tolerance=1e-11)
+        problem = replace(contact(ratio=ratio, rheology=EYRING, nodes=nodes), tolerance=1e-11)
         solution = solved(problem)
         films.append(solution.state.thickness)
         tractions.append(friction(problem, solution))
@@ -147,6 +149,33 @@ def test_traction_tends_to_the_limiting_coefficient():
         tractions.append(friction(problem, solved(problem)).sliding)
     assert np.all(np.diff(tractions) > 0.0)
     assert tractions[-1] == pytest.approx(0.05, rel=0.04)
+
+
+@pytest.mark.parametrize(("contact", "nodes"), [(line_contact, 401), (circular_contact, 33)])
+def test_evenly_hot_film_is_that_of_a_thinner_oil(contact, nodes):
+    """A temperature profile on all grids, the same everywhere, against an oil with these properties."""
+    heat = 0.5
+    problem = contact(ratio=0.3, rheology=EYRING, nodes=nodes)
+    oil = problem.fluid
+
+    def log_viscosity(p):
+        value, slope = oil.log_viscosity(p)
+        return value - heat, slope
+
+    def density(p):
+        value, slope = oil.density(p)
+        part = 1.0 - 0.05 * heat * (1.0 - 0.1 * p)
+        return value * part, slope * part + value * 0.005 * heat
+
+    thinner = replace(oil, log_viscosity=log_viscosity, density=density)
+    mesh = Mesh.over(nodes, problem.inlet, problem.outlet, problem.width)
+    across = Across.of(6)
+    profile = Warm(across, np.full((7, *mesh.shape), heat), mesh, oil, steepness=0.0)
+    hot = replace(oil, flow=replace(oil.flow, profile=profile))
+    exact = replace(problem, tolerance=1e-11)
+    films = [solved(replace(exact, fluid=fluid)).state.thickness for fluid in (oil, thinner, hot)]
+    assert np.min(films[1]) < 0.8 * np.min(films[0])
+    np.testing.assert_allclose(films[2], films[1], rtol=1e-8)
 
 
 def test_sheared_film_converges_with_second_order():

@@ -19,7 +19,7 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.film.sheared.even import Flux
 from ehlectric.film.sheared.laws import Constants, Rheology, ShearLaw
-from ehlectric.film.sheared.profile import Quadrature, over_columns
+from ehlectric.film.sheared.profile import GAUSS, Quadrature, over_columns
 
 # Largest number of Newton steps for a mid-film stress, and the step at which it is exact.
 _MOST_STEPS, _EXACT = 80, 1e-12
@@ -164,7 +164,14 @@ def _by_newton(law: ShearLaw, constants: Constants, weights: Array, shape: Array
     return middle
 
 
-def column_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Array, slip: Array) -> Flux:
+def column_flux(
+    rheology: Rheology,
+    fluidity: Array,
+    weight: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature = GAUSS,
+) -> Flux:
     """Flux of columns with viscosity and density that vary across the film, at the Gauss points.
 
     Parameters
@@ -177,13 +184,14 @@ def column_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Ar
         w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
     gradient, slip : ndarray, shape (...)
         q and g.
+    quadrature : Quadrature
+        Gauss points across the film.
 
     Returns
     -------
     Flux
         Flux and derivatives, exact for this quadrature: t follows its condition in all of them.
     """
-    quadrature = Quadrature.gauss()
     constants = rheology.constants
     t = middle_stress(rheology, fluidity, gradient, slip, quadrature)
     offset = over_columns(quadrature.offset, gradient)

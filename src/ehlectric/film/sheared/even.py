@@ -19,7 +19,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.film.sheared.laws import Rheology
-from ehlectric.film.sheared.profile import Quadrature, over_columns
+from ehlectric.film.sheared.profile import GAUSS, Quadrature, over_columns
 
 # Smallest rate that is divided by.
 _TINY = 1e-300
@@ -98,7 +98,14 @@ class EvenStress:
         )
 
 
-def even_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Array, slip: Array) -> Flux:
+def even_flux(
+    rheology: Rheology,
+    fluidity: Array,
+    weight: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature = GAUSS,
+) -> Flux:
     """Flux along the first axis of columns with one rate factor across the film.
 
     Parameters
@@ -111,6 +118,8 @@ def even_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Arra
         w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
     gradient, slip : ndarray, shape (d, ...)
         q and g along the axis of the flux and, for d = 2, along the other axis.
+    quadrature : Quadrature
+        Gauss points across the film.
 
     Returns
     -------
@@ -126,7 +135,6 @@ def even_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Arra
     >>> round(float(found.flux[0]), 12)
     0.1
     """
-    quadrature = Quadrature.gauss()
     state = EvenStress.of(rheology, fluidity, gradient, slip, quadrature)
     offset = over_columns(quadrature.offset, gradient[0])
     measure = over_columns(quadrature.weights, gradient[0]) * fluidity

@@ -29,19 +29,11 @@ from ehlectric.film.flow import (
     with_mirror,
 )
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.sheared.column import column_flux, uniform_eyring
 from ehlectric.film.sheared.columns import Columns, columns_of
-from ehlectric.film.sheared.even import Flux, even_flux
+from ehlectric.film.sheared.even import Flux
+from ehlectric.film.sheared.faces import flux_of
 from ehlectric.film.sheared.laws import Rheology
-from ehlectric.film.sheared.plane import plane_flux
-from ehlectric.film.sheared.profile import (
-    Across,
-    Profile,
-    Properties,
-    Quadrature,
-    over_columns,
-    to_points,
-)
+from ehlectric.film.sheared.profile import Across, Profile, Properties, over_columns
 
 # Degree of the polynomial across a film without a temperature profile, for stresses and speeds.
 _DEGREE = 8
@@ -171,8 +163,7 @@ class ShearedFlow:
             gradient = np.concatenate([gradient, (gap * _mean(beside) / scale)[np.newaxis]])
             still = np.zeros_like(sliding)
             sliding = np.concatenate([still, sliding] if across else [sliding, still])
-        fluidity, weight = nodes.across_faces(mean)
-        found = _flux(self.rheology, fluidity, weight, gradient, sliding)
+        found = flux_of(self.rheology, mean, gradient, sliding, nodes.profile())
 
         size = 12.0 / fluid.velocity_parameter * gap**2 / spacing
         of_scale = found.flux - np.sum(gradient * found.by_gradient + sliding * found.by_slip, axis=0)
@@ -202,17 +193,6 @@ def gradients(pressure: Array, mesh: Mesh) -> tuple[Array, Array]:
 def _mean(values: Array) -> Array:
     """Means of neighbours along the last but one axis."""
     return np.asarray(0.5 * (values[..., 1:, :] + values[..., :-1, :]))
-
-
-def _flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Array, slip: Array) -> Flux:
-    """Flux of columns with stresses along one axis or two, after the length of ``gradient`` (d, ...)."""
-    if rheology.law.even:
-        return even_flux(rheology, fluidity, weight, gradient, slip)
-    if len(gradient) == 2:
-        return plane_flux(rheology, fluidity, weight, gradient, slip)
-    if rheology.name == "eyring" and len(fluidity) == 1:
-        return uniform_eyring(fluidity[0], gradient[0], slip[0])
-    return column_flux(rheology, fluidity, weight, gradient[0], slip[0])
 
 
 @dataclass(frozen=True)
@@ -250,13 +230,11 @@ class _Nodes:
         fields = {name: value for name, value in vars(self).items() if value is not None}
         return _Nodes(**{name: turn(value) for name, value in fields.items()})
 
-    def across_faces(self, mean: Array) -> tuple[Array, Array]:
-        """Fluidity a and weight w at the Gauss points of the faces, from the mean fluidity of the faces."""
+    def profile(self) -> tuple[Array, Array] | None:
+        """Logarithm of the viscosity ratio and density across the film at the faces, (nz, n - 1, m)."""
         if self.log_ratio is None or self.layers is None:
-            return mean[np.newaxis], over_columns(Quadrature.gauss().offset, mean)
-        values, below = to_points(len(self.log_ratio) - 1)
-        ratio = np.tensordot(values, _mean(self.log_ratio), axes=1)
-        return mean * np.exp(-ratio), np.tensordot(below, _mean(self.layers), axes=1)
+            return None
+        return _mean(self.log_ratio), _mean(self.layers)
 
     def by_properties(self, found: Flux, before: Array, after: Array) -> tuple[Array, Array]:
         """Derivatives of the mass flux by P of both nodes through viscosity and density.
@@ -270,9 +248,8 @@ class _Nodes:
             if self.log_ratio_p is None or self.layers_p is None or found.by_weight is None:
                 sides.append(_mean(self.density) * uniform + 0.5 * found.flux * self.density_p[side])
                 continue
-            values, below = to_points(len(self.log_ratio_p) - 1)
-            of_ratio = np.tensordot(values.T, found.by_viscosity, axes=1)
-            of_layers = np.tensordot(below.T, found.by_weight, axes=1)
-            varying = of_ratio * self.log_ratio_p[:, side] + of_layers * self.layers_p[:, side]
+            varying = (
+                found.by_viscosity * self.log_ratio_p[:, side] + found.by_weight * self.layers_p[:, side]
+            )
             sides.append(uniform + 0.5 * np.sum(varying, axis=0))
         return sides[0], sides[1]

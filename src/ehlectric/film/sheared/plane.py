@@ -15,17 +15,13 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.sheared.even import Flux
 from ehlectric.film.sheared.laws import Constants, Rheology, ShearLaw
-from ehlectric.film.sheared.profile import Quadrature, over_columns
+from ehlectric.film.sheared.profile import GAUSS, Quadrature, over_columns
 
 # Largest number of Newton steps for the mid-film stress, and the relative step at which it is exact.
 _MOST_STEPS, _EXACT = 80, 1e-12
 
 # Relative step below which Newton's method has converged up to rounding, so that it needs no damping.
 _CLOSE = 1e-9
-
-# Largest stress difference over the characteristic stress for which few points are exact to 1e-10 for the
-# Eyring law, and the number of these points.
-_SMALL, _FEW = 2.0, 8
 
 # Smallest rate that is divided by.
 _TINY = 1e-300
@@ -134,14 +130,24 @@ class _Iteration:
 
 def _size(vector: Array) -> Array:
     """Length of vectors (2, ...)."""
-    return np.asarray(np.hypot(vector[0], vector[1]))
+    x, y = vector
+    return np.asarray(np.sqrt(x * x + y * y))
 
 
 def _rates(law: ShearLaw, constants: Constants, weights: Array, stress: Array) -> tuple[Array, Array]:
     """Rates along both axes (2, ...) of stresses (2, nq, ...), and their derivatives (xx, xy, yy) by t."""
-    factor, slope = law.factor(np.sum(stress**2, axis=0), constants)
-    rate = np.sum(weights * factor * stress, axis=1)
-    return rate, np.sum(weights * _tangent(factor, slope, stress), axis=1)
+    x, y = stress
+    factor, slope = law.factor(x * x + y * y, constants)
+    even, steep = weights * factor, 2.0 * weights * slope
+    along, across = steep * x, steep * y
+    total = np.sum(even, axis=0)
+    rate = np.stack([_over(even, x), _over(even, y)])
+    return rate, np.stack([total + _over(along, x), _over(along, y), total + _over(across, y)])
+
+
+def _over(first: Array, second: Array) -> Array:
+    """Sum over the points across the film, the first axis, of a product of two arrays."""
+    return np.asarray(np.einsum("kn,kn->n", first, second))
 
 
 def _tangent(factor: Array, slope: Array, stress: Array) -> Array:
@@ -184,7 +190,14 @@ def _solved(matrix: Array, vector: Array) -> Array:
     return np.stack([np.where(swapped, other, one), np.where(swapped, one, other)])
 
 
-def plane_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Array, slip: Array) -> Flux:
+def plane_flux(
+    rheology: Rheology,
+    fluidity: Array,
+    weight: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature = GAUSS,
+) -> Flux:
     """Flux along the first axis of columns with stresses along both axes.
 
     Parameters
@@ -193,11 +206,12 @@ def plane_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Arr
         Shear-thinning law.
     fluidity : ndarray, shape (nq, ...) or (1, ...)
         a = eta_0/eta at the Gauss points.
-    weight : ndarray, shape (nq, ...)
-        w: oil mass below the point less half of that of the film. It is not used where the fluidity is
-        uniform: there it is zeta - 1/2, that of a density of one.
+    weight : ndarray, shape (nq, ...) or (nq, 1, ...)
+        w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
     gradient, slip : ndarray, shape (2, ...)
         q and g along the axis of the flux, and along the other axis.
+    quadrature : Quadrature
+        Gauss points across the film.
 
     Returns
     -------
@@ -214,35 +228,6 @@ def plane_flux(rheology: Rheology, fluidity: Array, weight: Array, gradient: Arr
     >>> round(float(plane_flux(oil, np.ones((1, 1)), offset, gradient, slip).flux[0]), 7)
     0.0001
     """
-    if len(fluidity) > 1:
-        return _flux_at(rheology, fluidity, weight, gradient, slip, Quadrature.gauss())
-    # Nearly all columns have small stress differences, for which few points are exact.
-    columns = gradient.shape[1:]
-    gradient, slip, fluidity = gradient.reshape(2, -1), slip.reshape(2, -1), fluidity.reshape(1, -1)
-    small = np.max(np.abs(gradient), axis=0) < _SMALL
-    flux = np.empty_like(gradient[0])
-    by_gradient, by_slip, by_viscosity = (
-        np.empty_like(gradient),
-        np.empty_like(gradient),
-        np.empty_like(fluidity),
-    )
-    for part, quadrature in ((small, Quadrature.gauss(_FEW)), (~small, Quadrature.gauss())):
-        offset = quadrature.offset[:, np.newaxis]
-        found = _flux_at(rheology, fluidity[:, part], offset, gradient[:, part], slip[:, part], quadrature)
-        flux[part], by_gradient[:, part] = found.flux, found.by_gradient
-        by_slip[:, part], by_viscosity[:, part] = found.by_slip, found.by_viscosity
-    return Flux(
-        flux.reshape(columns),
-        by_gradient.reshape(2, *columns),
-        by_slip.reshape(2, *columns),
-        by_viscosity.reshape(1, *columns),
-    )
-
-
-def _flux_at(
-    rheology: Rheology, fluidity: Array, weight: Array, gradient: Array, slip: Array, quadrature: Quadrature
-) -> Flux:
-    """Flux of columns by the points of a quadrature; arguments as for ``plane_flux``."""
     t = middle_stresses(rheology, fluidity, gradient, slip, quadrature)
     offset = over_columns(quadrature.offset, gradient[0])
     measure = over_columns(quadrature.weights, gradient[0]) * fluidity

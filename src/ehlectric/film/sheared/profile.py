@@ -92,9 +92,13 @@ class Quadrature:
         return cls(0.5 * points, 0.5 * weights)
 
 
+# Gauss points that are enough for any column.
+GAUSS = Quadrature.gauss()
+
+
 @cache
-def to_points(degree: int) -> tuple[Array, Array]:
-    """Matrices from the nodes of ``Across.of(degree)`` to the Gauss points, each of shape (nq, nz).
+def to_points(degree: int, number: int = _POINTS) -> tuple[Array, Array]:
+    """Matrices from the nodes of ``Across.of(degree)`` to some Gauss points, each of shape (nq, nz).
 
     Returns
     -------
@@ -103,7 +107,7 @@ def to_points(degree: int) -> tuple[Array, Array]:
     below : ndarray, shape (nq, nz)
         Integral of the values from zeta = 0 to the point, less half the integral over the film.
     """
-    across, quadrature = Across.of(degree), Quadrature.gauss()
+    across, quadrature = Across.of(degree), Quadrature.gauss(number)
     zeta = quadrature.offset + 0.5
     below = integrals(across.zeta, zeta) - 0.5 * across.weights
     return across.at(zeta), below

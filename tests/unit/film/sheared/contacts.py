@@ -83,20 +83,21 @@ def circular_contact(max_pressure=1e9, speed=4.0, ratio=0.0, rheology=None, node
 
 @dataclass(frozen=True)
 class Warm:
-    """Profile of a made-up temperature: ln eta falls by (1 + P) T, the density by 0.05 T (1 - P/10)."""
+    """Profile of a made-up temperature: ln eta falls by (1 + s P) T, the density by 0.05 T (1 - P/10)."""
 
     across: Across
     temperature: np.ndarray
     mesh: Mesh
     fluid: Fluid
+    steepness: float = 1.0
 
     def __call__(self, pressure, mesh):
         temperature = on_mesh(self.temperature, self.mesh, mesh)
         density, density_p = self.fluid.density(pressure)
         part = 1.0 - 0.05 * temperature * (1.0 - 0.1 * pressure)
         return Properties(
-            -(1.0 + pressure) * temperature,
-            -temperature * np.ones_like(pressure),
+            -(1.0 + self.steepness * pressure) * temperature,
+            -self.steepness * temperature * np.ones_like(pressure),
             density * part,
             density_p * part + density * 0.005 * temperature,
         )

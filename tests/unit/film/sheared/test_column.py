@@ -9,9 +9,10 @@ from scipy.optimize import brentq
 
 from ehlectric.film.sheared.column import column_flux, middle_stress, uniform_eyring
 from ehlectric.film.sheared.even import EvenStress, even_flux
+from ehlectric.film.sheared.faces import flux_of as flux_of_faces
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.plane import middle_stresses, plane_flux
-from ehlectric.film.sheared.profile import Quadrature
+from ehlectric.film.sheared.profile import Across, Quadrature, to_points
 
 EYRING = Rheology("eyring", {"eyring_stress": 1.0})
 CARREAU = Rheology("carreau", {"carreau_stress": 1.0, "carreau_exponent": 0.5})
@@ -229,13 +230,23 @@ def test_derivatives_of_a_plane(seed, law):
     )
 
 
-def test_few_points_suffice_for_small_gradients():
-    """Uniform columns beside and above the change of the quadrature have the flux of many points."""
-    gradient = np.array([[1.9, -1.999, 2.001], [1.0, 1.5, 0.3]])
-    slip = np.array([[0.1, 3.0, 30.0], [0.0, 0.0, 0.0]])
-    few = plane_flux(EYRING, np.ones((1, 3)), OFFSET, gradient, slip).flux
-    many = plane_flux(EYRING, np.ones((len(OFFSET), 3)), OFFSET, gradient, slip).flux
-    np.testing.assert_allclose(few, many, rtol=1e-9)
+@pytest.mark.parametrize("slip", [0.0, 0.1, 3.0, 300.0])
+@pytest.mark.parametrize(("law", "error"), [(EYRING, 1e-9), (CARREAU, 1e-6)], ids=["eyring", "carreau"])
+def test_few_points_suffice_for_small_gradients(law, error, slip):
+    """Columns with stress differences below 2 and a hot film have the flux of many points."""
+    gradient = np.array([[1.9, -1.999, 0.01], [1.0, 1.5, 0.3]])
+    slips = np.array([[slip] * 3, [0.0] * 3])
+    zeta = Across.of(8).zeta
+    ratio = np.repeat(-3.0 * (zeta * (1.0 - zeta))[:, np.newaxis], 3, axis=1)
+    layers = np.repeat(1.0 - 0.1 * zeta[:, np.newaxis], 3, axis=1)
+    values, below = to_points(8)
+    few = flux_of_faces(law, np.ones(3), gradient, slips, (ratio, layers))
+    many = plane_flux(law, np.exp(-values @ ratio), below @ layers, gradient, slips)
+    np.testing.assert_allclose(few.flux, many.flux, rtol=error, atol=1e-12 * slip)
+    np.testing.assert_allclose(few.by_gradient[0], many.by_gradient[0], rtol=10.0 * error)
+    uniform = flux_of_faces(law, np.ones(3), gradient, slips)
+    exact = plane_flux(law, np.ones((1, 3)), OFFSET, gradient, slips)
+    np.testing.assert_allclose(uniform.flux, exact.flux, rtol=error)
 
 
 def test_limit_bounds_the_mean_stress():
