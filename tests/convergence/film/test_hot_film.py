@@ -35,7 +35,8 @@ def test_loss_of_film_in_pure_rolling(speed, central, minimum, within):
     found = table_line(speed=speed)
     hot, thin, cold, cold_thin = films(found)
     assert found.status == "converged"
-    assert hot / cold == pytest.approx(central, rel=0.01 if speed < 10.0 else 0.016)
+    # One per cent; at 16 m/s the grid error of the table comes on top: 0.678 here, 0.676 on finer grids.
+    assert abs(hot / cold - central) < 0.01 * central + (0.003 if speed > 10.0 else 0.0)
     assert thin / cold_thin == pytest.approx(minimum, rel=within)
     assert found.energy_imbalance < 0.01
 
