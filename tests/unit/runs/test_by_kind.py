@@ -110,6 +110,7 @@ def test_kinds_of_the_examples():
         "bearing_thin_oil": "bearing",
         "moving_roughness": "motion",
         "sweep": "sweep",
+        "traction_curve": "sweep",
         "uncertainty": "sweep",
     }
 
