@@ -1,5 +1,7 @@
 """Temperature of a sheared film against exact solutions of thermoviscous Couette flow."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -57,5 +59,5 @@ def test_error_across_falls_faster_than_any_power():
     # Gauss and Lobatto nodes: for a smooth temperature the error falls by a factor from degree to degree.
     exact = np.log(1.0 + 50.0 / 8.0)
     errors = [abs(couette(50.0, degree=degree, loops=30)[1].max() - exact) for degree in (4, 8, 12, 16)]
-    assert all(fine < 0.2 * coarse for coarse, fine in zip(errors, errors[1:], strict=False))
+    assert all(fine < 0.2 * coarse for coarse, fine in pairwise(errors))
     assert errors[-1] < 1e-4

@@ -201,9 +201,9 @@ class Course:
         for loop in range(_LOOPS):
             solution = self.film(state, heat, steps=_STEPS, spike=spike and loop == 0)
             taken += solution.steps
+            stream, columns, filled = self.stream(thermal, solution, heat)
             if solution.status == "diverged":
                 break
-            stream, columns, filled = self.stream(thermal, solution, heat)
             new = solve_energy(
                 HeatColumns.of(stream, heat.temperature),
                 surfaces,

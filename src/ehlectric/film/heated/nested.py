@@ -21,6 +21,9 @@ from ehlectric.film.thermal.energy import Heat
 # Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
 _FIRST, _FIRST_POINT = 101, 33
 
+# Parts of the slip of a film that does not converge at once.
+_SLIPS = (0.0, 0.03, 0.1, 0.3, 1.0)
+
 # Largest number of nodes of a line contact whose linear systems are solved directly.
 _DIRECT = 401
 
@@ -114,7 +117,10 @@ def film_of(problem: FilmProblem, progress: Progress | None = None) -> HeatedSol
     for posed in reversed(grids):
         course = _course(posed, finest=posed is grids[0], progress=progress)
         state, heat = _start(course, simple, found)
-        found.append((course, course(state, heat, spike=True)))
+        grid = course(state, heat, spike=True)
+        if not grid.converged and course.physics.slide_to_roll_ratio != 0.0:
+            grid = min(grid, _by_slip(course, simple), key=lambda each: not each.converged)
+        found.append((course, grid))
     return _solution(simple, found)
 
 
@@ -133,6 +139,21 @@ def _course(problem: FilmProblem, *, finest: bool, progress: Progress | None) ->
     direct = problem.width is None and problem.nodes <= _DIRECT
     tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
     return Course(problem, levels[:1] if direct else levels, tolerance, finest, progress)
+
+
+def _by_slip(course: Course, simple: RefinedSolution) -> HeatedGrid:
+    """Film with heat on a grid from rolling to its own slip in steps, which converges from farther."""
+    first, second = course.physics.speeds
+    mean = course.physics.mean_speed
+    (state, heat), loops = _start(course, simple, []), 0
+    for part in _SLIPS:
+        speeds = mean + part * (first - mean), mean + part * (second - mean)
+        problem = replace(course.problem, physics=replace(course.physics, speeds=speeds))
+        grid = replace(course, problem=problem)(state, heat, spike=False)
+        loops += grid.loops
+        if grid.solution.status != "diverged":
+            state, heat = grid.solution.state, grid.heat
+    return replace(grid, loops=loops)
 
 
 def _start(
