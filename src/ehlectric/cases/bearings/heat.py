@@ -50,10 +50,11 @@ def _check_solved(bearing: Bearing, oil: Lubricant) -> None:
     for key in ("element_material", "ring_material"):
         name = getattr(bearing, key)
         if name not in known:
-            raise InputError(
+            raise InputError.worded(
                 f"bearing.{key}",
-                got=f"{name!r}, without thermal properties in the library,",
-                takes=f"{' or '.join(map(repr, known))} with {what}",
+                f"{name!r} has no thermal properties in the library, and {what} needs them; use "
+                f"{' or '.join(map(repr, known))} or another film_factor",
+                takes=" or ".join(map(repr, known)),
             )
     for inner in (True, False):
         check_thermal_oil(oil, bearing.ring_temperature(inner=inner), what)
