@@ -1,6 +1,7 @@
-"""Film factor "solved" of a bearing: heat of its most loaded contacts, what it needs, and where it is said."""
+"""Film factor "solved" of a bearing: heat of its most loaded contacts, and what it needs."""
 
 import dataclasses
+import tomllib
 
 import numpy as np
 import pytest
@@ -102,7 +103,8 @@ def test_an_eyring_stress_thins_the_film_a_little_more():
     assert stiff.film_factor == pytest.approx(plain, rel=1e-4)
 
 
-def test_a_contact_is_solved_once(rollers):
+@pytest.mark.usefixtures("rollers")
+def test_a_contact_is_solved_once():
     """Strength, roughness and motor change no film."""
     known = solved_heat._factor.cache_info().misses
     prepare_bearing(
@@ -136,7 +138,7 @@ def test_an_unconverged_film_has_no_factor(monkeypatch):
     )
     monkeypatch.setitem(solved_heat.KINDS, "line", unconverged)
     with pytest.raises(
-        ConvergenceError, match="film_factor 'solved': inner contact at .* N: film with heat, st"
+        ConvergenceError, match=r"film_factor 'solved': inner contact at .* N: film with heat, st"
     ):
         prepare_bearing(case(ROLLERS, bearing__inner_speed="777 rpm"), 1)
 
@@ -180,7 +182,7 @@ def test_a_sweep_varies_the_word(tmp_path):
 
 def test_the_app_answers_at_once_by_the_formula(monkeypatch):
     monkeypatch.setattr(solved_heat, "_factor", None)
-    answer = quick_answer(case(ROLLERS).to_dict())
+    answer = quick_answer(tomllib.loads(case(ROLLERS).to_toml()))
     assert answer.numbers["heat_factor"] == resolve_bearing(case(ROLLERS, "inlet-shear")).heat_factor
 
 
@@ -193,7 +195,7 @@ def test_the_app_answers_at_once_by_the_formula(monkeypatch):
         ),
         (
             {"lubricant__temperature__thermal_conductivity": None},
-            "lubricant.thermal_conductivity: missing; expected it or thermal_conductivity_law; film_factor 'solved'",
+            "lubricant.thermal_conductivity: missing; expected it or thermal_conductivity_law; film_f",
         ),
         (
             {"lubricant": {"base": "paper", "viscosity": "20 mPa s"}},
