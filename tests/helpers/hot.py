@@ -246,7 +246,7 @@ def films(solution):
     return found
 
 
-def random_contact(seed, *, point=False):
+def random_contact(seed, *, point=False, nodes=None):
     """Random contact: 0.5 to 2 GPa, 0.5 to 20 m/s, Eyring stress of 3 to 10 MPa.
 
     The slide-to-roll ratio is 0 to 2 in a line contact, and 0 to 0.5 in a point contact.
@@ -258,4 +258,6 @@ def random_contact(seed, *, point=False):
         "slide_to_roll_ratio": rng.uniform(0.0, 0.5 if point else 2.0),
         "rheology": Rheology("eyring", {"eyring_stress": rng.uniform(3e6, 1e7)}),
     }
-    return ball(**options) if point else paper_line(nodes=401, **options)
+    if point:
+        return ball(nodes=nodes or 65, **options)
+    return paper_line(nodes=nodes or 401, **options)

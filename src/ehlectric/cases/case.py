@@ -18,7 +18,7 @@ from ehlectric.cases.contact import Contact, geometry_of
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.films.inlet import Inlet
-from ehlectric.cases.films.physics import FilmPhysics, refuse_unused
+from ehlectric.cases.films.physics import FilmPhysics, check_film
 from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
 from ehlectric.cases.keywords.constructors import tables, takes
 from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
@@ -126,22 +126,21 @@ class Case(Tabled, Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
+        given = {name for name, table in self if table is not None}
+        moves = "motion" in given
         self.grid.check_geometry(self.contact.geometry)
         self.lubricant.at(self.contact.temperature)
         check_geometry(self.roughness, self.contact.geometry)
-        if self.film is None or not self.film.thermal:
-            refuse_unused(self.contact)
-        if self.film is not None:
-            self.film.check(self.contact, self.lubricant, moves=self.motion is not None)
+        check_film(self.film, self.contact, self.lubricant, moves=moves)
         if self.discharge is not None:
             self.discharge.check_geometry(self.contact.geometry)
         if self.meter is not None:
             length = None if self.discharge is None else self.discharge.length
-            moves = self.motion is not None
             self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
         if self.inlet is not None:
-            others = {"moves": self.motion is not None, "metered": self.meter is not None}
-            self.inlet.check(self.contact.geometry, **others)
+            self.inlet.check(
+                self.contact.geometry, beside=[name for name, table in self if table is not None]
+            )
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
             object.__setattr__(self, "grid", self.grid.fixed())

@@ -17,6 +17,7 @@ from ehlectric.film.accuracy.adaptive import UNKNOWN
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.thermal.physics import Physics
 
 # How often the intervals of a grid are doubled at the most, with smooth and with rough surfaces. A film whose
 # estimate does not fall, such as one under white noise, would take them up to the memory of the machine.
@@ -81,7 +82,7 @@ def refined(
     problem = problem_of(first)
     if target is None:
         return Refined(solved(problem), first, first, time.perf_counter() - started, ())
-    grids, refusal = _finer_grids(grid, geometry, rough=bool(setup.roughness))
+    grids, refusal = _finer_grids(grid, geometry, problem.physics, rough=bool(setup.roughness))
     film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along))
     closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
     grid = min(grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
@@ -93,8 +94,11 @@ def refined(
     return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
 
 
-def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid], str]:
+def _finer_grids(
+    grid: Grid, geometry: str, physics: Physics | None, *, rough: bool
+) -> tuple[list[Grid], str]:
     """Grid and all grids with twice as many intervals each, up to the first one that is refused, and why."""
+    heat = None if physics is None else "sheared" if physics.thermal is None else "thermal"
     grids, most = [grid], (_MOST_DOUBLED_ROUGH if rough else _MOST_DOUBLED)[geometry]
     while True:
         if len(grids) > most:
@@ -102,7 +106,7 @@ def _finer_grids(grid: Grid, geometry: str, *, rough: bool) -> tuple[list[Grid],
             return grids, f"a {kind} contact is refined {most} times at the most; begin with more grid.nodes"
         try:
             finer = _doubled(grids[-1])
-            check_grid(geometry, finer, rough=rough)
+            check_grid(geometry, finer, rough=rough, heat=heat)
         except InputError as error:
             return grids, str(error)
         grids.append(finer)

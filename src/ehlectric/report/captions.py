@@ -29,6 +29,10 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
         "roughness": "Roughness of the surfaces, and the change of the film that it causes.",
         "breakdown": "Voltage at which the film breaks down, over the position in the contact.",
         "meter": "Capacitance that a meter reads, collected up to a distance from the contact.",
+        "temperature": "Temperature across the film, at its middle and on both surfaces, and shear stress at "
+        "mid-film; of a point contact along y = 0.",
+        "shear_stress": "Shear stress at mid-film, of a point contact along y = 0, and the pressure times "
+        "the traction coefficient.",
         # Moving roughness
         "motion_history": "Minimum film, maximum field and its position, over time.",
         "motion_maps": "Film, pressure and field over position and time, with lines of the mean speed and of "

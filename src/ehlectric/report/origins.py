@@ -157,13 +157,19 @@ def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def material_sources(case: Case | BearingCase) -> Iterator[tuple[str, Source]]:
-    """Names and sources of the solids of a bearing; none of a contact, whose moduli are given."""
-    if not isinstance(case, BearingCase):
-        return
-    table = case.to_dict()["bearing"]
-    known = library.solid_names()
-    keys = [key for tables in (table, table.get("fits", {})) for key in tables if key.endswith("_material")]
-    values = {**table, **table.get("fits", {})}
-    for name in dict.fromkeys(values[key] for key in keys if values[key] in known):
+    """Names and sources of the solids of the library that a bearing or a contact is made of."""
+    for name in dict.fromkeys(_materials(case)):
         for source in _sources(library.tables("solid", name)):
             yield name, source
+
+
+def _materials(case: Case | BearingCase) -> Iterator[str]:
+    """Solids of the library that a case names."""
+    if isinstance(case, Case):
+        bodies = (case.contact.body_1, case.contact.body_2)
+        yield from (body.material for body in bodies if body is not None and body.material is not None)
+        return
+    table, known = case.to_dict()["bearing"], library.solid_names()
+    keys = [key for tables in (table, table.get("fits", {})) for key in tables if key.endswith("_material")]
+    values = {**table, **table.get("fits", {})}
+    yield from (values[key] for key in keys if values[key] in known)

@@ -82,9 +82,26 @@ def run_rows(summary: Mapping[str, Any]) -> list[Row]:
     for heading, entries in _entries(summary):
         found = list(rows_of(LINE_KEYS, shown, entries, _BOUNDS))
         rows += [Row(heading), *found] if found else []
+        if heading == "film":
+            rows += _supply(summary, conditions.half_width)
         if heading == _LAST_OF_RUN:
             rows += _touching_rows(summary)
     return rows
+
+
+def _supply(summary: Mapping[str, Any], half_width: float) -> Iterator[Row]:
+    """Rows of the layer of oil of a run; none where the case gives no layer."""
+    film = summary["film"]
+    if "oil_layer" not in film:
+        return
+    yield Row("layer of oil before the contact", film["oil_layer"], "µm", ", on both surfaces together")
+    places = [film[f"meniscus_{name}"] for name in ("before", "least", "largest")]
+    if None in places:
+        yield Row("meniscus, where oil fills the gap", "none: flooded")
+        return
+    before, least, largest = (f"{place / half_width:.3g}" for place in places)
+    over_time = f", {least} to {largest} over time"
+    yield Row("meniscus, where oil fills the gap", f"x/b = {before} before the motion{over_time}")
 
 
 def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str, ...], ...]]]:

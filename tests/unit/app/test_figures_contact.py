@@ -9,11 +9,13 @@ import pytest
 from ehlectric import Case
 from ehlectric.app.compute.contact import view_of
 from ehlectric.app.figures.cuts import point_cuts
+from ehlectric.app.figures.heat import heat_panels
 from ehlectric.app.figures.line import line_figures
 from ehlectric.app.figures.look import values
 from ehlectric.app.figures.point import point_figures, reach_of
 from ehlectric.contact.solver import solve
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import EXAMPLES
 
 
@@ -299,3 +301,20 @@ def test_numbers_of_surfaces_that_touch_say_so(touching_line, touching_point):
         assert "boundary film" in numbers["max-field"].note
         assert "metal may conduct" in numbers["breakdown-voltage"].note
         assert numbers["breakdown-voltage"].bound == "≤"
+
+
+@pytest.mark.parametrize(
+    ("film", "title", "curves"),
+    [
+        ({"thermal": True, "rheology": "eyring"}, "temperature rise", {"mid-film", "surface 1", "surface 2"}),
+        ({"rheology": "eyring"}, "shear stress", {"shear stress at mid-film"}),
+    ],
+)
+def test_heat_and_shear_have_a_panel(film, title, curves):
+    result = solve(Case.from_dict(HOT_LINE | {"film": film}))
+    (panel,) = heat_panels(result, 1.0)
+    assert panel.title == title
+    assert {curve.name for curve in panel.curves} == curves
+    highest = max(float(curve.y.max()) for curve in panel.curves)
+    assert 0.0 < highest < panel.top
+    assert title in by_name(line_figures(result))["profiles"].label

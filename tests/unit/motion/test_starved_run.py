@@ -10,6 +10,7 @@ from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.keys import MOTION_KEYS
 from ehlectric.motion.run import run
 from ehlectric.motion.stored_run import read_motion
+from ehlectric.tables.motion import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 LAYER = 200e-9
@@ -29,6 +30,13 @@ def test_the_summary_has_the_layer_and_the_meniscus(outcome):
     assert inlet < film["meniscus_least"] <= film["meniscus_before"] <= film["meniscus_largest"] < 0.0
     keys = MOTION_KEYS["line"]
     assert all(f"film.{name}" in keys for name in film)
+
+
+def test_the_table_has_the_layer_and_the_meniscus(outcome):
+    rows = {row.name: str(row.value) for row in run_rows(outcome.summary)}
+    assert float(rows["layer of oil before the contact"]) == pytest.approx(LAYER, rel=1e-12)
+    place = outcome.summary["film"]["meniscus_before"] / resolve(CASE).half_width
+    assert f"x/b = {place:.3g} before the motion" in rows["meniscus, where oil fills the gap"]
 
 
 def test_the_flow_through_the_hertz_zone_is_that_of_the_layer(outcome):

@@ -20,6 +20,7 @@ from ehlectric.report.limits import LIMITS, REFERENCES, limits_of, references_of
 from ehlectric.report.origins import inputs_of, material_sources
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, OIL, changed
+from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import ROOT
 
 TABLE = {
@@ -159,10 +160,22 @@ def test_every_figure_that_a_result_can_have_has_a_caption():
     files = (
         *names.FIGURE_FILES, *names.POINT_FIGURE_FILES, names.ROUGHNESS_FIGURE, names.BREAKDOWN_FIGURE,
         names.METER_FIGURE, *names.MOTION_FIGURE_FILES, *names.BEARING_FIGURE_FILES,
-        *names.SPEED_FIGURE_FILES, names.SENSITIVITY_FIGURE,
+        *names.SPEED_FIGURE_FILES, names.SENSITIVITY_FIGURE, names.TEMPERATURE_FIGURE, names.SHEAR_FIGURE,
     )  # fmt: skip
     assert {file.removesuffix(".png") for file in in_formats(files)} == set(CAPTIONS)
     assert caption_of("film", converged=False).startswith(UNCONVERGED)
+
+
+def test_a_film_with_heat_has_its_own_limits_and_references():
+    hot, plain = Case.from_dict(HOT_LINE), Case.from_dict({k: v for k, v in HOT_LINE.items() if k != "film"})
+    of_hot, of_plain = (" ".join(limit.text for limit in limits_of(case)) for case in (hot, plain))
+    assert "isothermal" not in of_hot
+    assert "Newtonian" not in of_hot
+    assert "The oil is Newtonian" in of_plain
+    cited = " ".join(one.citation for one in references_of(hot))
+    assert all(name in cited for name in ("Carslaw", "Yang and Wen", "Johnson and Tevaarwerk"))
+    assert "Carslaw" not in " ".join(one.citation for one in references_of(plain))
+    assert {name for name, _ in material_sources(hot)} == {"steel"}
 
 
 def test_a_result_that_is_not_converged_says_so_everywhere(tmp_path):

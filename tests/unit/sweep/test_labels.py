@@ -53,7 +53,7 @@ def case_of(kind):
     if kind in ("balls", "rollers"):
         return bearing_case(BALLS if kind == "balls" else ROLLERS, contacts="formula")
     few = {"motion.steps": 24, "discharge": {"dielectric_strength": "15 V/um"}}
-    return moving(TABLES[kind.removeprefix("moving ")], few)
+    return moving(TABLES[kind.removeprefix("moving ")], few, inlet={"oil_layer": "200 nm"})
 
 
 def summary(kind, folder):

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers.figure import Shown
+from ehlectric.app.figures.heat import heat_panels
 from ehlectric.app.figures.lengths import BEFORE, BEHIND, Lengths, main_numbers
 from ehlectric.app.figures.look import (
     BLUE,
@@ -78,7 +79,7 @@ def _profiles(result: Result) -> Shown:
     along = Along("x", unit, window, (-b, b))
     panels = [_pressure(result, factor), _film(result, factor)]
     if result.converged:
-        panels.append(_field(result, factor))
+        panels += [_field(result, factor), *heat_panels(result, factor)]
     told = f"Over x in {unit}: {', '.join(names_of(panels))}."
     notes = (
         f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{b:.4g} {unit}.",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Annotated, Self
 
 from pydantic import model_validator
@@ -61,29 +62,30 @@ class Inlet(Table):
             raise InputError(names[0], got=together, takes=f"one of {', '.join(names)}")
         return self
 
-    def check(self, geometry: str, *, moves: bool, metered: bool) -> None:
+    def check(self, geometry: str, *, beside: Collection[str]) -> None:
         """Check that the table fits the other tables of its case.
 
         Parameters
         ----------
         geometry : str
             Geometry of the contact, "line" or "point".
-        moves, metered : bool
-            Whether the case has the tables ``motion`` and ``meter``.
+        beside : collection of str
+            Names of the other tables of the case.
 
         Raises
         ------
         InputError
             If a line contact has a layer over y, a contact with motion has a ratio of films, or the case has
-            the table ``meter``.
+            the table ``meter`` or ``film``.
         """
         if self.layer_table is not None and geometry == "line":
             raise InputError("inlet.layer_table", got="that of a line contact", takes="inlet.oil_layer")
-        if moves and self.film_ratio is not None:
+        if "motion" in beside and self.film_ratio is not None:
             raise InputError(
                 "inlet.film_ratio",
                 got=f"{self.film_ratio:g} beside [motion], in which the film changes with time",
                 takes="inlet.oil_layer or inlet.layer_table; the same case without [motion] finds the layer",
             )
-        if metered:
-            raise InputError("inlet", got="[inlet] beside [meter]", takes="a flooded contact there")
+        for table in ("meter", "film"):
+            if table in beside:
+                raise InputError("inlet", got=f"[inlet] beside [{table}]", takes="a flooded contact there")

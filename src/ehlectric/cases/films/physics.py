@@ -77,7 +77,18 @@ class FilmPhysics(Table):
         return {key: getattr(lubricant, key) for key in CONSTANTS[self.rheology]}
 
 
-def refuse_unused(contact: Contact) -> None:
+def check_film(film: FilmPhysics | None, contact: Contact, oil: Lubricant, *, moves: bool) -> None:
+    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case.
+
+    ``moves`` tells whether the case has the table ``motion``.
+    """
+    if film is None or not film.thermal:
+        _refuse_unused(contact)
+    if film is not None:
+        film.check(contact, oil, moves=moves)
+
+
+def _refuse_unused(contact: Contact) -> None:
     """Raise an InputError for temperatures of the surfaces, which an isothermal film does not use."""
     for key in ("temperature_1", "temperature_2"):
         if getattr(contact, key) is not None:

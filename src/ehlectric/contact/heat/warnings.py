@@ -33,6 +33,9 @@ _RISE_ERROR, _IMBALANCE = 0.05, 0.02
 # Rise whose error is of no interest [K], and rise from which the model is doubtful [K].
 _SMALL_RISE, _LARGE_RISE = 1.0, 200.0
 
+# Minimum film over the boundary film below which surfaces touch.
+_TOUCHING = 1.01
+
 _CELSIUS = 273.15
 
 
@@ -42,7 +45,7 @@ def heat_warnings(
     film: Film | PointFilm,
     physics: Physics | None,
 ) -> Iterator[ResultWarning]:
-    """Warnings about a film with heat or shear; none for an isothermal Newtonian film, or an unconverged one.
+    """Warnings about a film with heat or shear; none for an isothermal Newtonian film.
 
     Parameters
     ----------
@@ -56,7 +59,16 @@ def heat_warnings(
         Heat and shear as they were solved.
     """
     heated = film.heated
-    if heated is None or physics is None or not film.converged:
+    if heated is None or physics is None:
+        return
+    if not film.converged:
+        thinnest = min(heated.isothermal_minimum_thickness, film.minimum_thickness)
+        if thinnest < _TOUCHING * conditions.boundary_film:
+            yield ResultWarning(
+                "surfaces-touch",
+                "the surfaces would touch: films whose surfaces touch are solved without the table [film] "
+                "only; leave it out, lower the roughness, or raise speed or viscosity",
+            )
         return
     yield from _traction(heated, conditions)
     if physics.thermal is not None and isinstance(case, Case):

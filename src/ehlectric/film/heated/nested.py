@@ -17,6 +17,7 @@ from ehlectric.film.sheared.traction import traction
 from ehlectric.film.state import GridSolution, Progress, State, Status
 from ehlectric.film.thermal.balance import energy_imbalance
 from ehlectric.film.thermal.energy import Heat
+from ehlectric.runtime.threads import quiet_solution
 
 # Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
 _FIRST, _FIRST_POINT = 101, 33
@@ -103,8 +104,15 @@ def film_of(problem: FilmProblem, progress: Progress | None = None) -> HeatedSol
     Notes
     -----
     The grid is that on which the isothermal film reaches the ``target_error`` of the problem. The film with
-    heat is then solved on all grids from coarse to fine.
+    heat is then solved on all grids from coarse to fine. In a point contact, the lines along x do not heat
+    one another through the bodies, so that a body with a Peclet number below about five gets too hot.
     """
+    with quiet_solution():
+        return _solved(problem, progress)
+
+
+def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
+    """Both films, with heat on all grids from coarse to fine."""
     assert problem.physics is not None
     simple = refined_solution(replace(problem, physics=None), progress)
     whole = simple.whole

@@ -17,8 +17,15 @@ _ROUNDING = 1e-14
 
 
 def film_status_of(found: HeatedSolution, status: Status) -> Status:
-    """Status of a film, "converged" only if its temperature converged with it."""
-    return found.status if status == "converged" else status
+    """Status of a film, "converged" only if its temperature converged with it and its surfaces are apart.
+
+    The equations of heat and shear know no surfaces that touch: a film thinner than the boundary film is no
+    solution of them.
+    """
+    if status != "converged":
+        return status
+    pierced = float(np.min(found.refined.last.state.thickness)) < found.refined.problem.boundary_film
+    return "stalled" if pierced else found.status
 
 
 def heated_film(

@@ -18,7 +18,7 @@ from ehlectric.figures.contact.save import figure
 from ehlectric.paper.solvers import PAPER
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.tables.contact import result_rows
-from tests.helpers.hot_cases import HOT_LINE
+from tests.helpers.hot_cases import HOT_LINE, HOT_POINT
 
 
 @pytest.fixture(scope="module")
@@ -196,6 +196,41 @@ def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
         solve(case, laws=Laws(viscosity=lambda p, _: 0.04 * np.exp(2e-8 * p)))
     with pytest.raises(InputError, match=r"^film: is not solved by the solver 'paper'"):
         solve(case, solvers=PAPER)
+
+
+def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
+    """The film does not converge, and a warning says why."""
+    rough = {"surface": 1, "generator": "gaussian", "rq": "150 nm", "correlation_length": "20 um", "seed": 1}
+    contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
+    table = HOT_LINE | {"contact": contact, "roughness": [rough], "grid": {"nodes": 401}}
+    result = solve(Case.from_dict(table | {"film": {"rheology": "eyring"}}), beside_smooth=False)
+    assert not result.converged
+    told = [each.text for each in result.warnings if each.code == "surfaces-touch"]
+    assert any("solved without the table [film] only" in text for text in told)
+
+
+def test_heat_that_does_not_fit_into_memory_is_refused():
+    """Of a line contact it grows with the square of the nodes: 300 000 of them need above a terabyte."""
+    table = HOT_LINE | {"grid": {"nodes": 300_001}}
+    with pytest.raises(InputError, match=r"^grid\.nodes: got 300001"):
+        check_case(Case.from_dict(table))
+    check_case(Case.from_dict(table | {"film": {"rheology": "eyring"}}))
+
+
+def test_a_point_contact_is_hot_on_both_sides_alike(tmp_path):
+    """Half of the contact is solved; its temperature stands at all nodes, in the file and in a figure too."""
+    result = solve(Case.from_dict(HOT_POINT))
+    heated, shape = result.film.heated, result.film.thickness.shape
+    assert heated.temperature.shape == (heated.zeta.size, *shape)
+    assert np.array_equal(heated.temperature, heated.temperature[:, :, ::-1])
+    assert np.array_equal(heated.shear_stress, heated.shear_stress[:, ::-1])
+    # The largest rise lies within the contact, and most of the film beside it is as cold as the oil.
+    i, j = np.unravel_index(np.argmax(heated.mid_temperature), shape)
+    assert result.film.x[i] ** 2 + result.film.y[j] ** 2 < result.conditions.semi_axis_x**2
+    assert np.median(heated.mid_temperature) < 313.15 + 0.2 * heated.max_temperature_rise
+    save(result, tmp_path)
+    assert load(tmp_path / "result.nc").summary() == result.summary()
+    assert figure(result, "temperature.png").axes
 
 
 def codes(result, case=None, **changes):
