@@ -121,7 +121,7 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
     if name in _NAMES:
         return ", ".join(f'`"{name}"`' for name in _NAMES[name])
     if name == "film_factor":
-        return '`"none"`, `"inlet-shear"`, or a number above 0 and at most 1'
+        return '`"none"`, `"inlet-shear"`, `"solved"`, or a number above 0 and at most 1'
     if isinstance(found, Grade):
         return f'{found.takes}, as `46` or `"ISO VG 46"`'
     if isinstance(found, Quantities):

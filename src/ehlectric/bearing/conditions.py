@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -72,7 +72,7 @@ class RingConditions:
     discharge : Discharge
         Dielectric strength and conductivity at this temperature.
     film_factor : float
-        Film thickness over that of isothermal, fully flooded oil, dimensionless, at most 1.
+        Film thickness over that of isothermal, fully flooded oil, dimensionless.
     heat_factor, supply_factor : float or None
         Parts of ``film_factor`` by the heat in the inlet and by the supply of oil, dimensionless; None where
         ``film_factor`` alone is known, which then contains both.
@@ -84,6 +84,11 @@ class RingConditions:
     film_factor: float
     heat_factor: float | None = None
     supply_factor: float | None = None
+
+    def heated(self, factor: float) -> RingConditions:
+        """Conditions with another factor of the heat; that of the supply stays."""
+        supply = 1.0 if self.supply_factor is None else self.supply_factor
+        return replace(self, film_factor=factor * supply, heat_factor=factor)
 
 
 @dataclass(frozen=True)

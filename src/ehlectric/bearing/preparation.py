@@ -20,6 +20,7 @@ from ehlectric.bearing.loads.totals import Equilibrium, mirrored
 from ehlectric.bearing.quick.ways import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.supply.factors import film_factor_of
+from ehlectric.bearing.supply.solved_heat import solved_heat_factor
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
@@ -168,6 +169,8 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     ------
     InputError
         Where the bearing cannot carry its load, or is beyond the limits of the model.
+    ConvergenceError
+        Where the film that ``film_factor`` "solved" needs does not converge.
     """
     conditions = resolve_bearing(case)
     if is_quick(case):
@@ -178,8 +181,13 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
         check_shoulders(conditions.bearing, at)
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, inner, outer)
-    for ring in prepared.rings:
-        check_film(kind_of(ring).contact(ring, largest_load(prepared, ring)))
+    if case.bearing.film_factor == "solved":
+        factors = (solved_heat_factor(case, ring, largest_load(prepared, ring)) for ring in prepared.rings)
+        rings = (conditions.inner, conditions.outer)
+        return _with_rings(
+            prepared, *(own.heated(factor) for own, factor in zip(rings, factors, strict=True))
+        )
+    _check_films(prepared)
     return prepared
 
 
@@ -205,15 +213,25 @@ def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearin
         Where the films leave no room between the bodies.
     """
     at = prepared.conditions
-    inner_ring, outer_ring = (
+    rings = (
         replace(own, film_factor=factor, heat_factor=None, supply_factor=None) for own in (at.inner, at.outer)
     )
-    conditions = replace(at, inner=inner_ring, outer=outer_ring)
+    return _with_rings(prepared, *rings)
+
+
+def _with_rings(prepared: PreparedBearing, *rings: RingConditions) -> PreparedBearing:
+    """Bearing with other conditions of its contacts with the inner and the outer ring."""
+    conditions = replace(prepared.conditions, inner=rings[0], outer=rings[1])
     inner, outer = (replace(ring, conditions=conditions) for ring in prepared.rings)
     changed = replace(prepared, conditions=conditions, inner=inner, outer=outer)
-    for ring in changed.rings:
-        check_film(kind_of(ring).contact(ring, largest_load(changed, ring)))
+    _check_films(changed)
     return changed
+
+
+def _check_films(prepared: PreparedBearing) -> None:
+    """Refuse films for which there is no room between the bodies."""
+    for ring in prepared.rings:
+        check_film(kind_of(ring).contact(ring, largest_load(prepared, ring)))
 
 
 def _contacts_with(conditions: BearingConditions[Any], at: Equilibrium, *, inner: bool) -> RingContacts[Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.preparation import largest_load, prepare_bearing
+from ehlectric.bearing.quick.ways import heat_by_formula
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import check_contact
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
@@ -42,6 +43,8 @@ def solve_bearing(
         Where the bearing cannot carry its load, or a contact cannot be solved.
     LostError
         Where the process of a contact was killed twice, as by a system out of memory.
+    ConvergenceError
+        Where the film that ``film_factor`` "solved" needs does not converge.
     """
     return BearingResult(solution_of(case, progress=progress, workers=workers))
 
@@ -57,9 +60,10 @@ def check_bearing(case: BearingCase) -> None:
     Raises
     ------
     InputError
-        As ``solve_bearing`` does, for the most loaded contacts at the first position of the cage.
+        As ``solve_bearing`` does, for the most loaded contacts at the first position of the cage. Heat that
+        is to be solved is that of a formula here.
     """
-    prepared = prepare_bearing(case, 1)
+    prepared = prepare_bearing(heat_by_formula(case), 1)
     for ring in prepared.rings:
         kind = kind_of(ring)
         contact = kind.contact(ring, largest_load(prepared, ring))

@@ -31,6 +31,7 @@ from ehlectric.report.situations import (
     rough,
     sheared,
     smooth,
+    solved_heat,
     stands,
     starved,
     unheated,
@@ -259,7 +260,7 @@ REFERENCES = (
         "heating by shear in the inlet",
         "Wilson and Sheu, J. Lubr. Technol. 105 (1983) 187-195",
         "10.1115/1.3254558",
-        lambda case: isinstance(case, BearingCase) and case.bearing.film_factor == "inlet-shear",
+        lambda case: isinstance(case, BearingCase) and case.bearing.heated,
     ),
     Reference(
         "supply of oil",
@@ -277,7 +278,7 @@ REFERENCES = (
         "flow of an oil whose viscosity varies across the film",
         "Yang and Wen, J. Tribol. 112 (1990) 631-636",
         "10.1115/1.2920308",
-        lambda case: heated(case) or sheared(case),
+        lambda case: heated(case) or sheared(case) or solved_heat(case),
     ),
     Reference(
         "temperature of moving surfaces",

@@ -102,6 +102,11 @@ def heated(case: AnyCase) -> bool:
     return isinstance(case, Case) and case.film is not None and case.film.thermal
 
 
+def solved_heat(case: AnyCase) -> bool:
+    """Whether the film factor of a bearing is that of a film with its temperature."""
+    return isinstance(case, BearingCase) and case.bearing.film_factor == "solved"
+
+
 def unheated(case: AnyCase) -> bool:
     """Whether the films are isothermal and flooded, without a film factor."""
     return flooded(case) and not heated(case)

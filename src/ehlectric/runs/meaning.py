@@ -198,9 +198,12 @@ def _check_bearing(case: BearingCase) -> Meaning:
     result = _solved_quickly(judged)
     summary = {**result.summary(), "films": judged.contacts}
     totals = (row for row in outcome_rows(summary) if row.name != "computing time")
+    solved = (
+        ", heat by the formula of film_factor 'inlet-shear'" if case.bearing.film_factor == "solved" else ""
+    )
     accuracy = Row(
         "accuracy of all that follows",
-        note=f"contacts {HOW[judged.contacts]}: films may be {error_text(result.solution)} off",
+        note=f"contacts {HOW[judged.contacts]}{solved}: films may be {error_text(result.solution)} off",
     )
     rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
     if refused is not None:

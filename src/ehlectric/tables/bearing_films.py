@@ -5,6 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+# Heat of a film factor in words.
+_HEAT: Mapping[object, str] = {
+    "inlet-shear": "heating by shear in the inlet",
+    "solved": "solved heat in the film, in pure rolling",
+}
+
 
 def film_factors(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Entries of the film factor, and of the supply of oil of a bearing that is not flooded.
@@ -32,7 +38,6 @@ def _note(summary: Mapping[str, Any], supply: object) -> str:
     """Parts of the film factor."""
     if summary["bearing"]["film_factor"] == 1.0:
         return "(isothermal, fully flooded)"
-    heated = summary["inputs"]["bearing"]["film_factor"] == "inlet-shear"
-    heat = "heating by shear in the inlet" if heated else ""
+    heat = _HEAT.get(summary["inputs"]["bearing"]["film_factor"], "")
     oil = "supply of oil" if supply != "flooded" else ""
     return f"({' and '.join(filter(None, (heat, oil))) or 'given'})"

@@ -24,6 +24,7 @@ from ehlectric.app.figures.bearing_speeds import (
     speed_rows,
 )
 from ehlectric.bearing.accuracy import error_text
+from ehlectric.bearing.quick.ways import heat_by_formula
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import capacitance_is_bound
 from ehlectric.bearing.solver import solve_bearing
@@ -142,8 +143,12 @@ def _quick(table: Mapping[str, Any], session: Path | None) -> BearingResult:
 
 
 def solved_quickly(case: BearingCase) -> BearingResult:
-    """Bearing with contacts by formula where its case says so, and otherwise from the atlas of films."""
-    return solve_bearing(case.replace({"contacts": quick_way(case.contacts)}), workers=1)
+    """Bearing with contacts by formula where its case says so, and otherwise from the atlas of films.
+
+    Heat that would be solved, in many seconds, is that of a formula.
+    """
+    changes = {"contacts": quick_way(case.contacts)}
+    return solve_bearing(heat_by_formula(case).replace(changes), workers=1)
 
 
 def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, ...] = ()) -> BearingAnswer:

@@ -190,7 +190,10 @@ def film_is_bound(summary: Mapping[str, Any]) -> bool:
     A film factor that is given stands for starvation and heat as well, and so does a supply for starvation.
     """
     bearing = summary["inputs"]["bearing"]
-    heated = bearing.get("film_factor") == "inlet-shear" and bearing.get("supply", "flooded") == "flooded"
+    heated = (
+        bearing.get("film_factor") in ("inlet-shear", "solved")
+        and bearing.get("supply", "flooded") == "flooded"
+    )
     return bool(summary["bearing"]["film_factor"] == 1.0) or heated
 
 

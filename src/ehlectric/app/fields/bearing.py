@@ -7,6 +7,7 @@ from ehlectric.app.fields.kinds import ANGULAR, DEEP, ROLLERS, has_balls, has_cl
 from ehlectric.app.fields.oil import OIL
 from ehlectric.app.fields.supply import SUPPLY
 from ehlectric.app.inputs import Inputs
+from ehlectric.cases.bearings.bearing import FILM_FACTORS
 
 _ASSUMED = "The first values are assumptions: replace them with your own."
 
@@ -208,7 +209,7 @@ OPERATION = Group(
 
 
 def _factor(inputs: Inputs) -> bool:
-    return inputs.value("bearing.film_factor") not in (None, "none", "inlet-shear")
+    return inputs.value("bearing.film_factor") not in (None, *FILM_FACTORS)
 
 
 def _part(inputs: Inputs) -> bool:
@@ -235,6 +236,12 @@ FILM = Group(
                     {"bearing.film_factor": "inlet-shear"},
                     "bearing.film_factor",
                     "inlet-shear",
+                ),
+                Way(
+                    "Heat in the film, solved with the contacts",
+                    {"bearing.film_factor": "solved"},
+                    "bearing.film_factor",
+                    "solved",
                 ),
                 Way("A factor of your own", {"bearing.film_factor": 0.7}, "bearing.film_factor"),
                 Way("Isothermal, fully flooded", listed=False),

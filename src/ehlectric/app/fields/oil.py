@@ -8,6 +8,7 @@ from typing import Any
 from ehlectric.app.catalogue import oil, oil_needs
 from ehlectric.app.fields.field import Field, Group, Way
 from ehlectric.app.inputs import Inputs
+from ehlectric.cases.bearings.bearing import FILM_FACTORS
 
 _SHEET = "lubricant.temperature"
 
@@ -31,7 +32,11 @@ def _needs_exponent(inputs: Inputs) -> bool:
 
 
 def _heated(inputs: Inputs) -> bool:
-    return _sheet(inputs) and inputs.value("bearing.film_factor") == "inlet-shear"
+    return _sheet(inputs) and inputs.value("bearing.film_factor") in FILM_FACTORS[1:]
+
+
+def _solved_heat(inputs: Inputs) -> bool:
+    return _sheet(inputs) and inputs.value("bearing.film_factor") == "solved"
 
 
 def _no(_: Inputs) -> bool:
@@ -157,6 +162,15 @@ OIL = Group(
             0.08,
             0.3,
             when=_heated,
+            optional=True,
+        ),
+        Field(
+            "lubricant.heat_capacity",
+            "Heat capacity",
+            "J/kg/K",
+            1500.0,
+            2500.0,
+            when=_solved_heat,
             optional=True,
         ),
         Field("lubricant.relative_permittivity", "Relative permittivity", "", 1.8, 6.0, when=_permittivity),

@@ -11,6 +11,7 @@ from typing import Any
 from ehlectric.app.catalogue import bearing, coating
 from ehlectric.app.fields.kinds import fitted_to_kind
 from ehlectric.app.inputs import Inputs
+from ehlectric.cases.bearings.bearing import FILM_FACTORS
 
 # Groups of alternatives: inputs have the keys of one row of each.
 Rows = tuple[tuple[str, ...], ...]
@@ -116,15 +117,19 @@ def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
 
 
 def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:
-    """First value of the thermal conductivity of a data sheet, which the heat of the inlet needs."""
-    key = "lubricant.temperature.thermal_conductivity"
-    heated = inputs.value("bearing.film_factor") == "inlet-shear"
-    sheet = inputs.value("lubricant.temperature")
-    return {key: _CONDUCTIVITY} if heated and sheet is not None and inputs.value(key) is None else {}
+    """First values of the thermal properties of a data sheet, which the heat of the films needs."""
+    factor = inputs.value("bearing.film_factor")
+    needed = dict(_THERMAL[: FILM_FACTORS.index(factor)]) if factor in FILM_FACTORS else {}
+    if inputs.value("lubricant.temperature") is None:
+        return {}
+    return {key: value for key, value in needed.items() if inputs.value(key) is None}
 
 
-# Thermal conductivity of the example of a bearing; an assumption.
-_CONDUCTIVITY = "0.14 W/m/K"
+# Thermal properties of the oil of the examples, assumptions, in the order in which film factors need them.
+_THERMAL = (
+    ("lubricant.temperature.thermal_conductivity", "0.14 W/m/K"),
+    ("lubricant.heat_capacity", "2000 J/kg/K"),
+)
 
 
 def own_values(inputs: Inputs, key: str) -> dict[str, Any]:

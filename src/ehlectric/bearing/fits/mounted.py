@@ -95,13 +95,13 @@ def _expansion(material: str) -> float:
 
 
 def _temperatures(bearing: Bearing, fits: Fits) -> Temperatures:
-    """Temperatures of operation: without their own, elements have the mean of both rings."""
+    """Temperatures of operation: without their own, shaft and housing have that of their ring."""
     inner, outer = (bearing.ring_temperature(inner=side) for side in (True, False))
-    elements, shaft, housing = fits.element_temperature, fits.shaft_temperature, fits.housing_temperature
+    shaft, housing = fits.shaft_temperature, fits.housing_temperature
     return Temperatures(
         inner_ring=inner,
         outer_ring=outer,
-        elements=0.5 * (inner + outer) if elements is None else elements,
+        elements=bearing.element_temperature,
         shaft=inner if shaft is None else shaft,
         housing=outer if housing is None else housing,
     )

@@ -114,7 +114,7 @@ def speed_range(margins: QuickMargins) -> SpeedRange:
         return known[log]
 
     bearing = margins.case.bearing
-    falls = bearing.film_factor == "inlet-shear" or bearing.by_supply_rule
+    falls = bearing.heated or bearing.by_supply_rule
     for part in _FINE_PARTS if falls else _PARTS:
         try:
             at(own + math.log(part))

@@ -285,6 +285,8 @@ def _assumptions(solution: BearingSolution) -> str:
         films = f"smooth film with {supply_words(solution)}"
     elif case.bearing.film_factor == "inlet-shear":
         films = "fully flooded, smooth film with inlet shear heating"
+    elif case.bearing.film_factor == "solved":
+        films = "fully flooded, smooth film with the solved heat of pure rolling"
     stated = {one.key: (one.low, one.high) for one in case.ranges or ()}
     clause = assumption_of(case.discharge, stated.get("discharge.dielectric_strength"))
     return f"Upper bound: {films}; {clause}."

@@ -49,6 +49,12 @@ def check_quick(contacts: str, discharge: Discharge, oil: Oil) -> None:
         )
 
 
+def heat_by_formula(case: BearingCase) -> BearingCase:
+    """Case whose heat in the films is that of "inlet-shear" where it would be solved, which takes seconds."""
+    solved = case.bearing.film_factor == "solved"
+    return case.replace({"bearing.film_factor": "inlet-shear"}) if solved else case
+
+
 def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCase | None, InputError | None]:
     """Case of a bearing with contacts that are not solved, and what cannot be computed without that.
 
@@ -63,13 +69,15 @@ def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCas
     Returns
     -------
     case : BearingCase or None
-        Case with contacts from the atlas or by formula; without a dielectric strength where it needs the
-        field, unless ``constant``. None for an oil that neither describes.
+        Case with contacts from the atlas or by formula, and with the heat of its films by formula where it
+        is solved; without a dielectric strength where it needs the field, unless ``constant``. None for an
+        oil that neither describes.
     refused : InputError or None
         Key that cannot be used, and why.
     """
     contacts = quick_way(case.contacts)
-    changed, discharge, bearing = case.replace({"contacts": contacts}), case.discharge, case.bearing
+    changed = heat_by_formula(case).replace({"contacts": contacts})
+    discharge, bearing = case.discharge, case.bearing
     try:
         oil = case.lubricant.at(bearing.oil_temperature, bearing.temperature_key())
         check_quick(contacts, discharge, oil)

@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 RINGS = ("inner", "outer")
+
+# Attribute with the solved factors of the heat of both rings, where a case has them solved.
+HEAT = "heat_factor"
+
 EQUILIBRIA: Mapping[str, type[Equilibrium]] = {
     kind.__name__: kind for kind in (BallEquilibrium, RollerEquilibrium)
 }
@@ -113,6 +117,10 @@ def check(dataset: xr.Dataset) -> None:
     text_of(attributes, "version")
     for name in ("contact_angle", "entrainment_speed"):
         _check_pair(attributes, name)
+    if HEAT in attributes:
+        _check_pair(attributes, HEAT)
+        if not VALUES["positive"](np.asarray(attributes[HEAT])):
+            raise UnfitError(f"{HEAT} is not positive")
     _check_shape(text_of(attributes, "weibull_shape"))
     lengths = [dataset.sizes[f"{ring}_load"] for ring in RINGS]
     json_of(attributes, "warnings", partial(_are_warnings, lengths=lengths))

@@ -5,18 +5,20 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.contacts import ContactCurve, ContactSolution, ContactValues
 from ehlectric.bearing.loads.kinematics import Speeds
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
-from ehlectric.bearing.storage.content import EQUILIBRIA, RINGS, UNITS, check
+from ehlectric.bearing.storage.content import EQUILIBRIA, HEAT, RINGS, UNITS, check
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.checks.schema import UnfitError, case_of
 from ehlectric.runtime.stored_warnings import texts_and_codes, warnings_of
@@ -64,6 +66,7 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
             "case": solution.case.to_toml(),
             "seconds": solution.seconds,
             "equilibrium": type(solution.positions[0].equilibrium).__name__,
+            **_solved_heat(solution),
             "weibull_shape": "" if shape is None else repr(shape),
             "contact_angle": [ring.angle for ring in (solution.inner, solution.outer)],
             "entrainment_speed": [ring.speed for ring in (solution.inner, solution.outer)],
@@ -72,6 +75,28 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
             ),
         },
     )
+
+
+def _solved_heat(solution: BearingSolution) -> dict[str, list[float | None]]:
+    """Attribute with the solved factors of the heat of both rings; none of any other case."""
+    if solution.case.bearing.film_factor != "solved":
+        return {}
+    return {HEAT: [own.heat_factor for own in (solution.conditions.inner, solution.conditions.outer)]}
+
+
+def _heated(
+    conditions: BearingConditions[Any], case: BearingCase, dataset: xr.Dataset
+) -> BearingConditions[Any]:
+    """Conditions with the solved factors of the heat that a file has."""
+    if case.bearing.film_factor != "solved":
+        return conditions
+    if HEAT not in dataset.attrs:
+        raise UnfitError(f"{HEAT} is missing")
+    inner, outer = (
+        own.heated(float(factor))
+        for own, factor in zip((conditions.inner, conditions.outer), dataset.attrs[HEAT], strict=True)
+    )
+    return replace(conditions, inner=inner, outer=outer)
 
 
 def _over_elements(name: str, values: Any) -> tuple[tuple[str, ...], Array, dict[str, str]]:
@@ -132,7 +157,7 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
         raise UnfitError("it has another format")
     case = case_of(attributes, BearingCase.from_dict)
     check(dataset)
-    conditions = resolve_bearing(case)
+    conditions = _heated(resolve_bearing(case), case, dataset)
     stored = json.loads(attributes["warnings"])
     inner, outer = (
         RingContacts(conditions, name == "inner", float(angle), float(speed))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from ehlectric.bearing.loads.geometry import Geometry
@@ -52,6 +53,12 @@ def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature:
     temperature : float
         Temperature of the ring [K].
 
+    Returns
+    -------
+    FilmFactor
+        Factor with its parts. With ``film_factor`` "solved", whose heat is that of a loaded contact, ``heat``
+        and ``total`` are NaN.
+
     Raises
     ------
     InputError
@@ -63,12 +70,12 @@ def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature:
 
 
 def _heat_factor(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
-    """Film thickness over the isothermal one at a temperature [K], or the number of the file."""
+    """Film over the isothermal one at a temperature [K], or the number of the file; NaN if to be solved."""
     factor = case.bearing.film_factor
     if isinstance(factor, float):
         return factor
-    if factor == "none":
-        return 1.0
+    if factor != "inlet-shear":
+        return 1.0 if factor == "none" else math.nan
     bearing = case.bearing
     # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
     speeds = rolling_speeds(

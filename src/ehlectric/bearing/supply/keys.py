@@ -6,8 +6,9 @@ from ehlectric.cases.result_key import Keys, ResultKey
 
 SUPPLY_KEYS: Keys = {
     "heat_factor": ResultKey(
-        "part of the film factor by the heat of shear in the inlet, 1 for an isothermal film; of the ring "
-        "whose films it reduces more; null where `bearing.film_factor` is a number, which may stand for more",
+        "part of the film factor by the heat, of the inlet by formula or of the solved film; 1 for an "
+        "isothermal film; of the ring whose films it reduces more; null where `bearing.film_factor` is a "
+        "number, which may stand for more",
         "",
         "film factor of the heat",
     ),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.supply.decay import half_time
@@ -14,6 +14,12 @@ _LOW = 0.5
 
 # Half time of a film without supply [s] below which a bearing runs for long without it: all but slow ones.
 _SOON = 3600.0
+
+# Heat of a film factor in words.
+_HEAT: Mapping[object, str] = {
+    "inlet-shear": "the heat in the inlet",
+    "solved": "the solved heat in the film in pure rolling",
+}
 
 # Ways of supply that bring little or no oil to the track at each passage.
 _SPARSE = ("grease", "oil-air")
@@ -28,14 +34,17 @@ def film_note(solution: BearingSolution) -> ResultWarning:
         return ResultWarning(
             "isothermal-film",
             f"bearing.film_factor is {name}: the films are isothermal, fully flooded, smooth, so "
-            'breakdown voltages are upper bounds; "inlet-shear" or a number below 1 gives thinner films',
+            'breakdown voltages are upper bounds; "inlet-shear", "solved" or a number below 1 gives thinner '
+            "films",
         )
     left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
     if supply != "flooded":
-        of_heat = "the heat in the inlet and " if factor == "inlet-shear" else ""
+        of_heat = f"{_HEAT[factor]} and " if factor in _HEAT else ""
         found += f", of {of_heat}the supply of oil"
-    elif factor == "inlet-shear":
-        left, found = "starvation and grease", f"{found}, of the heat in the inlet"
+    elif factor in _HEAT:
+        left, found = "starvation and grease", f"{found}, of {_HEAT[factor]}"
+    if factor == "solved":
+        left = f"{left}, spin and sliding"
     return ResultWarning(
         "smooth-film",
         f"the film factor is {found}: the films are smooth, and {left} are neglected as well as roughness, "
@@ -49,7 +58,7 @@ def supply_words(solution: BearingSolution) -> str:
     by = f" by {supply}" if solution.case.bearing.by_supply_rule else ""
     heat = solution.case.bearing.film_factor
     more = f" and a given factor of {heat:.3g}" if isinstance(heat, float) else ""
-    more = " and inlet shear heating" if heat == "inlet-shear" else more
+    more = {"inlet-shear": " and inlet shear heating", "solved": " and solved heat"}.get(str(heat), more)
     return f"{found:.3g} of the flooded thickness{by}{more}"
 
 

@@ -29,6 +29,10 @@ from ehlectric.runtime.values import is_number
 
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
+
+# Values of ``film_factor`` that are words; all but the first compute the heat.
+FILM_FACTORS = ("none", "inlet-shear", "solved")
+_WORDS = ", ".join(repr(word) for word in FILM_FACTORS)
 _Length = Annotated[float, BORE]
 _Groove = Annotated[float, Quantity("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
 _Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
@@ -68,10 +72,10 @@ def _material(name: str) -> str:
 
 
 def _film_factor(value: Any) -> float | str:
-    if value in ("none", "inlet-shear"):
+    if value in FILM_FACTORS:
         return str(value)
     if not is_number(value) or not 0.0 < value <= 1.0:
-        raise InputError(got=shown(value), takes="'none', 'inlet-shear', or a number above 0 and at most 1")
+        raise InputError(got=shown(value), takes=f"{_WORDS}, or a number above 0 and at most 1")
     return float(value)
 
 
@@ -202,6 +206,18 @@ class Bearing(Table):
         parts = {f"fits.{part}_temperature": part for part in ("element", "shaft", "housing")}
         own = {key: getattr(self.fits, f"{part}_temperature", None) for key, part in parts.items()}
         return self.temperatures() | {key: value for key, value in own.items() if value is not None}
+
+    @property
+    def element_temperature(self) -> float:
+        """Temperature of the elements [K]: the given one, or the mean of both rings."""
+        given = None if self.fits is None else self.fits.element_temperature
+        rings = [self.ring_temperature(inner=inner) for inner in (True, False)]
+        return 0.5 * sum(rings) if given is None else given
+
+    @property
+    def heated(self) -> bool:
+        """Whether the heat in the films is computed, by a formula or solved."""
+        return self.film_factor in FILM_FACTORS[1:]
 
     @property
     def by_supply_rule(self) -> bool:

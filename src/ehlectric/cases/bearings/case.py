@@ -12,6 +12,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.coating import COATING_ALTERNATIVES
 from ehlectric.cases.bearings.discharge import BearingDischarge
+from ehlectric.cases.bearings.heat import check_heat
 from ehlectric.cases.bearings.motor import Motor
 from ehlectric.cases.bearings.summits import SUMMIT_ALTERNATIVES
 from ehlectric.cases.bearings.ways import Contacts
@@ -24,7 +25,6 @@ from ehlectric.cases.keywords.types import BearingKeys, Keys
 from ehlectric.cases.library.clearance import with_class
 from ehlectric.cases.oils.alternatives import displace_oil
 from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.oils.resolution import viscosity_over_temperature
 from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml
@@ -151,8 +151,7 @@ class BearingCase(Tabled, Table):
             if getattr(self.discharge, key) is not None:
                 raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
         self._check_connected()
-        if self.bearing.film_factor == "inlet-shear":
-            self._check_heating(self.lubricant)
+        check_heat(self.bearing, self.lubricant)
         if (
             self.bearing.by_supply_rule
             and self.lubricant.temperature is None
@@ -178,21 +177,6 @@ class BearingCase(Tabled, Table):
                     got=f"{one.low:.6g} to {one.high:.6g}",
                     takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
                 )
-
-    @staticmethod
-    def _check_heating(oil: Lubricant) -> None:
-        """Check that the heating by shear in the inlet is known: viscosity over temperature, conductivity."""
-        if viscosity_over_temperature(oil) is None:
-            needs = "film_factor 'inlet-shear' needs a viscosity that follows the temperature"
-            raise InputError.worded(
-                "lubricant.viscosity", f"is one for all temperatures; {needs}", takes="a data sheet or a law"
-            )
-        sheet = oil.temperature
-        if oil.law("thermal_conductivity_law") is None and (
-            sheet is None or sheet.thermal_conductivity is None
-        ):
-            key = "thermal_conductivity" if sheet is None else "temperature.thermal_conductivity"
-            raise InputError.worded(f"lubricant.{key}", "missing; film_factor 'inlet-shear' needs it")
 
     def _check_connected(self) -> None:
         """Check that one table says what is connected to the shaft, where a pit needs it."""

@@ -68,7 +68,7 @@ class FilmPhysics(Table):
                 raise InputError.missing(
                     "contact.temperature", "that of the oil in the inlet; a thermal film needs it"
                 )
-            _check_oil(lubricant, contact.temperature)
+            check_thermal_oil(lubricant, contact.temperature)
             for name in ("body_1", "body_2"):
                 thermal_properties(getattr(contact, name), f"contact.{name}")
 
@@ -98,15 +98,15 @@ def _refuse_unused(contact: Contact) -> None:
             )
 
 
-def _check_oil(oil: Lubricant, temperature: float) -> None:
-    """Raise an InputError if a property of the oil, over temperature, is missing."""
+def check_thermal_oil(oil: Lubricant, temperature: float, what: str = "a thermal film") -> None:
+    """Raise an InputError if a property of the oil, over temperature, is missing for ``what``."""
     if viscosity_over_temperature(oil) is None:
         raise InputError.missing(
             "lubricant.atmospheric_law",
-            "it or [lubricant.temperature]: a thermal film needs the viscosity over temperature",
+            f"it or [lubricant.temperature]: {what} needs the viscosity over temperature",
         )
     for key, ways in _missing(oil, temperature):
-        raise InputError.missing(f"lubricant.{key}", f"{ways}; a thermal film needs it")
+        raise InputError.missing(f"lubricant.{key}", f"{ways}; {what} needs it")
 
 
 def _missing(oil: Lubricant, temperature: float) -> Iterator[tuple[str, str]]:

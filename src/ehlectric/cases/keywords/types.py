@@ -159,7 +159,7 @@ class BearingKeys(TypedDict, total=False):
     fill : str or float
         "oil" or "air" around the films, or the part filled with oil, from 0 to 1.
     film_factor : float or str
-        Factor on the isothermal, fully flooded film, "none" or "inlet-shear".
+        Factor on the isothermal, fully flooded film, "none", "inlet-shear" or "solved".
     supply : float or str
         Way in which oil is supplied, such as "grease", or film over the fully flooded one.
     fits : mapping

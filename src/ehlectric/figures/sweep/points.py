@@ -183,7 +183,11 @@ def name_figure(ax: Axes, results: SweepResults, finding: str, more: str) -> Non
 # Texts of values that are words.
 _STATES = {
     "contacts": {contacts: f"contacts {how}" for contacts, how in HOW.items()},
-    "bearing.film_factor": {"none": "isothermal, fully flooded film", "inlet-shear": "film with inlet shear"},
+    "bearing.film_factor": {
+        "none": "isothermal, fully flooded film",
+        "inlet-shear": "film with inlet shear",
+        "solved": "film with solved heat",
+    },
     "bearing.supply": {
         "flooded": "fully flooded",
         "oil-bath": "oil bath",
