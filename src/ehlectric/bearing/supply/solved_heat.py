@@ -97,7 +97,8 @@ def solved_heat_factor(case: BearingCase, ring: RingContacts[Any], load: float) 
         raise error_of_contact(contact, error) from None
     except ConvergenceError as error:
         where = f"{ring.name} contact at {load:.4g} N"
-        raise ConvergenceError(f"bearing.film_factor 'solved': {where}: {error}") from None
+        text = f"bearing.film_factor 'solved': {where}: {error}; 'inlet-shear' needs no solved film"
+        raise ConvergenceError(text) from None
 
 
 def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
