@@ -169,4 +169,9 @@ def test_sixty_random_points_converge(first):
     for seed in range(first, first + 10):
         found = film_of(random_contact(seed, point=True))
         assert found.status == "converged", seed
+        if found.energy_imbalance > 0.01:
+            # The balance is of first order; the hottest films, 200 K and more, need a finer grid for it.
+            coarse, found = found, film_of(random_contact(seed, point=True, nodes=97))
+            assert found.status == "converged", seed
+            assert found.energy_imbalance < 0.75 * coarse.energy_imbalance, seed
         assert found.energy_imbalance < 0.01, seed
