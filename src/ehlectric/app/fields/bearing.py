@@ -7,7 +7,7 @@ from ehlectric.app.fields.kinds import ANGULAR, DEEP, ROLLERS, has_balls, has_cl
 from ehlectric.app.fields.oil import OIL
 from ehlectric.app.fields.supply import SUPPLY
 from ehlectric.app.inputs import Inputs
-from ehlectric.cases.bearings.bearing import FILM_FACTORS
+from ehlectric.cases.bearings.ways import FILM_FACTORS
 
 _ASSUMED = "The first values are assumptions: replace them with your own."
 

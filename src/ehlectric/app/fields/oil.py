@@ -8,7 +8,7 @@ from typing import Any
 from ehlectric.app.catalogue import oil, oil_needs
 from ehlectric.app.fields.field import Field, Group, Way
 from ehlectric.app.inputs import Inputs
-from ehlectric.cases.bearings.bearing import FILM_FACTORS
+from ehlectric.cases.bearings.ways import FILM_FACTORS
 
 _SHEET = "lubricant.temperature"
 

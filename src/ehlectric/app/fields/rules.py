@@ -11,7 +11,7 @@ from typing import Any
 from ehlectric.app.catalogue import bearing, coating
 from ehlectric.app.fields.kinds import fitted_to_kind
 from ehlectric.app.inputs import Inputs
-from ehlectric.cases.bearings.bearing import FILM_FACTORS
+from ehlectric.cases.bearings.ways import FILM_FACTORS
 
 # Groups of alternatives: inputs have the keys of one row of each.
 Rows = tuple[tuple[str, ...], ...]

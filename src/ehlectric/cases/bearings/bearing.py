@@ -13,6 +13,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearings.coating import Coating
 from ehlectric.cases.bearings.fits import PLAY, TEMPERATURE, Fits
 from ehlectric.cases.bearings.summits import Summits
+from ehlectric.cases.bearings.ways import FILM_FACTORS
 from ehlectric.cases.library.clearance import (
     BORE,
     ClearanceClass,
@@ -30,8 +31,6 @@ from ehlectric.runtime.values import is_number
 ROLLERS = "cylindrical roller"
 ANGULAR = "angular-contact ball"
 
-# Values of ``film_factor`` that are words; all but the first compute the heat.
-FILM_FACTORS = ("none", "inlet-shear", "solved")
 _WORDS = ", ".join(repr(word) for word in FILM_FACTORS)
 _Length = Annotated[float, BORE]
 _Groove = Annotated[float, Quantity("", above=0.5, most=1.0, reason="groove radius over ball diameter")]

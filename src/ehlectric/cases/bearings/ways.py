@@ -1,4 +1,4 @@
-"""Ways to the contacts of a bearing: solved, from the atlas of films, or by film formulas."""
+"""Ways to the contacts of a bearing, solved, from the atlas or by formula, and words for their heat."""
 
 from __future__ import annotations
 
@@ -17,6 +17,9 @@ OF_CONTACTS = {
     "atlas": "contacts from the atlas",
     "formula": "contacts by formula",
 }
+
+# Values of ``film_factor`` that are words; all but the first compute the heat.
+FILM_FACTORS = ("none", "inlet-shear", "solved")
 
 
 def quick_way(contacts: object) -> str:
