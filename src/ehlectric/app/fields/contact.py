@@ -188,6 +188,8 @@ _POINT = Group(
 _BASE, *_SHEET = OIL_OF_BEARING.fields
 _PERMITTIVITY = "lubricant.relative_permittivity"
 _COEFFICIENT = "lubricant.pressure_viscosity_coefficient"
+# In the form of a contact it stands with the other inputs of the heat.
+_OF_HEAT = "lubricant.heat_capacity"
 
 _OIL = replace(
     OIL_OF_BEARING,
@@ -204,7 +206,7 @@ _OIL = replace(
         ),
         Field(_COEFFICIENT, "Pressure-viscosity coefficient", "1/GPa", 5.0, 40.0),
         Field(_PERMITTIVITY, "Relative permittivity", "", 1.8, 8.0),
-        *(field for field in _SHEET if field.key not in (_PERMITTIVITY, _COEFFICIENT)),
+        *(field for field in _SHEET if field.key not in (_PERMITTIVITY, _COEFFICIENT, _OF_HEAT)),
     ),
 )
 
