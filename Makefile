@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow lint check format docs figures screenshots bench bench-public lock clean
+.PHONY: help install run app browser test slow thorough lint check format docs figures screenshots bench bench-public lock clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -19,6 +19,7 @@ help:
 	@echo "make browser install what the tests of the web app and of reports need: Chromium, pdftotext"
 	@echo "make test    install and run the tests"
 	@echo "make slow    run the long tests"
+	@echo "make thorough  run them with all of their random examples, and others each time; takes hours"
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make lint    the same without the tests"
 	@echo "make format  format the code"
@@ -87,6 +88,9 @@ test: $(VENV)/.test
 slow: $(VENV)/.test
 	@$(BIN)/python -m pytest -m slow --ignore=tests/browser; others=$$?; \
 	$(BIN)/python -m pytest -m slow -n 0 tests/browser && exit $$others
+
+thorough: $(VENV)/.test
+	EHLECTRIC_THOROUGH=1 $(BIN)/python -m pytest -m "slow or not slow" --ignore=tests/browser
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .

@@ -6,14 +6,16 @@ import pytest
 from hypothesis import settings
 
 from ehlectric import Case, solve
+from tests.helpers.share import THOROUGH
 
 # Jobs in the background of a shell may have interrupts ignored, which commands under test would inherit.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# How long an example takes depends on what else the machine does.
-settings.register_profile("untimed", deadline=None)
-settings.load_profile("untimed")
+# How long an example takes depends on what else the machine does. A run draws the same examples each time, so
+# that it fails for what was changed; a thorough one draws others.
+settings.register_profile("repeated", deadline=None, derandomize=not THOROUGH)
+settings.load_profile("repeated")
 
 PAPER_CONTACT = {
     "reduced_radius": "14.1 mm",

@@ -1,6 +1,7 @@
 """No input makes a command break, hang or write elsewhere, and no kill loses or mixes results.
 
-The seed is fixed. ``python -m tests.attack --seed N --hours H`` draws others.
+The seed is fixed, and each run takes a tenth of the inputs and a fifth of the kills: ``make thorough`` takes
+all. ``python -m tests.attack --seed N --hours H`` draws others.
 """
 
 from itertools import chain
@@ -12,11 +13,15 @@ from tests.attack.inputs import KINDS
 from tests.attack.kills import SCENARIOS, kill
 from tests.attack.runner import Runner
 from tests.attack.stock import make
+from tests.helpers.share import share, share_of
 
 SEED = 20
 
-# Inputs of a test: two workers share them.
+# Inputs of a test, all of them: two workers share the tests.
 BATCH = 250
+
+# Parts of the inputs, and of the kills, that a run takes.
+INPUTS, KILLS = 10, 5
 
 
 @pytest.fixture(scope="session")
@@ -45,16 +50,18 @@ def test_the_attack_has_five_thousand_inputs():
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "start", "end"), BATCHES)
 def test_mutated_inputs(kind, start, end, stock, runner, tmp_path, record_property):
-    report = attack(kind, range(start, end), SEED, stock, tmp_path, runner)
+    numbers = share(range(start, end), INPUTS)
+    report = attack(kind, numbers, SEED, stock, tmp_path, runner)
     record_property("attack", str(report))
-    assert report.inputs == end - start
+    assert report.inputs == len(numbers)
     assert not report.faults
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("command", SCENARIOS)
 def test_kills(command, stock, runner, tmp_path, record_property):
-    report = kill(command, SCENARIOS[command].kills, SEED, stock, tmp_path, runner)
+    kills = share_of(SCENARIOS[command].kills, KILLS)
+    report = kill(command, kills, SEED, stock, tmp_path, runner)
     record_property("attack", str(report))
-    assert report.inputs >= SCENARIOS[command].kills // 2
+    assert report.inputs >= kills // 2
     assert not report.faults

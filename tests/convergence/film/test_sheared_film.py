@@ -11,6 +11,7 @@ from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.profile import Across
 from ehlectric.film.sheared.traction import filled_part, traction
+from tests.helpers.share import share
 from tests.unit.film.sheared.contacts import (
     ALPHA,
     RADIUS,
@@ -210,7 +211,7 @@ def test_random_line_contacts_converge(law):
 @pytest.mark.slow
 @pytest.mark.parametrize("nodes", [401, 1601])
 def test_many_random_line_contacts_converge(nodes):
-    for conditions in random_contacts("eyring", 200, 8):
+    for conditions in share(list(random_contacts("eyring", 200, 8)), 10):
         solved(line_contact(*conditions, nodes=nodes))
 
 
@@ -218,5 +219,5 @@ def test_many_random_line_contacts_converge(nodes):
 @pytest.mark.parametrize("law", ["eyring", "carreau", "limiting"])
 def test_random_circular_contacts_converge(law):
     """Slide-to-roll ratios up to 0.5."""
-    for pressure, speed, ratio, rheology in random_contacts(law, 20, 9):
+    for pressure, speed, ratio, rheology in share(list(random_contacts(law, 20, 9)), 5):
         solved(circular_contact(pressure, speed, 0.25 * ratio, rheology))

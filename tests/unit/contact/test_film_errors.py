@@ -8,6 +8,7 @@ from ehlectric.contact.check import check_case
 from ehlectric.contact.problems import film_problem
 from ehlectric.contact.resolve import resolve
 from ehlectric.film.line import solve_film
+from tests.helpers.share import share_of
 
 
 def thicknesses(film):
@@ -77,10 +78,13 @@ def test_first_order_error_is_not_underestimated(paper_case, pressure, speed, no
 
 @pytest.mark.slow
 def test_third_order_errors_of_random_contacts(paper_case):
-    """Of 500 contacts: the true error, by four times the nodes, is above the estimate in less than 5 %."""
+    """Of 500 contacts, or of a hundred: in less than 5 % the true error is above the estimate.
+
+    The truth has four times the nodes.
+    """
     random = np.random.default_rng(19)
     ratios = []
-    while len(ratios) < 500:
+    while len(ratios) < share_of(500, 5):
         keys = {
             "contact.max_hertz_pressure": 1e9 * np.exp(random.uniform(np.log(0.3), np.log(2.5))),
             "contact.entrainment_speed": np.exp(random.uniform(np.log(0.1), np.log(15.0))),
@@ -102,10 +106,11 @@ def alone(case):
 
 @pytest.mark.slow
 def test_first_order_errors_of_random_contacts(paper_case):
-    """Of 60 contacts; the truth is a film of third order on 12 801 nodes."""
+    """Of 60 contacts, or of twenty; the truth is a film of third order on 12 801 nodes."""
     random = np.random.default_rng(16)
     ratios = []
-    for _ in range(60):
+    count = share_of(60, 3)
+    for _ in range(count):
         keys = {
             "contact.max_hertz_pressure": 1e9 * np.exp(random.uniform(np.log(0.3), np.log(2.5))),
             "contact.entrainment_speed": np.exp(random.uniform(np.log(0.1), np.log(15.0))),
@@ -115,7 +120,7 @@ def test_first_order_errors_of_random_contacts(paper_case):
         if film.converged and film.discretisation_error is not None:
             error = np.max(np.abs(thicknesses(film) / thicknesses(film_of(case, 12801)) - 1.0))
             ratios.append(film.discretisation_error / error)
-    assert len(ratios) > 50
+    assert len(ratios) > 0.8 * count
     assert np.mean(np.array(ratios) < 1.0) <= 0.05
     assert min(ratios) > 0.9
     assert np.median(ratios) < 3.0
