@@ -148,7 +148,7 @@ def assess(
         costs=discharge_costs(
             discharge, by_zone.capacitance, field.voltage, voltages.breakdown_voltage, size
         ),
-        leakage=leakage(discharge, oil),
+        leakage=leakage(discharge, oil, film, semi_axes),
     )
 
 

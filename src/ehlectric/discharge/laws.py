@@ -48,7 +48,8 @@ SOURCES = {
         "0.1 to 0.3 A/mm^2: Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2: Busse et "
         "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
     ),
-    "relaxation_time": "assumption: permittivity at ambient pressure; the same conductivity at any pressure",
+    "relaxation_time": "assumption: permittivity at ambient pressure; the same conductivity at any pressure; "
+    "in a film with heat, the mean conductivity of the Hertz zone at the mid-film temperature",
     "corner_frequency": "assumption: as relaxation_time",
 }
 

@@ -137,6 +137,8 @@ class Oil:
         Temperature [K]; None if the case gives none.
     density, conductivity : float or None
         Density [kg/m^3] and electrical conductivity [S/m] at zero pressure; None where they are not known.
+    conductivity_over : callable or None
+        Electrical conductivity [S/m] as a function of the temperature [K]; None where it is not known.
     thermal_conductivity_law, heat_capacity_law : callable or None
         Thermal conductivity [W/(m K)] and volumetric heat capacity [J/(m^3 K)], each with its derivative by
         pressure, as functions of the pressure [Pa]; None where they are not known.
@@ -167,6 +169,7 @@ class Oil:
     temperature: float | None = None
     density: float | None = None
     conductivity: float | None = None
+    conductivity_over: Callable[[Array], Array] | None = None
     thermal_conductivity_law: PressureLaw | None = None
     heat_capacity_law: PressureLaw | None = None
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 
 import numpy as np
 
+from ehlectric.arrays import Array
 from ehlectric.cases.oils.estimates import base_oil_values, estimated_alpha, of_base_oil
 from ehlectric.cases.oils.laws import LAWS
 from ehlectric.cases.oils.properties import Properties
@@ -67,6 +69,7 @@ def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
             temperature=temperature,
             density=density_of,
             conductivity=conductivity_at(oil, temperature, laws.get("conductivity_law")),
+            conductivity_over=conductivity_over(oil, laws.get("conductivity_law")),
         )
 
 
@@ -124,6 +127,24 @@ def conductivity_at(oil: Properties, temperature: float | None, law: BoundLaw | 
         name = "lubricant.conductivity_table"
         return float(interpolated(at, table.temperature, table.conductivity, table=name, arrhenius=True))
     return None if law is None else float(law.function(temperature, **law.parameters))
+
+
+def conductivity_over(oil: Properties, law: BoundLaw | None) -> Callable[[Array], Array] | None:
+    """Electrical conductivity over temperature; None without one.
+
+    In a film that heats itself the end values of a table hold beyond its ends.
+    """
+    table = oil.conductivity_table
+    if table is not None:
+        return partial(_held, temperatures=table.temperature, conductivities=table.conductivity)
+    return None if law is None else partial(law.function, **law.parameters)
+
+
+def _held(temperature: Array, *, temperatures: Sequence[float], conductivities: Sequence[float]) -> Array:
+    """Conductivity of a table at temperatures [K], with its end values beyond its ends."""
+    within = np.clip(temperature, temperatures[0], temperatures[-1])
+    name = "lubricant.conductivity_table"
+    return interpolated(within, temperatures, conductivities, table=name, arrhenius=True)
 
 
 def _needs(temperature: float | None, what: str) -> float:
