@@ -7,6 +7,7 @@ from ehlectric.bearing.contacts import ContactSolution, ContactValues
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid import Solver
@@ -160,3 +161,8 @@ def with_values(one, **values):
 def quick_contact(ring, load, way):
     """Contact with a ring at a load [N] without solving it: "atlas" or "formula"."""
     return kind_of(ring).quick[way](contact_of(ring, load))
+
+
+def numbers_of(result):
+    """Summary of a bearing without its margin, whose analysis solves the bearing some twenty times."""
+    return summary_of(result.solution)

@@ -1,12 +1,14 @@
 """Films of many rough contacts whose surfaces may touch: how many converge."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from benchmarks.mixed import surfaces
 from benchmarks.mixed_store import composite_roughness
 
 from tests.helpers.mixed_films import at_film, gaussian, mixed_film, rough_line, rough_point, sinusoid
-from tests.helpers.share import share_of
+from tests.helpers.share import share, share_of
 
 LINES = surfaces(point=False)
 POINTS = surfaces(point=True)
@@ -32,8 +34,7 @@ def test_point_with_a_thin_film(name, ratio):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ratio", [3.0, 1.0, 0.3])
-@pytest.mark.parametrize("name", LINES)
+@pytest.mark.parametrize(("name", "ratio"), share(list(product(LINES, [3.0, 1.0, 0.3])), 2))
 def test_lines_of_every_surface(name, ratio):
     """Made and measured surfaces on 3201 nodes, down to a film of a third of the roughness."""
     film = at_lambda(rough_line(LINES[name], nodes=3201), ratio)
@@ -43,8 +44,7 @@ def test_lines_of_every_surface(name, ratio):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ratio", [1.0, 0.3, 0.1])
-@pytest.mark.parametrize("name", POINTS)
+@pytest.mark.parametrize(("name", "ratio"), share(list(product(POINTS, [1.0, 0.3, 0.1])), 2))
 def test_points_of_every_surface(name, ratio):
     film = at_lambda(rough_point(POINTS[name]), ratio)
     assert film.converged

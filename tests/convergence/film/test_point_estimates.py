@@ -8,6 +8,7 @@ from ehlectric.contact.problems import point_film_problem
 from ehlectric.contact.resolve import resolve_point
 from ehlectric.film.point import solve_point_film
 from tests.helpers.places import EXAMPLES
+from tests.helpers.share import share
 
 # Of the pitch circle and of the ball [m].
 PITCH, BALL = 60e-3, 11.906e-3
@@ -92,9 +93,13 @@ def random_point_contacts(count):
 
 @pytest.mark.slow
 def test_third_order_errors_of_random_contacts():
-    """Of 40 contacts on 129 x 129 nodes, against 257 x 257: the true error is above at most one estimate."""
+    """Of 40 contacts, or of ten, on 129 x 129 nodes: the true error is above at most one estimate.
+
+    The truth has 257 x 257 nodes.
+    """
     ratios = []
-    for contact in random_point_contacts(40):
+    contacts = share(list(random_point_contacts(40)), 4)
+    for contact in contacts:
         case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 129}})
         found, fine = (alone(case.replace({"grid.nodes": n})) for n in (129, 257))
         assert found.converged
@@ -103,7 +108,7 @@ def test_third_order_errors_of_random_contacts():
                 (getattr(f, key) for f in (found, fine)) for key in ("minimum_thickness", "central_thickness")
             )
             ratios.append(max(abs(a / b - 1.0) for a, b in pairs) / found.discretisation_error)
-    assert len(ratios) > 30
+    assert len(ratios) > 0.75 * len(contacts)
     assert sum(ratio > 1.0 for ratio in ratios) <= 1
     assert max(ratios) < 2.0
 

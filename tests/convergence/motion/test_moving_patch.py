@@ -10,6 +10,7 @@ from ehlectric.film.mesh import at_centre
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.contact import TransientContact
 from ehlectric.runtime.threads import quiet_solution
+from tests.helpers.share import share
 
 WAVE = {"generator": "sinusoid", "amplitude": "50 nm", "wavelength": "60 um", "orientation": "20 deg"}
 PEAK = {"generator": "asperity", "height": "100 nm", "width": "50 um"}
@@ -88,7 +89,7 @@ def test_moving_film_on_a_patch_is_that_of_the_whole_domain():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in RUNS if name != "peak"])
+@pytest.mark.parametrize("name", share([name for name in RUNS if name != "peak"], 2))
 def test_moving_films_on_patches_are_those_of_the_whole_domain(name):
     check_run(name)
 

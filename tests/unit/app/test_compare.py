@@ -13,6 +13,7 @@ from ehlectric.app.figures import compare as figures
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.tables import effects_table, inputs_table
 from ehlectric.errors import InputError
+from tests.helpers.bearings import numbers_of
 from tests.helpers.places import EXAMPLES
 
 
@@ -40,7 +41,7 @@ def solved():
 
 def test_results_are_those_of_the_package(both, solved):
     found = {result.name: result for result in both[0].results}
-    summary = solved.summary()["bearing"]
+    summary = numbers_of(solved)["bearing"]
     for name, key in (
         ("capacitance of the bearing", "capacitance"),
         ("first breakdown voltage", "first_break"),

@@ -11,7 +11,14 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import lambda_ratio, lubrication
 from ehlectric.bearing.solver import solve_bearing
-from tests.helpers.bearings import BALLS, bearing_case, formula_contact, rigid_capacitance, with_values
+from tests.helpers.bearings import (
+    BALLS,
+    bearing_case,
+    formula_contact,
+    numbers_of,
+    rigid_capacitance,
+    with_values,
+)
 
 # Fast, so that the outer ring carries more; with a wider outer groove and room for unloaded balls.
 CHANGES = {
@@ -63,7 +70,7 @@ def test_a_bearing_from_its_elements(result):
     The result interpolates between six loads of a ring: some thousandths.
     """
     solution = result.solution
-    found, fill = result.summary()["bearing"], solution.case.bearing.fill
+    found, fill = numbers_of(result)["bearing"], solution.case.bearing.fill
     totals, firsts, throughs, films = [], [], [], []
     for position, circuit in zip(solution.positions, result.solution.circuits(fill), strict=True):
         parts = by_elements(result, position.equilibrium, fill)
@@ -169,11 +176,11 @@ def test_errors_are_the_larger_of_both_rings(result):
     bent = ContactCurve((rows[0], off, rows[2]))
     for inner, outer in ((exact, bent), (bent, exact)):
         curves = dataclasses.replace(solution, inner_curve=inner, outer_curve=outer)
-        found = BearingResult(curves).summary()["bearing"]
+        found = numbers_of(BearingResult(curves))["bearing"]
         assert found["interpolation_error"] == pytest.approx(1.0 - 1.0 / 1.1, rel=1e-9, abs=0.0)
         assert found["discretisation_error"] == 0.02
     # By formula there is no estimate of a film's error.
-    assert result.summary()["bearing"]["discretisation_error"] is None
+    assert numbers_of(result)["bearing"]["discretisation_error"] is None
 
 
 def test_rings_have_the_angle_and_speed_of_the_most_loaded_ball(result):

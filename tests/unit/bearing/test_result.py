@@ -15,7 +15,7 @@ from ehlectric.bearing.solution import lambda_ratio, plate_capacitance
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.tables.bearing import total_rows
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, with_values
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of, with_values
 
 
 @pytest.fixture(scope="module")
@@ -105,7 +105,7 @@ def test_rows_without_load_have_no_hertz_contact(rollers):
 
 def test_totals_are_means_and_least_over_a_pitch(rollers):
     circuits = rollers.solution.circuits("oil")
-    found = rollers.summary()["bearing"]
+    found = numbers_of(rollers)["bearing"]
     assert len(circuits) > 1
     assert found["capacitance"] == pytest.approx(
         np.mean([c.capacitance for c in circuits]), rel=1e-12, abs=0.0
@@ -133,7 +133,7 @@ def test_air_around_the_films(rollers):
     ]
     oil, air = (rollers.capacitance(fill) for fill in ("oil", "air"))
     assert np.mean(films) < air < oil
-    found = with_bearing(rollers, fill="air").summary()["bearing"]
+    found = numbers_of(with_bearing(rollers, fill="air"))["bearing"]
     assert found["capacitance"] == found["capacitance_air"] == pytest.approx(air, rel=1e-12, abs=0.0)
     assert found["capacitance_oil"] == pytest.approx(oil, rel=1e-12, abs=0.0)
 
@@ -152,13 +152,13 @@ def test_plates(rollers):
             expected += 1.0 / (1.0 / c[0] + 1.0 / c[1])
     first = BearingResult(dataclasses.replace(rollers.solution, positions=rollers.solution.positions[:1]))
     assert plate_capacitance(first.solution) == pytest.approx(expected, rel=2e-3, abs=0.0)
-    found = rollers.summary()["bearing"]
+    found = numbers_of(rollers)["bearing"]
     assert found["capacitance_ratio"] == pytest.approx(found["capacitance"] / found["capacitance_plate"])
 
 
 def test_motor_by_hand(rollers):
     """300 V C_wr/(C_wr + C_rf + 2 C), and with a second bearing of 0.5 nF."""
-    found = rollers.summary()["bearing"]
+    found = numbers_of(rollers)["bearing"]
     ratio = 20e-12 / (20e-12 + 1e-9 + 2.0 * found["capacitance"])
     assert found["bearing_voltage_ratio"] == pytest.approx(ratio, rel=1e-12, abs=0.0)
     assert found["shaft_voltage"] == pytest.approx(300.0 * ratio, rel=1e-12, abs=0.0)
@@ -167,10 +167,10 @@ def test_motor_by_hand(rollers):
     assert found["through_margin"] == pytest.approx(through, rel=1e-12, abs=0.0)
     solution = rollers.solution
     other = solution.case.motor.model_copy(update={"second_bearing_capacitance": 0.5e-9})
-    unlike = with_motor(rollers, other).summary()["bearing"]
+    unlike = numbers_of(with_motor(rollers, other))["bearing"]
     ratio = 20e-12 / (20e-12 + 1e-9 + 0.5e-9 + found["capacitance"])
     assert unlike["bearing_voltage_ratio"] == pytest.approx(ratio, rel=1e-12, abs=0.0)
-    alone = with_motor(rollers, None).summary()["bearing"]
+    alone = numbers_of(with_motor(rollers, None))["bearing"]
     keys = ("bearing_voltage_ratio", "shaft_voltage", "margin", "through_margin")
     assert {alone[key] for key in keys} == {None}
     assert alone["first_break"] == found["first_break"]
@@ -308,8 +308,8 @@ def test_probability_of_breakdown_at_the_shaft_voltage(rollers):
     assert float(row.shown) == pytest.approx(100.0 * found, rel=0.05)
     assert "while the films insulate" in row.note
     # Without scatter, and without a voltage, there is no probability.
-    assert rollers.summary()["bearing"]["breakdown_probability"] is None
-    assert with_motor(weibull, None).summary()["bearing"]["breakdown_probability"] is None
+    assert numbers_of(rollers)["bearing"]["breakdown_probability"] is None
+    assert numbers_of(with_motor(weibull, None))["bearing"]["breakdown_probability"] is None
 
 
 def test_a_contact_that_is_not_converged(rollers):
@@ -361,7 +361,7 @@ def test_what_some_contacts_share_names_their_loads(rollers):
 
 def test_film_factor_is_told(rollers):
     assert any(text.startswith("bearing.film_factor is none:") for text in map(str, rollers.warnings))
-    assert rollers.summary()["bearing"]["film_factor"] == 1.0
+    assert numbers_of(rollers)["bearing"]["film_factor"] == 1.0
     conditions = rollers.solution.conditions
     outer = dataclasses.replace(conditions.outer, film_factor=0.7)
     conditions = dataclasses.replace(conditions, outer=outer)
@@ -369,7 +369,7 @@ def test_film_factor_is_told(rollers):
     assert not any(text.startswith("bearing.film_factor is none:") for text in map(str, lean.warnings))
     (smooth,) = (one.text for one in lean.warnings if one.code == "smooth-film")
     assert smooth.startswith("the film factor is 0.7: the films are smooth")
-    assert lean.summary()["bearing"]["film_factor"] == 0.7
+    assert numbers_of(lean)["bearing"]["film_factor"] == 0.7
     # A one that is given is told as what it is.
     one = with_bearing(rollers, film_factor=1.0)
     assert any(
@@ -400,7 +400,7 @@ def test_pure_axial_load_is_shared_equally(axial):
 def test_plates_hold_less_than_the_bearing(axial, rollers):
     """h(0) is about the thickest of the Hertz zone, and there is oil and gap around it."""
     for result in (axial, rollers):
-        assert result.summary()["bearing"]["capacitance_ratio"] > 1.0
+        assert numbers_of(result)["bearing"]["capacitance_ratio"] > 1.0
 
 
 def test_a_doubt_about_the_oil_is_said_once():

@@ -14,7 +14,15 @@ from ehlectric.bearing.solving.contacts_and_circuit import POSITIONS
 from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.errors import MemoryLimitError
 from ehlectric.formulas.film_point import PointContact, chittenden
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, contact_case, ring_of, solve_contact
+from tests.helpers.bearings import (
+    BALLS,
+    ROLLERS,
+    bearing_case,
+    contact_case,
+    numbers_of,
+    ring_of,
+    solve_contact,
+)
 
 
 @pytest.fixture(scope="module")
@@ -82,7 +90,7 @@ def test_a_film_factor_thins_the_films(rollers):
     thick, thin = (s.inner_curve.solutions[-1].values.central_thickness for s in (rollers, lean))
     # The solved film goes with a power of the speed that is a little above the formula's 0.69.
     assert thin / thick == pytest.approx(0.7, rel=0.03)
-    breaks = [BearingResult(s).summary()["bearing"]["first_break"] for s in (rollers, lean)]
+    breaks = [numbers_of(BearingResult(s))["bearing"]["first_break"] for s in (rollers, lean)]
     assert breaks[1] / breaks[0] == pytest.approx(0.7, rel=0.05)
 
 
@@ -183,13 +191,13 @@ def test_a_6208_as_a_whole_and_between_the_loads_that_were_solved():
     case = bearing_case(BALLS)
     result = solve_bearing(case)
     solution = result.solution
-    found = result.summary()["bearing"]
+    found = numbers_of(result)["bearing"]
     assert result.converged
     assert found["discretisation_error"] < 0.03
     assert not [
         text for text in map(str, result.warnings) if "too short" in text or "does not cavitate" in text
     ]
-    formula = solve_bearing(case.replace({"contacts": "formula"})).summary()["bearing"]
+    formula = numbers_of(solve_bearing(case.replace({"contacts": "formula"})))["bearing"]
     for key in ("capacitance", "capacitance_plate", "first_break", "through_breakdown", "lambda_ratio"):
         assert formula[key] == pytest.approx(found[key], rel=0.3), key
     oil = solution.conditions.oil

@@ -1,6 +1,7 @@
 """The preconditioner of point contacts: coarse solves, cycles, and the iterations they leave."""
 
 import dataclasses
+from itertools import product
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from ehlectric.film.nested import levels_of, nested_iteration
 from ehlectric.film.state import State
 from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.places import EXAMPLES
+from tests.helpers.share import share
 from tests.unit.cases.test_point_case import point
 
 # The 20 N circle, and the ball of a bearing on its inner ring, whose ellipse has a ratio of 9.
@@ -161,9 +163,9 @@ def test_iterations_of_a_newton_step(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("nodes", [65, 129, 257, 513])
-@pytest.mark.parametrize("wedge_order", [1, 2, 3])
+@pytest.mark.parametrize(
+    ("wedge_order", "nodes", "name"), share(list(product([3, 2, 1], [513, 257, 129, 65], CASES)), 5)
+)
 def test_iterations_by_grid(name, nodes, wedge_order):
     problem = dataclasses.replace(problem_of(name, nodes), wedge_order=wedge_order)
     solutions = solved(problem)

@@ -4,7 +4,7 @@ import pytest
 
 from ehlectric.bearing.intermittency.duty import CAPACITIVE
 from ehlectric.bearing.solver import solve_bearing
-from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.bearings import BALLS, bearing_case, numbers_of
 from tests.unit.bearing.intermittency.test_duty import THIN
 
 
@@ -16,11 +16,11 @@ def result(**changes):
 def test_the_bearing_becomes_capacitive_there(speed):
     """From below and from above; the bearing at that speed, solved again, is at the limit."""
     found = result(bearing__inner_speed=speed)
-    at = result(bearing__inner_speed=found.capacitive_speed).summary()["bearing"]
+    at = numbers_of(result(bearing__inner_speed=found.capacitive_speed))["bearing"]
     assert at["contact_time_share"] == pytest.approx(CAPACITIVE, rel=0.03, abs=0.0)
     assert at["lambda_ratio"] >= 0.99
     below, above = (
-        result(bearing__inner_speed=found.capacitive_speed * part).summary()["bearing"]["regime"]
+        numbers_of(result(bearing__inner_speed=found.capacitive_speed * part))["bearing"]["regime"]
         for part in (0.97, 1.03)
     )
     assert (below, above) == ("intermittent", "capacitive")

@@ -17,7 +17,7 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.errors import InputError
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.places import EXAMPLES
 
 FORMULA = {"contacts": "formula"}
@@ -124,7 +124,7 @@ def test_speeds_with_a_partial_film_are_said():
     safe = solved(discharge__dielectric_strength="300 V/um")
     ((_, speed),) = safe.margin_analysis.speeds.partial
     at = {"bearing.inner_speed": speed}
-    found = solve_bearing(safe.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
+    found = numbers_of(solve_bearing(safe.case.replace(at), workers=1))["bearing"]["lambda_ratio"]
     assert found == pytest.approx(3.0, abs=0.02)
     assert f"Below about {rpm_text(speed)} rpm surfaces may touch, and discharge" in safe.verdict.text
 
@@ -145,7 +145,7 @@ def test_the_speed_below_which_surfaces_may_touch_is_that_of_a_lambda_ratio_of_t
         result, _, text = said_of_speeds(n)
         found = re.search(r"Below about (\d+) rpm surfaces may touch, and discharge as they part", text)
         at = {"bearing.inner_speed": f"{found[1]} rpm"}
-        ratio = solve_bearing(result.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
+        ratio = numbers_of(solve_bearing(result.case.replace(at), workers=1))["bearing"]["lambda_ratio"]
         # The film grows with the speed to the power of about 0.67: 2 % of the speed are 1.3 % of it.
         assert ratio == pytest.approx(3.0, rel=0.013)
     _, speeds, text = said_of_speeds(200)
@@ -240,7 +240,7 @@ def test_surfaces_that_touch_at_low_speed_are_said():
     speeds = rough.margin_analysis.speeds
     assert speeds.critical is None
     at = {"bearing.inner_speed": speeds.touching}
-    found = solve_bearing(rough.case.replace(at), workers=1).summary()["bearing"]["lambda_ratio"]
+    found = numbers_of(solve_bearing(rough.case.replace(at), workers=1))["bearing"]["lambda_ratio"]
     assert found == pytest.approx(1.0, abs=5e-3)
     assert "the surfaces touch: contacts open and close, discharges are likely" in rough.verdict.text
     assert f"{0.1 * 3000:.0f} to" not in rough.verdict.text

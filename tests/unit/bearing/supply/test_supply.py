@@ -14,7 +14,7 @@ from ehlectric.bearing.supply.warnings import supply_words
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.formulas.replenishment import replenishment_factor
-from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.places import EXAMPLES
 
 SIZE = {"bearing__bore": "40 mm", "bearing__outer_diameter": "80 mm"}
@@ -98,14 +98,13 @@ def test_half_time_goes_with_the_film_and_the_track():
         film = max(rows, key=lambda row: row["load"])["central_thickness"]
         times.append(summary["bearing"]["film_half_time"] * film**2)
     assert times[0] == pytest.approx(times[1], rel=1e-9)
-    assert (
-        solve_bearing(case(ROLLERS, bearing__supply="grease")).summary()["bearing"]["film_half_time"] is None
-    )
+    rollers = numbers_of(solve_bearing(case(ROLLERS, bearing__supply="grease")))
+    assert rollers["bearing"]["film_half_time"] is None
 
 
 def test_half_time_of_a_6208_is_of_the_order_of_seconds():
     """Another author has 1 to 11 s for films of 0.3 um of a 6208 with ISO VG 46."""
-    half = solve_bearing(case(bearing__supply=0.9)).summary()["bearing"]["film_half_time"]
+    half = numbers_of(solve_bearing(case(bearing__supply=0.9)))["bearing"]["film_half_time"]
     assert 1.0 < half < 11.0
 
 
@@ -194,12 +193,12 @@ def test_films_by_rule_have_two_critical_speeds():
         "bearing.inner_speed": "4000 rpm",
     }
     base = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace(changes)
-    margin = solve_bearing(base).summary()["bearing"]["margin"]
+    margin = numbers_of(solve_bearing(base))["bearing"]["margin"]
     # The first breakdown goes with the strength: the margin is now 1.5 at the speed of the file.
     result = solve_bearing(base.replace({"discharge.dielectric_strength": 15e6 * 1.5 / margin}))
     speeds = result.margin_analysis.speeds
     assert speeds.critical < base.bearing.inner_speed < speeds.upper
     for speed in (speeds.critical, speeds.upper):
         at = result.case.replace({"bearing.inner_speed": speed})
-        assert solve_bearing(at).summary()["bearing"]["margin"] == pytest.approx(1.0, abs=1e-2)
+        assert numbers_of(solve_bearing(at))["bearing"]["margin"] == pytest.approx(1.0, abs=1e-2)
     assert "by grease" in result.verdict.text
