@@ -60,6 +60,35 @@ class Solid:
 
 
 @dataclass(frozen=True)
+class ContactFriction:
+    """Friction and temperature of the most loaded contact with a ring, solved with heat in pure rolling.
+
+    Attributes
+    ----------
+    load : float
+        Load of the contact [N].
+    rolling_coefficient : float
+        Hydrodynamic rolling force on each surface, the integral of h/2 dp/dx, over the load; dimensionless.
+    power_loss : float
+        Power that the rolling takes [W].
+    inlet_temperature_rise : float
+        Largest rise of the mid-film temperature up to the middle of the contact [K].
+    max_temperature_rise : float
+        Largest rise of the mid-film temperature [K]; mostly at the pressure spike, where it grows with the
+        grid.
+    temperature_rise_error : float or None
+        Estimated error of ``max_temperature_rise`` [K]; None if unknown.
+    """
+
+    load: float
+    rolling_coefficient: float
+    power_loss: float
+    inlet_temperature_rise: float
+    max_temperature_rise: float
+    temperature_rise_error: float | None
+
+
+@dataclass(frozen=True)
 class RingConditions:
     """Conditions of the contacts with one ring: their films form at the temperature of the surfaces.
 
@@ -76,6 +105,10 @@ class RingConditions:
     heat_factor, supply_factor : float or None
         Parts of ``film_factor`` by the heat in the inlet and by the supply of oil, dimensionless; None where
         ``film_factor`` alone is known, which then contains both.
+    inlet_shear_factor : float or None
+        Part by the heat in the inlet as the formula has it; None where no heat is computed.
+    friction : ContactFriction or None
+        Friction of the most loaded contact; None where its heat is not solved.
     """
 
     temperature: float
@@ -84,11 +117,13 @@ class RingConditions:
     film_factor: float
     heat_factor: float | None = None
     supply_factor: float | None = None
+    inlet_shear_factor: float | None = None
+    friction: ContactFriction | None = None
 
-    def heated(self, factor: float) -> RingConditions:
-        """Conditions with another factor of the heat; that of the supply stays."""
+    def heated(self, factor: float, friction: ContactFriction | None = None) -> RingConditions:
+        """Conditions with a solved factor of the heat and its friction; the factor of the supply stays."""
         supply = 1.0 if self.supply_factor is None else self.supply_factor
-        return replace(self, film_factor=factor * supply, heat_factor=factor)
+        return replace(self, film_factor=factor * supply, heat_factor=factor, friction=friction)
 
 
 @dataclass(frozen=True)
@@ -141,6 +176,11 @@ class BearingConditions(Generic[G_co]):
     def supply_factor(self) -> float | None:
         """Part of the supply in the film factor of the ring where it is smaller; None where not known."""
         return _smaller(self.inner.supply_factor, self.outer.supply_factor)
+
+    @property
+    def inlet_shear_factor(self) -> float | None:
+        """Factor of the heat by formula, of the ring where it is smaller; None where no heat is computed."""
+        return _smaller(self.inner.inlet_shear_factor, self.outer.inlet_shear_factor)
 
     @property
     def ceramic(self) -> bool:

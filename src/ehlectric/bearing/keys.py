@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ehlectric.bearing.fits.keys import CLEARANCE_KEYS
+from ehlectric.bearing.friction.keys import FRICTION_KEYS
 from ehlectric.bearing.intermittency.keys import CONTACT_DUTY_KEYS, DUTY_KEYS
 from ehlectric.bearing.margin.keys import EFFECT_KEYS, MARGIN_KEYS
 from ehlectric.bearing.meter.keys import METER_KEYS
@@ -350,6 +351,7 @@ BEARING_KEYS: Keys = {
     **under("bearing", CLEARANCE_KEYS),
     **under("bearing", _CAPACITANCES),
     **under("bearing", SUPPLY_KEYS),
+    **under("bearing", FRICTION_KEYS),
     **under("bearing", DUTY_KEYS),
     **under("bearing", _VOLTAGES),
     **under("bearing", METER_KEYS),

@@ -20,7 +20,7 @@ from ehlectric.bearing.loads.totals import Equilibrium, mirrored
 from ehlectric.bearing.quick.ways import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.supply.factors import film_factor_of
-from ehlectric.bearing.supply.solved_heat import solved_heat_factor
+from ehlectric.bearing.supply.solved_heat import solved_heat
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
@@ -107,7 +107,9 @@ def _ring_conditions(case: BearingCase, geometry: Geometry, *, inner: bool) -> R
     oil = _oil(case, temperature, key)
     factor = film_factor_of(case, geometry, oil, temperature)
     strength = case.discharge.at(temperature, key)
-    return RingConditions(temperature, oil, strength, factor.total, factor.heat, factor.supply)
+    return RingConditions(
+        temperature, oil, strength, factor.total, factor.heat, factor.supply, factor.inlet_shear
+    )
 
 
 def _in_operation(bearing: Bearing, clearance: MountedClearance | None) -> Bearing:
@@ -182,11 +184,9 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     inner, outer = (_contacts_with(conditions, equilibria[0], inner=inner) for inner in (True, False))
     prepared = PreparedBearing(conditions, equilibria, inner, outer)
     if case.bearing.film_factor == "solved":
-        factors = (solved_heat_factor(case, ring, largest_load(prepared, ring)) for ring in prepared.rings)
+        found = (solved_heat(case, ring, largest_load(prepared, ring)) for ring in prepared.rings)
         rings = (conditions.inner, conditions.outer)
-        return _with_rings(
-            prepared, *(own.heated(factor) for own, factor in zip(rings, factors, strict=True))
-        )
+        return _with_rings(prepared, *(own.heated(*heat) for own, heat in zip(rings, found, strict=True)))
     _check_films(prepared)
     return prepared
 
@@ -213,9 +213,7 @@ def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearin
         Where the films leave no room between the bodies.
     """
     at = prepared.conditions
-    rings = (
-        replace(own, film_factor=factor, heat_factor=None, supply_factor=None) for own in (at.inner, at.outer)
-    )
+    rings = (RingConditions(own.temperature, own.oil, own.discharge, factor) for own in (at.inner, at.outer))
     return _with_rings(prepared, *rings)
 
 

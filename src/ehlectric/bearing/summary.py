@@ -11,6 +11,7 @@ from ehlectric.bearing.breakdown import Breakdown, breakdown_of, strength_per_vo
 from ehlectric.bearing.conditions import BearingConditions
 from ehlectric.bearing.discharges.energy import bearing_costs
 from ehlectric.bearing.discharges.leakage import shaft_leakage
+from ehlectric.bearing.friction.rolling import friction_summary
 from ehlectric.bearing.impedance import oil_relaxation_time
 from ehlectric.bearing.intermittency.duty import BearingDuty, duty_of
 from ehlectric.bearing.intermittency.summary import contact_duty, duty_summary
@@ -123,8 +124,10 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         **duty_summary(solution, duty),
         "film_factor": solution.conditions.film_factor,
         "heat_factor": solution.conditions.heat_factor,
+        "inlet_shear_factor": solution.conditions.inlet_shear_factor,
         "supply_factor": solution.conditions.supply_factor,
         "film_half_time": half_time(solution),
+        **friction_summary(solution),
         **(broken := breaks(solution)),
         "breakdown_probability": _breakdown_probability(solution, broken["margin"]),
         "strength_per_volt": strength,

@@ -155,6 +155,13 @@ LIMITS = (
         is_bearing,
     ),
     Limit(
+        "friction of the bearing",
+        "The power loss is that of the hydrodynamic resistance to rolling alone. Spin and slip of the balls, "
+        "cage, ribs, seals, churned oil and hysteresis of the steel are left out, and are the larger part of "
+        "the friction in many bearings. The contacts are flooded.",
+        solved_heat,
+    ),
+    Limit(
         "contacts of asperities",
         "The share of time in which contacts short the bearing is a fit of one test rig, or that of ideal "
         "Gaussian summits without wear. Contacts are independent of each other. How long a contact stays "
@@ -261,6 +268,18 @@ REFERENCES = (
         "Wilson and Sheu, J. Lubr. Technol. 105 (1983) 187-195",
         "10.1115/1.3254558",
         lambda case: isinstance(case, BearingCase) and case.bearing.heated,
+    ),
+    Reference(
+        "rolling resistance over load, rollers",
+        "Biboulet and Houpert, Proc. IMechE Part J 224 (2010), part 1: line contacts",
+        "10.1243/13506501JET790",
+        lambda case: solved_heat(case) and linear(case),
+    ),
+    Reference(
+        "rolling resistance over load, balls",
+        "Biboulet and Houpert, Proc. IMechE Part J 224 (2010), part 2: point contacts",
+        "10.1243/13506501JET791",
+        lambda case: solved_heat(case) and elliptical(case),
     ),
     Reference(
         "supply of oil",

@@ -17,6 +17,7 @@ from ehlectric.sweep.labels import Scale, scale_for
 from ehlectric.tables.bearing_asperities import duty_rows
 from ehlectric.tables.bearing_bounds import bounds_of
 from ehlectric.tables.bearing_films import film_factors
+from ehlectric.tables.bearing_friction import friction_rows
 from ehlectric.tables.bearing_meter import outside_rows, shaft_rows
 
 if TYPE_CHECKING:
@@ -139,6 +140,7 @@ def outcome_rows(summary: Mapping[str, Any]) -> list[Row]:
         _lambda_ratio(totals),
         *rows_of(BEARING_KEYS, summary, films),
         Row("computing time", summary["seconds"], "s", digits=".3g"),
+        *friction_rows(summary),
         *duty_rows(summary),
         Row("capacitance"),
         *rows_of(BEARING_KEYS, summary, capacitances, bounds),

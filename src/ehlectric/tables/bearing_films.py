@@ -28,6 +28,8 @@ def film_factors(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     bearing = summary["inputs"]["bearing"]
     supply = bearing.get("supply", "flooded")
     yield "film factor", "bearing.film_factor", "", _note(summary, supply)
+    if bearing["film_factor"] == "solved":
+        yield "film factor of the heat, by formula", "bearing.inlet_shear_factor", "", "(Wilson and Sheu)"
     if supply != "flooded":
         note = f"({supply}, by SKF's factor)" if isinstance(supply, str) else "(given)"
         yield "film factor of the supply", "bearing.supply_factor", "", note

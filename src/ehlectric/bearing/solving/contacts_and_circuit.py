@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 
 from ehlectric.bearing.contacts import ContactCurve, ContactSolution
@@ -53,7 +54,11 @@ def solution_of(
     LostError
         Where the process of a contact was killed twice, as by a system out of memory.
     """
-    return solution_of_prepared(case, prepare_bearing(case, positions), progress=progress, workers=workers)
+    started = time.perf_counter()
+    prepared = prepare_bearing(case, positions)
+    solution = solution_of_prepared(case, prepared, progress=progress, workers=workers)
+    # Films whose heat is solved take seconds before the first contact.
+    return replace(solution, seconds=time.perf_counter() - started)
 
 
 def solution_of_prepared(

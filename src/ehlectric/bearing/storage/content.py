@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ehlectric.bearing.conditions import ContactFriction
 from ehlectric.bearing.contacts import ContactValues
 from ehlectric.bearing.loads.balls import BallEquilibrium
 from ehlectric.bearing.loads.kinematics import Speeds
@@ -35,6 +36,10 @@ RINGS = ("inner", "outer")
 
 # Attribute with the solved factors of the heat of both rings, where a case has them solved.
 HEAT = "heat_factor"
+
+# Prefix of the attributes with the friction of the contacts whose heat is solved, a number for each ring.
+# Files of earlier versions do not have them.
+FRICTION = "solved_"
 
 EQUILIBRIA: Mapping[str, type[Equilibrium]] = {
     kind.__name__: kind for kind in (BallEquilibrium, RollerEquilibrium)
@@ -117,10 +122,7 @@ def check(dataset: xr.Dataset) -> None:
     text_of(attributes, "version")
     for name in ("contact_angle", "entrainment_speed"):
         _check_pair(attributes, name)
-    if HEAT in attributes:
-        _check_pair(attributes, HEAT)
-        if not VALUES["positive"](np.asarray(attributes[HEAT])):
-            raise UnfitError(f"{HEAT} is not positive")
+    _check_heat(attributes)
     _check_shape(text_of(attributes, "weibull_shape"))
     lengths = [dataset.sizes[f"{ring}_load"] for ring in RINGS]
     json_of(attributes, "warnings", partial(_are_warnings, lengths=lengths))
@@ -142,12 +144,26 @@ def _equilibrium_rules(dataset: xr.Dataset) -> dict[str, Rule]:
     return rules
 
 
-def _check_pair(attributes: Mapping[Any, Any], name: str) -> None:
-    """Check an attribute with a number for each ring."""
+def _check_heat(attributes: Mapping[Any, Any]) -> None:
+    """Check the attributes of contacts whose heat is solved, where a file has them."""
+    load = FRICTION + "load"
+    if HEAT in attributes:
+        _check_pair(attributes, HEAT)
+    if load in attributes:
+        for field in dataclasses.fields(ContactFriction):
+            _check_pair(attributes, FRICTION + field.name, unknown=field.name == "temperature_rise_error")
+    for name in (HEAT, load):
+        if name in attributes and not VALUES["positive"](np.asarray(attributes[name])):
+            raise UnfitError(f"{name} is not positive")
+
+
+def _check_pair(attributes: Mapping[Any, Any], name: str, *, unknown: bool = False) -> None:
+    """Check an attribute with a number for each ring, which may be NaN where it can be ``unknown``."""
     if name not in attributes:
         raise UnfitError(f"{name} is missing")
     values = np.asarray(attributes[name])
-    if values.dtype.kind not in "fiu" or values.shape != (len(RINGS),) or not VALUES["finite"](values):
+    allowed = VALUES["finite or NaN" if unknown else "finite"]
+    if values.dtype.kind not in "fiu" or values.shape != (len(RINGS),) or not allowed(values):
         raise UnfitError(f"{name} is not a number for each ring")
 
 

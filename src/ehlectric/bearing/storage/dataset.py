@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.conditions import BearingConditions
+from ehlectric.bearing.conditions import BearingConditions, ContactFriction
 from ehlectric.bearing.contacts import ContactCurve, ContactSolution, ContactValues
 from ehlectric.bearing.loads.kinematics import Speeds
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
-from ehlectric.bearing.storage.content import EQUILIBRIA, HEAT, RINGS, UNITS, check
+from ehlectric.bearing.storage.content import EQUILIBRIA, FRICTION, HEAT, RINGS, UNITS, check
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.checks.schema import UnfitError, case_of
 from ehlectric.runtime.stored_warnings import texts_and_codes, warnings_of
@@ -78,25 +78,43 @@ def dataset_of(solution: BearingSolution) -> xr.Dataset:
 
 
 def _solved_heat(solution: BearingSolution) -> dict[str, list[float | None]]:
-    """Attribute with the solved factors of the heat of both rings; none of any other case."""
+    """Attributes with the solved heat and friction of both rings; none of any other case."""
     if solution.case.bearing.film_factor != "solved":
         return {}
-    return {HEAT: [own.heat_factor for own in (solution.conditions.inner, solution.conditions.outer)]}
+    rings = (solution.conditions.inner, solution.conditions.outer)
+    friction = [vars(own.friction) for own in rings if own.friction is not None]
+    pairs = {HEAT: [own.heat_factor for own in rings]}
+    if len(friction) == len(rings):
+        pairs |= {
+            FRICTION + name: [np.nan if own[name] is None else own[name] for own in friction]
+            for name in friction[0]
+        }
+    return pairs
 
 
 def _heated(
     conditions: BearingConditions[Any], case: BearingCase, dataset: xr.Dataset
 ) -> BearingConditions[Any]:
-    """Conditions with the solved factors of the heat that a file has."""
+    """Conditions with the solved factors of the heat, and with the friction, that a file has."""
     if case.bearing.film_factor != "solved":
         return conditions
     if HEAT not in dataset.attrs:
         raise UnfitError(f"{HEAT} is missing")
     inner, outer = (
-        own.heated(float(factor))
-        for own, factor in zip((conditions.inner, conditions.outer), dataset.attrs[HEAT], strict=True)
+        own.heated(float(dataset.attrs[HEAT][k]), _friction_of(dataset, k))
+        for k, own in enumerate((conditions.inner, conditions.outer))
     )
     return replace(conditions, inner=inner, outer=outer)
+
+
+def _friction_of(dataset: xr.Dataset, ring: int) -> ContactFriction | None:
+    """Friction of the most loaded contact with a ring; None in a file of an earlier version."""
+    if FRICTION + "load" not in dataset.attrs:
+        return None
+    names = [field.name for field in dataclasses.fields(ContactFriction)]
+    numbers = {name: float(dataset.attrs[FRICTION + name][ring]) for name in names}
+    error = numbers.pop("temperature_rise_error")
+    return ContactFriction(**numbers, temperature_rise_error=None if np.isnan(error) else error)
 
 
 def _over_elements(name: str, values: Any) -> tuple[tuple[str, ...], Array, dict[str, str]]:

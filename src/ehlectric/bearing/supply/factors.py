@@ -32,11 +32,15 @@ class FilmFactor:
         Part of the heat in the inlet; None where a number stands for it and possibly for more.
     supply : float or None
         Part of the supply of oil; None where ``total`` contains it, as in a measured film factor.
+    inlet_shear : float or None
+        Part of the heat in the inlet by formula, also where the heat is to be solved; None where no heat is
+        computed.
     """
 
     total: float
     heat: float | None = None
     supply: float | None = None
+    inlet_shear: float | None = None
 
 
 def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> FilmFactor:
@@ -64,18 +68,18 @@ def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature:
     InputError
         Where the rule for a way of supply leaves next to no film.
     """
-    heat, supply = _heat_factor(case, geometry, oil, temperature), _supply_factor(case.bearing, oil)
-    known = None if isinstance(case.bearing.film_factor, float) else heat
-    return FilmFactor(heat * supply, known, supply)
-
-
-def _heat_factor(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
-    """Film over the isothermal one at a temperature [K], or the number of the file; NaN if to be solved."""
-    factor = case.bearing.film_factor
+    factor, supply = case.bearing.film_factor, _supply_factor(case.bearing, oil)
     if isinstance(factor, float):
-        return factor
-    if factor != "inlet-shear":
-        return 1.0 if factor == "none" else math.nan
+        return FilmFactor(factor * supply, None, supply)
+    if factor == "none":
+        return FilmFactor(supply, 1.0, supply)
+    by_formula = _inlet_shear(case, geometry, oil, temperature)
+    heat = by_formula if factor == "inlet-shear" else math.nan
+    return FilmFactor(heat * supply, heat, supply, by_formula)
+
+
+def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
+    """Film over the isothermal one at a temperature [K] by the formula of the heat in the inlet."""
     bearing = case.bearing
     # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
     speeds = rolling_speeds(

@@ -12,6 +12,13 @@ SUPPLY_KEYS: Keys = {
         "",
         "film factor of the heat",
     ),
+    "inlet_shear_factor": ResultKey(
+        "part of the film factor by the heat in the inlet after Wilson and Sheu, also beside that of the "
+        "solved film; of the ring where it is smaller; null unless `bearing.film_factor` is "
+        '"inlet-shear" or "solved"',
+        "",
+        "film factor of the heat, by formula",
+    ),
     "supply_factor": ResultKey(
         "part of the film factor by the supply of oil: film over the fully flooded one, 1 for "
         '"flooded"; of the ring whose films it reduces more',

@@ -1,4 +1,4 @@
-"""Film factor of the heat in a contact of a bearing, from its film solved with and without heat."""
+"""Film factor and friction of a contact of a bearing, from its film solved with and without heat."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
+from ehlectric.bearing.conditions import ContactFriction
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.ring_contacts import Contact, RingContacts, check_contact, error_of_contact
 from ehlectric.cases.bearings.case import BearingCase
@@ -18,6 +21,8 @@ from ehlectric.contact.heat.oil import hot_oil
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.film.line import Film
+from ehlectric.film.point import PointFilm
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.thermal.physics import Body, Physics, Thermal
 from ehlectric.runtime.log import LOGGER
@@ -35,7 +40,7 @@ _GRIDS = 2
 
 @dataclass(frozen=True)
 class _HotContact:
-    """Contact whose film is solved with and without heat; equal ones have the same factor.
+    """Contact whose film is solved with and without heat; equal ones have the same heat.
 
     Attributes
     ----------
@@ -59,8 +64,8 @@ class _HotContact:
     setup: Setup = field(compare=False, repr=False)
 
 
-def solved_heat_factor(case: BearingCase, ring: RingContacts[Any], load: float) -> float:
-    """Central film thickness of a contact with heat over that of the isothermal Newtonian one.
+def solved_heat(case: BearingCase, ring: RingContacts[Any], load: float) -> tuple[float, ContactFriction]:
+    """Film factor of the heat in a contact, and its friction and temperature in pure rolling.
 
     Parameters
     ----------
@@ -73,8 +78,10 @@ def solved_heat_factor(case: BearingCase, ring: RingContacts[Any], load: float) 
 
     Returns
     -------
-    float
-        Factor, dimensionless; that of the same contact is kept.
+    factor : float
+        Central film thickness with heat over that of the isothermal Newtonian film, dimensionless.
+    friction : ContactFriction
+        Rolling friction and temperature of the film with heat. Those of the same contact are kept.
 
     Raises
     ------
@@ -92,13 +99,16 @@ def solved_heat_factor(case: BearingCase, ring: RingContacts[Any], load: float) 
     contact: Contact = kind.contact(_flooded(ring), load)
     check_contact(contact)
     try:
-        return _factor(_hot(case, contact, kind.grid(contact)))
+        factor, found = _solved(_hot(case, contact, kind.grid(contact)))
     except InputError as error:
         raise error_of_contact(contact, error) from None
     except ConvergenceError as error:
         where = f"{ring.name} contact at {load:.4g} N"
         text = f"bearing.film_factor 'solved': {where}: {error}; 'inlet-shear' needs no solved film"
         raise ConvergenceError(text) from None
+    # Load and power of a line contact are those of a metre of it.
+    length = case.bearing.roller_length or 1.0
+    return factor, replace(found, load=load, power_loss=length * found.power_loss)
 
 
 def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
@@ -151,8 +161,8 @@ def _with_nodes(grid: Grid, parts: int) -> Grid:
 
 
 @lru_cache(maxsize=256)
-def _factor(hot: _HotContact) -> float:
-    """Central film with heat over that without it; two seconds for a roller, some more for a ball."""
+def _solved(hot: _HotContact) -> tuple[float, ContactFriction]:
+    """Central film with heat over that without it, and friction; seconds for a roller, more for a ball."""
     conditions, lubricant = hot.conditions, hot.lubricant
     stress = lubricant.eyring_stress
     rheology = Rheology() if stress is None else Rheology("eyring", {"eyring_stress": stress})
@@ -167,6 +177,23 @@ def _factor(hot: _HotContact) -> float:
             factor = float(film.central_thickness / film.heated.isothermal_central_thickness)
             nodes = " x ".join(map(str, film.thickness.shape))
             LOGGER.info("film factor of the heat: %.4g on %s nodes", factor, nodes)
-            return factor
+            return factor, _friction(film, conditions, hot.temperature)
         setup = replace(setup, grid=_with_nodes(setup.grid, 2 * (setup.grid.nodes_along - 1)))
     raise ConvergenceError(f"film with heat, {film.status} at a residual of {film.residual:.1e}")
+
+
+def _friction(
+    film: Film | PointFilm, conditions: Conditions | PointConditions, temperature: float
+) -> ContactFriction:
+    """Friction and temperature of a film with heat whose oil enters with a temperature [K]."""
+    heated = film.heated
+    assert heated is not None and heated.mid_temperature is not None
+    assert heated.max_temperature_rise is not None
+    return ContactFriction(
+        load=conditions.load if isinstance(conditions, PointConditions) else conditions.load_per_length,
+        rolling_coefficient=heated.rolling_coefficient,
+        power_loss=heated.power_loss,
+        inlet_temperature_rise=float(np.max(heated.mid_temperature[film.x <= 0.0])) - temperature,
+        max_temperature_rise=heated.max_temperature_rise,
+        temperature_rise_error=heated.temperature_rise_error,
+    )

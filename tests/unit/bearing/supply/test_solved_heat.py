@@ -41,7 +41,7 @@ def rollers():
 def test_solved_factor_of_balls_is_near_to_the_formula():
     """Solved films in pure rolling are 0.6 to 2 % above Wilson and Sheu, by docs/theory/bearing.md."""
     quick = prepare_bearing(case(factor="inlet-shear"), 1)
-    solved = solved_heat.solved_heat_factor(case(), quick.inner, largest_load(quick, quick.inner))
+    solved, _ = solved_heat.solved_heat(case(), quick.inner, largest_load(quick, quick.inner))
     assert 1.0 < solved / quick.conditions.inner.film_factor < 1.03
     assert solved < 1.0
 
@@ -106,16 +106,16 @@ def test_an_eyring_stress_thins_the_film_a_little_more():
 @pytest.mark.usefixtures("rollers")
 def test_a_contact_is_solved_once():
     """Strength, roughness and motor change no film."""
-    known = solved_heat._factor.cache_info().misses
+    known = solved_heat._solved.cache_info().misses
     prepare_bearing(
         case(ROLLERS, bearing__composite_rq="0.1 um", discharge__dielectric_strength="20 V/um"), 4
     )
-    assert solved_heat._factor.cache_info().misses == known
+    assert solved_heat._solved.cache_info().misses == known
 
 
 def test_stored_results_keep_the_factor(rollers, tmp_path, monkeypatch):
     save(rollers, tmp_path)
-    monkeypatch.setattr(solved_heat, "_factor", None)
+    monkeypatch.setattr(solved_heat, "_solved", None)
     assert summary_of(load(tmp_path / NETCDF).solution) == summary_of(rollers.solution)
 
 
@@ -145,7 +145,7 @@ def test_an_unconverged_film_has_no_factor(monkeypatch):
 
 def test_quick_analyses_take_the_formula(monkeypatch):
     """Checks and curves over the speed would otherwise solve dozens of films."""
-    monkeypatch.setattr(solved_heat, "_factor", None)
+    monkeypatch.setattr(solved_heat, "_solved", None)
     check_bearing(case())
     changed, _ = quick_case(case())
     assert changed.bearing.film_factor == "inlet-shear"
@@ -181,7 +181,7 @@ def test_a_sweep_varies_the_word(tmp_path):
 
 
 def test_the_app_answers_at_once_by_the_formula(monkeypatch):
-    monkeypatch.setattr(solved_heat, "_factor", None)
+    monkeypatch.setattr(solved_heat, "_solved", None)
     answer = quick_answer(tomllib.loads(case(ROLLERS).to_toml()))
     assert answer.numbers["heat_factor"] == resolve_bearing(case(ROLLERS, "inlet-shear")).heat_factor
 
