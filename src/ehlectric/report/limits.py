@@ -157,8 +157,8 @@ LIMITS = (
     Limit(
         "friction of the bearing",
         "The power loss is that of the hydrodynamic resistance to rolling alone. Spin and slip of the balls, "
-        "cage, ribs, seals, churned oil and hysteresis of the steel are left out, and are the larger part of "
-        "the friction in many bearings. The contacts are flooded.",
+        "cage, ribs, seals, churned oil and hysteresis of the steel are left out, and may be the larger part "
+        "of the friction. The contacts are flooded.",
         solved_heat,
     ),
     Limit(

@@ -16,8 +16,7 @@ from ehlectric.discharge.verdict import ratio_text
 from ehlectric.sweep.labels import Scale, scale_for
 from ehlectric.tables.bearing_asperities import duty_rows
 from ehlectric.tables.bearing_bounds import bounds_of
-from ehlectric.tables.bearing_films import film_factors
-from ehlectric.tables.bearing_friction import friction_rows
+from ehlectric.tables.bearing_films import film_factors, friction_rows
 from ehlectric.tables.bearing_meter import outside_rows, shaft_rows
 
 if TYPE_CHECKING:

@@ -1,9 +1,11 @@
-"""Rows of the film factor of a bearing: heat in the inlet and supply of oil."""
+"""Rows of the films of a bearing: their factor, of heat and supply of oil, and the friction of their heat."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from typing import Any
+
+from ehlectric.cases.row import Row, amount_row
 
 # Heat of a film factor in words.
 _HEAT: Mapping[object, str] = {
@@ -43,3 +45,34 @@ def _note(summary: Mapping[str, Any], supply: object) -> str:
     heat = _HEAT.get(summary["inputs"]["bearing"]["film_factor"], "")
     oil = "supply of oil" if supply != "flooded" else ""
     return f"({' and '.join(filter(None, (heat, oil))) or 'given'})"
+
+
+def friction_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of the rolling resistance and of the heat in the most loaded contacts.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a bearing, SI units; there are no rows where no heat is solved, and for results of earlier
+        versions.
+
+    Yields
+    ------
+    Row
+        Heading and rows.
+    """
+    totals = summary["bearing"]
+    power = totals.get("rolling_power_loss")
+    if power is None:
+        return
+    yield Row("friction, hydrodynamic rolling alone")
+    yield amount_row("power loss by rolling", power, "W", ", without spin, slip, cage, seals and churned oil")
+    yield Row("rolling moment", f"{1e3 * totals['rolling_moment']:.3g}", "N mm")
+    for ring in ("inner", "outer"):
+        loss = totals[f"{ring}_contact_power_loss"]
+        coefficient = f", rolling coefficient {totals[f'{ring}_rolling_coefficient']:.2g}"
+        yield amount_row(f"power loss, most loaded {ring} contact", loss, "W", coefficient)
+        peak, error = (totals[f"{ring}_{key}"] for key in ("max_temperature_rise", "temperature_rise_error"))
+        known = "" if error is None else f" ± {error:.1g}"
+        note, rise = f", largest in the film {peak:.2g}{known} K", totals[f"{ring}_inlet_temperature_rise"]
+        yield Row(f"inlet temperature rise, {ring} contact", f"{rise:.2g}", "K", note)

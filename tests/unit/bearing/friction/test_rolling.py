@@ -232,8 +232,19 @@ def test_table_says_what_the_power_is_of(rollers):
     }
 
 
+def test_solved_rollers_with_solved_heat(rollers):
+    """Films and friction are both solved: the friction is that beside contacts by formula."""
+    solution = solve_bearing(case(ROLLERS, contacts="solved"), workers=1).solution
+    assert solution.converged
+    assert solution.conditions.inner.friction == rollers.conditions.inner.friction
+    assert rolling_power_loss(solution) == pytest.approx(rolling_power_loss(rollers), rel=1e-12)
+    films = [one.inner_curve.at(np.array([500.0, 1000.0])).central_thickness for one in (solution, rollers)]
+    assert films[0] == pytest.approx(films[1], rel=0.1)
+    assert summary_of(solution)["bearing"]["contacts"] == "solved"
+
+
 @pytest.mark.slow
-def test_solved_contacts_with_solved_heat(tmp_path):
+def test_solved_balls_with_solved_heat(tmp_path):
     """Balls under axial load alone have one load on each ring: films of the factor, friction, file."""
     axial = {
         "bearing__radial_load": "0 N",
