@@ -31,6 +31,8 @@ def film_factors(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     supply = bearing.get("supply", "flooded")
     yield "film factor", "bearing.film_factor", "", _note(summary, supply)
     if bearing["film_factor"] == "solved":
+        if supply != "flooded":
+            yield "film factor of the heat", "bearing.heat_factor", "", "(solved)"
         yield "film factor of the heat, by formula", "bearing.inlet_shear_factor", "", "(Wilson and Sheu)"
     if supply != "flooded":
         note = f"({supply}, by SKF's factor)" if isinstance(supply, str) else "(given)"
@@ -66,7 +68,9 @@ def friction_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     if power is None:
         return
     yield Row("friction, hydrodynamic rolling alone")
-    yield amount_row("power loss by rolling", power, "W", ", without spin, slip, cage, seals and churned oil")
+    flooded = summary["inputs"]["bearing"].get("supply", "flooded") == "flooded"
+    note = f"{'' if flooded else ', of flooded contacts'}, without spin, slip, cage, seals and churned oil"
+    yield amount_row("power loss by rolling", power, "W", note)
     yield Row("rolling moment", f"{1e3 * totals['rolling_moment']:.3g}", "N mm")
     for ring in ("inner", "outer"):
         loss = totals[f"{ring}_contact_power_loss"]
