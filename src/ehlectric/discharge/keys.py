@@ -158,8 +158,8 @@ _COSTS: Keys = {
         "published limits of the current density", "A/m**2", "published limit of the current density"
     ),
     "relaxation_time": ResultKey(
-        "charge relaxation time ε0 ε_r/σ at ambient pressure; in a film with heat, with the mean conductivity "
-        "of its Hertz zone",
+        "charge relaxation time ε0 ε_r/σ at ambient pressure; in a film with heat, with the mean "
+        "conductivity of its Hertz zone",
         "s",
         "charge relaxation time",
         r"$\varepsilon/\sigma$",
