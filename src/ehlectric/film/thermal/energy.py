@@ -2,8 +2,8 @@
 
 The march solves the columns from the inlet to the outlet. The fluxes into the bodies at the column itself are
 implicit, those of the columns before it enter by the history of the moving surfaces. In the reverse flow of
-the inlet the columns depend on those behind them; there a block elimination is exact. Three parts are taken
-from the last iterate: the history of the surfaces in the reverse flow, the heat that a slow body conducts
+the inlet the columns depend on those behind them; there one banded system of all columns is exact. Three
+parts are taken from the last iterate: the history of the surfaces in the reverse flow, the heat that a slow body conducts
 upstream, and the convection across the contact. The march is repeated for the last two.
 """
 
@@ -12,8 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import lapack
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, IntArray
 from ehlectric.film.thermal.columns import HeatColumns
 from ehlectric.film.thermal.half_space import Surface
 from ehlectric.film.thermal.mixing import Mixing
@@ -92,13 +93,12 @@ def solve_energy(
 
 @dataclass(frozen=True, eq=False)
 class _March:
-    """Factorised columns: inverses behind the reverse flow, and the block elimination in it."""
+    """Factorised columns: a banded system up to the end of the reverse flow, and inverses behind it."""
 
     columns: HeatColumns
     surfaces: tuple[Surface, Surface]
-    reverse: int  # number of columns up to the last one with reverse flow
-    inverse: Array  # (nx, ny, nz, nz)
-    passed: Array  # (reverse, ny, nz, nz): dependence of a column on the next one
+    entry: _Entry | None
+    inverse: Array  # of the columns behind the entry, (n, ny, nz, nz)
 
     @classmethod
     def of(cls, columns: HeatColumns, surfaces: tuple[Surface, Surface]) -> _March:
@@ -106,73 +106,37 @@ class _March:
         for row, surface in zip((0, -1), surfaces, strict=True):
             matrix[..., row, row] += 1.0 / surface.downstream[0]
         back = np.flatnonzero(np.any(columns.after[:-1], axis=(1, 2)))
-        reverse = int(back[-1]) + 1 if back.size else 0
-        passed = np.zeros((reverse, *matrix.shape[1:]))
-        for i in range(reverse + 2):
-            if i >= len(matrix):
-                break
-            # Columns before i are known as their part of T_i; the columns i - 1 and i - 2 may be eliminated.
-            if 0 < i <= reverse:
-                known = columns.before[i][..., np.newaxis] * passed[i - 1]
-                if i > 1:
-                    known += columns.second[i][..., np.newaxis] * (passed[i - 2] @ passed[i - 1])
-                matrix[i] -= known
-            if i < reverse:
-                passed[i] = np.linalg.inv(matrix[i]) * columns.after[i][..., np.newaxis, :]
-        inverse: Array = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
-        return cls(columns, surfaces, reverse, inverse, passed)
+        entry = _Entry.of(matrix, columns, int(back[-1]) + 2) if back.size else None
+        behind = matrix[entry.count if entry else 0 :]
+        return cls(columns, surfaces, entry, np.asarray(np.linalg.inv(behind), dtype=np.float64))
 
     def __call__(self, last: Heat, inlet_temperature: float, *, symmetric: bool) -> Heat:
-        columns, reverse = self.columns, self.reverse
-        nx = len(columns.right)
+        columns, surfaces, flux = self.columns, self.surfaces, last.flux.copy()
+        nx, ny, nz = columns.right.shape
         old = np.moveaxis(last.temperature, 0, -1)
         right = columns.right + self._from_sides(old, inlet_temperature, symmetric=symmetric)
-        ahead = [surface.rise_ahead(flux) for surface, flux in zip(self.surfaces, last.flux, strict=True)]
-        new = np.empty_like(old)
-        flux = last.flux.copy()
-        inlet = np.full(old.shape[1:], inlet_temperature)
-        own = [surface.downstream[0] for surface in self.surfaces]
-        tails = [np.ascontiguousarray(surface.downstream[::-1]) for surface in self.surfaces]
-        resting = np.empty((2, *old.shape[1:2]))
-
-        def solved(i: int, before: Array, second: Array) -> Array:
-            r = right[i] + columns.before[i] * before + columns.second[i] * second
-            for body, row in ((0, 0), (1, -1)):
-                history = tails[body][nx - 1 - i : nx - 1] @ flux[body, :i] + ahead[body][i]
-                resting[body] = self.surfaces[body].bulk + history
-                r[:, row] += resting[body] / own[body]
-            return np.asarray((self.inverse[i] @ r[..., np.newaxis])[..., 0])
-
-        # Reverse flow: T_i = passed_i T_(i+1) + part_i, with the fluxes of the last iterate.
-        parts: list[Array] = []
-        held = np.empty((reverse, 2, old.shape[1]))
-        for i in range(reverse):
-            before = parts[i - 1] if i > 0 else inlet
-            second = inlet
-            if i > 1:
-                second = (self.passed[i - 2] @ before[..., np.newaxis])[..., 0] + parts[i - 2]
-            parts.append(solved(i, before, second))
-            held[i] = resting
-        for i in range(reverse, nx):
-            if i == reverse and reverse > 0:
-                before = parts[i - 1]
-                second = inlet
-                if i > 1:
-                    second = (self.passed[i - 2] @ before[..., np.newaxis])[..., 0] + parts[i - 2]
-                new[i] = solved(i, before, second)
-                self._back(new, parts, held, flux)
-            else:
-                new[i] = solved(i, new[i - 1] if i > 0 else inlet, new[i - 2] if i > 1 else inlet)
-            for body, row in ((0, 0), (1, -1)):
-                flux[body, i] = (new[i, :, row] - resting[body]) / own[body]
-        return Heat(np.ascontiguousarray(np.moveaxis(new, -1, 0)), flux)
-
-    def _back(self, new: Array, parts: list[Array], held: Array, flux: Array) -> None:
-        """Temperatures and fluxes of the columns with reverse flow, once the next column is known."""
-        for i in range(self.reverse - 1, -1, -1):
-            new[i] = (self.passed[i] @ new[i + 1][..., np.newaxis])[..., 0] + parts[i]
-            for body, row in ((0, 0), (1, -1)):
-                flux[body, i] = (new[i, :, row] - held[i, body]) / self.surfaces[body].downstream[0]
+        # Surface temperatures without the flux at the column itself, (2, nx, ny); first without all before it.
+        rest = np.stack([s.bulk + s.rise_ahead(q) for s, q in zip(surfaces, flux, strict=True)])
+        own = np.array([surface.downstream[0] for surface in surfaces])[:, np.newaxis]
+        tails = np.stack([surface.downstream[::-1] for surface in surfaces])[:, np.newaxis]
+        # Two columns of the inlet temperature lie before the first one.
+        new = np.full((nx + 2, ny, nz), inlet_temperature)
+        at_surfaces = new[2:, :, :: nz - 1].transpose(2, 0, 1)
+        start = 0
+        if self.entry is not None:
+            start = self.entry.count
+            before = np.stack([s.rise_behind(q[:start]) for s, q in zip(surfaces, flux, strict=True)])
+            rest[:, :start] += before
+            right[:start, :, :: nz - 1] += (rest[:, :start] / own[..., np.newaxis]).transpose(1, 2, 0)
+            new[2 : start + 2] = self.entry(right[:start], inlet_temperature)
+            flux[:, :start] = (at_surfaces[:, :start] - rest[:, :start]) / own[..., np.newaxis]
+        for i in range(start, nx):
+            rest[:, i] += (tails[..., nx - 1 - i : nx - 1] @ flux[:, :i])[:, 0]
+            r = right[i] + columns.before[i] * new[i + 1] + columns.second[i] * new[i]
+            r[:, :: nz - 1] += (rest[:, i] / own).T
+            new[i + 2] = (self.inverse[i - start] @ r[..., np.newaxis])[..., 0]
+            flux[:, i] = (at_surfaces[:, i] - rest[:, i]) / own
+        return Heat(np.ascontiguousarray(np.moveaxis(new[2:], -1, 0)), flux)
 
     def _from_sides(self, old: Array, inlet_temperature: float, *, symmetric: bool) -> Array | float:
         """Heat that the flow across the contact carries from the neighbouring lines of the last iterate."""
@@ -182,3 +146,45 @@ class _March:
         if symmetric:
             padded[:, 0] = old[:, 1]
         return np.asarray(self.columns.from_left * padded[:, :-2] + self.columns.from_right * padded[:, 2:])
+
+
+@dataclass(frozen=True, eq=False)
+class _Entry:
+    """Columns of the inlet up to the first one behind the reverse flow, as one factorised banded system.
+
+    The lines along x are independent parts of it. All couplings of the columns are diagonal.
+    """
+
+    columns: HeatColumns
+    count: int  # columns along x
+    factors: Array
+    pivots: IntArray
+
+    @classmethod
+    def of(cls, matrix: Array, columns: HeatColumns, count: int) -> _Entry:
+        """Factorise ``count`` columns; ``matrix`` has the fluxes into the bodies at each column."""
+        ny, nz = columns.right.shape[1:]
+        lower, upper = 2 * nz, nz
+        # Columns of the band storage of LAPACK, (ny, count, nz, 3 kl/2 + ...), with room for the pivoting.
+        band = np.zeros((ny, count, nz, 2 * lower + upper + 1))
+        row, column = np.indices((nz, nz))
+        node, centre = np.arange(nz), lower + upper
+        lines = [values[:count].swapaxes(0, 1) for values in (columns.before, columns.second, columns.after)]
+        before, second, after = lines
+        band[:, :, column, centre + row - column] = matrix[:count].swapaxes(0, 1)
+        band[:, :-1, node, centre + nz] = -before[:, 1:]
+        band[:, :-2, node, centre + 2 * nz] = -second[:, 2:]
+        band[:, 1:, node, centre - nz] = -after[:, :-1]
+        flat = band.reshape(-1, band.shape[-1]).T
+        factors, pivots, _ = lapack.dgbtrf(flat, lower, upper, overwrite_ab=1)
+        return cls(columns, count, factors, pivots)
+
+    def __call__(self, right: Array, inlet_temperature: float) -> Array:
+        """Temperatures (count, ny, nz) for a right side with the fluxes of the columns before each."""
+        right = right.copy()
+        right[0] += (self.columns.before[0] + self.columns.second[0]) * inlet_temperature
+        right[1] += self.columns.second[1] * inlet_temperature
+        lines = right.swapaxes(0, 1)
+        nz = right.shape[-1]
+        found, _ = lapack.dgbtrs(self.factors, 2 * nz, nz, lines.reshape(-1), self.pivots)
+        return np.asarray(found.reshape(lines.shape).swapaxes(0, 1))

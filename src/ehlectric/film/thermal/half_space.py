@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from scipy.linalg import toeplitz
+from scipy.linalg import matmul_toeplitz
 from scipy.special import k0e, k1e
 
 from ehlectric.arrays import Array
@@ -50,18 +49,19 @@ class Surface:
 
     def rise(self, flux: Array) -> Array:
         """Temperature rise (nx, ny) [K] by a flux (nx, ny) into the body [W/m^2]."""
-        return np.asarray((toeplitz(self.downstream, np.zeros(len(flux))) + self._ahead) @ flux)
+        return self.downstream[0] * flux + self.rise_behind(flux) + self.rise_ahead(flux)
+
+    def rise_behind(self, flux: Array) -> Array:
+        """Part of the temperature rise (n, ny) [K] at the first n nodes by the flux further upstream."""
+        nodes = len(flux)
+        column = np.concatenate([[0.0], self.downstream[1:nodes]])
+        return np.asarray(matmul_toeplitz((column, np.zeros(nodes)), flux))
 
     def rise_ahead(self, flux: Array) -> Array:
         """Part of the temperature rise (nx, ny) [K] by the flux further downstream."""
         if not self.upstream.any():
             return np.zeros_like(flux)
-        return np.asarray(self._ahead @ flux)
-
-    @cached_property
-    def _ahead(self) -> Array:
-        """Matrix of the influence upstream, (nx, nx)."""
-        return np.asarray(toeplitz(np.zeros(self.upstream.size), self.upstream))
+        return np.asarray(matmul_toeplitz((np.zeros(self.upstream.size), self.upstream), flux))
 
 
 def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half_width: float) -> Surface:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -41,8 +41,17 @@ class Property:
         return np.clip(self.t, -1.0, 1.0)
 
     @cached_property
+    def _polynomials(self) -> Array:
+        """Chebyshev polynomials at the temperatures, shape (n, nz, ...)."""
+        return _polynomials(self._inside, len(self.values))
+
+    def _series(self, coefficients: Array) -> Array:
+        """Chebyshev series (m, ...) at the temperatures, m <= n."""
+        return np.einsum("k...,k...->...", self._polynomials[: len(coefficients)], coefficients)
+
+    @cached_property
     def _by_t(self) -> Array:
-        return _series(_derived(self.values), self._inside)
+        return self._series(_derived(self.values))
 
     @cached_property
     def _beyond(self) -> Array | None:
@@ -53,16 +62,16 @@ class Property:
     @cached_property
     def value(self) -> Array:
         """Values of the property."""
-        inside = _series(self.values, self._inside)
+        inside = self._series(self.values)
         return inside if self._beyond is None else inside + self._by_t * self._beyond
 
     @cached_property
     def by_pressure(self) -> Array:
         """Derivative by pressure [1/Pa]."""
-        inside = _series(self.slopes, self._inside)
+        inside = self._series(self.slopes)
         if self._beyond is None:
             return inside
-        return inside + _series(_derived(self.slopes), self._inside) * self._beyond
+        return inside + self._series(_derived(self.slopes)) * self._beyond
 
     @cached_property
     def by_temperature(self) -> Array:
@@ -195,9 +204,10 @@ class HotOil:
         self, law: Callable[[Oil, Array], tuple[Array, Array]], pressure: Array, temperature: Array
     ) -> Property:
         """Values of a law at pressures and temperatures, with their derivatives."""
-        pairs = [law(oil, pressure) for oil in self.oils]
-        values = np.stack([np.broadcast_to(value, pressure.shape) for value, _ in pairs])
-        slopes = np.stack([np.broadcast_to(slope, pressure.shape) for _, slope in pairs])
+        values = np.empty((len(self.oils), *pressure.shape))
+        slopes = np.empty_like(values)
+        for k, oil in enumerate(self.oils):
+            values[k], slopes[k] = law(oil, pressure)
         half = 0.5 * (self.highest - self.lowest)
         return Property(
             np.tensordot(self._to_coefficients, values, axes=1),
@@ -208,18 +218,22 @@ class HotOil:
 
 
 def _derived(coefficients: Array) -> Array:
-    """Coefficients of the derivative of a Chebyshev series (n, ...)."""
-    return np.asarray(chebyshev.chebder(coefficients, axis=0))
+    """Coefficients of the derivative of a Chebyshev series (n, ...), shape (n - 1, ...)."""
+    return np.tensordot(_derivative(len(coefficients)), coefficients, axes=1)
 
 
-def _series(coefficients: Array, t: Array) -> Array:
-    """Chebyshev series (n, ...) at t by Clenshaw's recurrence, -1 <= t <= 1."""
-    shape = np.broadcast_shapes(coefficients.shape[1:], t.shape)
-    one, two = np.zeros(shape), np.zeros(shape)
+@cache
+def _derivative(count: int) -> Array:
+    """Matrix from the coefficients of a Chebyshev series to those of its derivative, (count - 1, count)."""
+    return np.asarray(chebyshev.chebder(np.eye(count), axis=0))
+
+
+def _polynomials(t: Array, count: int) -> Array:
+    """Chebyshev polynomials of degree 0, 1, ... at t, shape (count, ...)."""
+    values = np.empty((count, *t.shape))
+    values[0], values[1] = 1.0, t
     double = 2.0 * t
-    for c in coefficients[:0:-1]:
-        next_one = double * one
-        next_one += c
-        next_one -= two
-        one, two = next_one, one
-    return np.asarray(coefficients[0] + t * one - two)
+    for k in range(2, count):
+        np.multiply(double, values[k - 1], out=values[k])
+        values[k] -= values[k - 2]
+    return values
