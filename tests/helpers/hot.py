@@ -50,6 +50,7 @@ def channel(u, *, degree=12, nodes=41, length=1e-3, thickness=1e-6, conductivity
         "heating": zeros,
         "heating_slope": zeros,
         "compression": zeros,
+        "compression_p": zeros,
     }
     return Stream(
         across=across,
@@ -213,9 +214,10 @@ def couette(nahme, reduced_rate=None, *, degree=12, loops=60):
         ambient_pressure=0.0,
     )
     stress = hertz * gap / length
-    heat = Heat(np.full((degree + 1, *mesh.shape), wall), np.zeros((2, *mesh.shape)))
+    zeros = np.zeros((degree + 1, *mesh.shape))
+    heat = Heat(zeros + wall, zeros[:2], zeros)
     for _ in range(loops):
-        profile = FrozenTemperature(across, mesh, heat.temperature, oil, wall, hertz)
+        profile = FrozenTemperature(across, mesh, heat, 0.0 * flat, oil, wall, hertz)
         flow = ShearedFlow(law, stress, hertz, slip / speed, profile)
         columns = flow.columns(fluid, 0.0 * flat, flat, mesh)
         stream = stream_of(

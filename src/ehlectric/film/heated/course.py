@@ -108,32 +108,38 @@ class Course:
         scales = self.problem.scales
         return scales.pressure * scales.thickness / scales.length
 
-    def fluid(self, heat: Heat | None) -> tuple[Fluid, ShearedFlow]:
-        """Fluid whose flow has the rheology and a frozen temperature."""
+    def flow(self, state: State, heat: Heat | None) -> ShearedFlow:
+        """Flow with the rheology, and with the temperature that a film has at the pressure of a state."""
         physics, thermal, profile = self.physics, self.physics.thermal, None
         if thermal is not None and heat is not None:
             profile = FrozenTemperature(
                 Across.of(DEGREE),
                 self.levels[0].mesh,
-                heat.temperature,
+                heat,
+                self._clipped(state),
                 thermal.oil,
                 thermal.inlet_temperature,
                 self.problem.scales.pressure,
             )
-        flow = ShearedFlow(
+        return ShearedFlow(
             rheology=physics.rheology,
             slide_to_roll_ratio=physics.slide_to_roll_ratio,
             stress_scale=self.stress_scale,
             pressure_scale=self.problem.scales.pressure,
             profile=profile,
         )
-        return replace(self.problem.fluid, flow=flow), flow
 
-    def film(self, state: State, heat: Heat | None, *, steps: int, spike: bool) -> GridSolution:
-        """Film at a frozen temperature, after at most ``steps`` Newton steps."""
-        fluid, _ = self.fluid(heat)
-        return newton(
-            fluid,
+    def _clipped(self, state: State) -> Array:
+        """Pressure of a state, not below ambient."""
+        return np.maximum(state.pressure, self.problem.fluid.ambient_pressure)
+
+    def film(
+        self, state: State, heat: Heat | None, *, steps: int, spike: bool
+    ) -> tuple[GridSolution, Heat | None]:
+        """Film after at most ``steps`` Newton steps from a state, and the heat at its pressure."""
+        flow = self.flow(state, heat)
+        solution = newton(
+            replace(self.problem.fluid, flow=flow),
             self.levels,
             state,
             tolerance=self.tolerance,
@@ -142,12 +148,14 @@ class Course:
             progress=self.progress,
             eliminate_spike=spike and self.problem.width is None,
         )
+        if isinstance(flow.profile, FrozenTemperature):
+            heat = flow.profile.at(self._clipped(solution.state))
+        return solution, heat
 
     def columns(self, solution: GridSolution, heat: Heat | None) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
-        fluid, flow = self.fluid(heat)
         state, mesh = solution.state, self.levels[0].mesh
-        found = flow.columns(fluid, state.pressure, state.thickness, mesh)
+        found = self.flow(state, heat).columns(self.problem.fluid, state.pressure, state.thickness, mesh)
         mass = solution.final.coefficients.density * state.thickness
         return found, filled_part(solution.final.full_film, mass)
 
@@ -184,13 +192,14 @@ class Course:
         shape = self.levels[0].mesh.shape
         a, b = (body.temperature for body in thermal.bodies)
         zeta = Across.of(DEGREE).zeta[:, np.newaxis, np.newaxis]
-        return Heat(np.broadcast_to(a + (b - a) * zeta, (zeta.size, *shape)).copy(), np.zeros((2, *shape)))
+        temperature = np.broadcast_to(a + (b - a) * zeta, (zeta.size, *shape)).copy()
+        return Heat(temperature, np.zeros((2, *shape)), np.zeros_like(temperature))
 
     def __call__(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
         """Film and temperature from an initial guess of both."""
         thermal = self.physics.thermal
         if thermal is None:
-            solution = self.film(state, None, steps=self.problem.max_iterations, spike=spike)
+            solution, _ = self.film(state, None, steps=self.problem.max_iterations, spike=spike)
             columns, filled = self.columns(solution, None)
             return HeatedGrid(solution, None, columns, None, filled, 0)
         heat = self.start(thermal) if heat is None else heat
@@ -199,7 +208,8 @@ class Course:
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
         before = np.inf
         for loop in range(_LOOPS):
-            solution = self.film(state, heat, steps=_STEPS, spike=spike and loop == 0)
+            solution, heat = self.film(state, heat, steps=_STEPS, spike=spike and loop == 0)
+            assert heat is not None
             taken += solution.steps
             stream, columns, filled = self.stream(thermal, solution, heat)
             if solution.status == "diverged":
@@ -216,7 +226,8 @@ class Course:
             stands = change < (1.0 if self.finest else _COARSE)
             if stands and solution.status != "converged":
                 # The temperature stands; only the film has digits to gain.
-                solution = self.film(solution.state, heat, steps=self.problem.max_iterations, spike=False)
+                solution, heat = self.film(solution.state, heat, steps=self.problem.max_iterations, spike=False)
+                assert heat is not None
                 taken += solution.steps
                 stream, columns, filled = self.stream(thermal, solution, heat)
             if stands and solution.status == "converged":
@@ -265,4 +276,4 @@ def _mixed(mixing: Mixing, heat: Heat, new: Heat) -> Heat:
         part = _MOST_CHANGE / step
         temperature = heat.temperature + part * (temperature - heat.temperature)
         flux = heat.flux + part * (flux - heat.flux)
-    return Heat(temperature, flux)
+    return replace(new, temperature=temperature, flux=flux)

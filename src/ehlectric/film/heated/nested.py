@@ -182,8 +182,7 @@ def _start(
 
 def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:
     """Temperature and fluxes on a finer grid, interpolated linearly."""
-    old, new = coarse.mesh, level.mesh
-    return Heat(on_mesh(heat.temperature, old, new), on_mesh(heat.flux, old, new))
+    return Heat(*(on_mesh(values, coarse.mesh, level.mesh) for values in vars(heat).values()))
 
 
 def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -> HeatedSolution:

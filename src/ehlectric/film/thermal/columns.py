@@ -47,6 +47,8 @@ class Stream:
         Shear heating [W/m^3], and its derivative by temperature at a fixed shear rate [W/(m^3 K)].
     compression : ndarray
         -(1/rho) (d rho/dT) (u p_x + v p_y) [W/(m^3 K)]; times T it is the heating by compression.
+    compression_p : ndarray
+        Derivative of ``compression`` by the pressure at its own node [1/(s K)].
     """
 
     across: Across
@@ -63,6 +65,7 @@ class Stream:
     heating: Array
     heating_slope: Array
     compression: Array
+    compression_p: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +78,8 @@ class HeatColumns:
         Matrix A without the heat that flows into the bodies [W/(m^2 K)].
     right : ndarray, shape (nx, ny, nz)
         Sources [W/m^2].
+    right_p : ndarray, shape (nx, ny, nz)
+        Derivative of the sources by the pressure at the node of the column [W/(m^2 Pa)].
     before, second, after : ndarray, shape (nx, ny, nz)
         Factors b, bb and f of the columns upstream and downstream.
     from_left, from_right : ndarray, shape (nx, ny, nz)
@@ -83,6 +88,7 @@ class HeatColumns:
 
     matrix: Array
     right: Array
+    right_p: Array
     before: Array
     second: Array
     after: Array
@@ -118,7 +124,8 @@ class HeatColumns:
         matrix -= _last(upward)[..., np.newaxis] * derivative(across.zeta.size - 1)
         index = np.arange(across.zeta.size)
         matrix[..., index, index] += _last(diagonal)
-        return cls(matrix, *(_last(part) for part in (source, *neighbours)))
+        source_p = volume * stream.compression_p * temperature
+        return cls(matrix, *(_last(part) for part in (source, source_p, *neighbours)))
 
 
 @dataclass(frozen=True, eq=False)

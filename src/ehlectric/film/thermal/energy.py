@@ -9,7 +9,7 @@ upstream, and the convection across the contact. The march is repeated for the l
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import lapack
@@ -33,10 +33,14 @@ class Heat:
         Temperature [K] at the nodes across the film; the first and the last are the surfaces.
     flux : ndarray, shape (2, nx, ny)
         Heat flow into body a and body b [W/m^2].
+    by_pressure : ndarray, shape (nz, nx, ny)
+        Derivative of the temperature by the pressure at its own node, by heat of compression [K/Pa]; zero in
+        the columns with reverse flow and before them.
     """
 
     temperature: Array
     flux: Array
+    by_pressure: Array
 
 
 def solve_energy(
@@ -87,8 +91,9 @@ def solve_energy(
             np.concatenate([new.temperature.ravel(), new.flux.ravel()]),
         )
         size = now.temperature.size
-        now = Heat(mixed[:size].reshape(now.temperature.shape), mixed[size:].reshape(now.flux.shape))
-    return new
+        temperature, flux = mixed[:size].reshape(now.temperature.shape), mixed[size:].reshape(now.flux.shape)
+        now = replace(now, temperature=temperature, flux=flux)
+    return replace(new, by_pressure=march.by_pressure)
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +141,15 @@ class _March:
             r[:, :: nz - 1] += (rest[:, i] / own).T
             new[i + 2] = (self.inverse[i - start] @ r[..., np.newaxis])[..., 0]
             flux[:, i] = (at_surfaces[:, i] - rest[:, i]) / own
-        return Heat(np.ascontiguousarray(np.moveaxis(new[2:], -1, 0)), flux)
+        return replace(last, temperature=np.ascontiguousarray(np.moveaxis(new[2:], -1, 0)), flux=flux)
+
+    @property
+    def by_pressure(self) -> Array:
+        """Derivative of the temperature (nz, nx, ny) by the pressure at its own node [K/Pa]."""
+        found = np.zeros_like(self.columns.right_p)
+        start = len(found) - len(self.inverse)
+        found[start:] = (self.inverse @ self.columns.right_p[start:, ..., np.newaxis])[..., 0]
+        return np.ascontiguousarray(np.moveaxis(found, -1, 0))
 
     def _from_sides(self, old: Array, inlet_temperature: float, *, symmetric: bool) -> Array | float:
         """Heat that the flow across the contact carries from the neighbouring lines of the last iterate."""

@@ -71,6 +71,7 @@ def stream_of(
         heating=heating,
         heating_slope=np.minimum(0.0, heating * columns.softening * viscosity.by_temperature),
         compression=np.where(filled < 1.0, 0.0, expansion * (u * along + v * across)),
+        compression_p=np.where(filled < 1.0, 0.0, expansion * np.abs(u) / (mesh.dx * length)),
     )
 
 

@@ -13,7 +13,7 @@ from tests.helpers.hot import channel, cold_surface, steel
 
 def at_rest(stream, temperature):
     shape = stream.u.shape
-    return Heat(np.full(shape, temperature), np.zeros((2, *shape[1:])))
+    return Heat(np.full(shape, temperature), np.zeros((2, *shape[1:])), np.zeros(shape))
 
 
 def solved(stream, surfaces, inlet=300.0, **options):
