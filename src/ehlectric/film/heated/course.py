@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.film.flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.newton import newton
@@ -31,12 +30,17 @@ DEGREE = 12
 # Largest change of temperature in one outer loop [K].
 _MOST_CHANGE = 40.0
 
-# Largest number of outer loops, and of Newton steps in each of them.
-_LOOPS, _STEPS = 60, 2
+# Largest number of outer loops, and of Newton steps in each of them but the last, which end at the residual.
+_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
-# Change of the temperature, relative to its largest rise and absolute [K], and relative change of the central
-# film thickness, at which film and temperature stand. On the coarser grids five times as much is enough.
-_RISE, _KELVIN, _FILM, _COARSE = 2e-3, 5e-3, 5e-5, 5.0
+# Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
+# central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
+# the next coarser one, which gives the estimates of the errors, and of all others.
+_RISE, _KELVIN, _FILM = 2e-3, 5e-3, 5e-5
+_MULTIPLES = (1.0, 5.0, 25.0)
+
+# Largest ratio of two successive changes in the estimate of the distance.
+_SLOWEST = 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,21 +53,15 @@ class HeatedGrid:
         Pressure and film thickness.
     heat : Heat or None
         Temperature and heat flow into the bodies; None for an isothermal film.
-    columns : Columns
-        Stresses and speeds across the film.
-    stream : Stream or None
-        Flow of the energy equation; None for an isothermal film.
-    filled : ndarray, shape (nx, ny)
-        Share of the gap that oil fills.
+    flow : ShearedFlow
+        Flow with the rheology at this temperature.
     loops : int
         Number of outer loops.
     """
 
     solution: GridSolution
     heat: Heat | None
-    columns: Columns
-    stream: Stream | None
-    filled: Array
+    flow: ShearedFlow
     loops: int
 
     @property
@@ -84,8 +82,8 @@ class Course:
         Grid, and the coarser grids of its preconditioner.
     tolerance : float
         Tolerance of the residual of the film.
-    finest : bool
-        Whether this is the last grid.
+    finer : int
+        Number of finer grids that follow.
     progress : callable or None
         Function that is called before every Newton step.
     """
@@ -93,7 +91,7 @@ class Course:
     problem: FilmProblem
     levels: list[Level]
     tolerance: float
-    finest: bool
+    finer: int
     progress: Progress | None
 
     @property
@@ -134,15 +132,15 @@ class Course:
         return np.maximum(state.pressure, self.problem.fluid.ambient_pressure)
 
     def film(
-        self, state: State, heat: Heat | None, *, steps: int, spike: bool
-    ) -> tuple[GridSolution, Heat | None]:
-        """Film after at most ``steps`` Newton steps from a state, and the heat at its pressure."""
+        self, state: State, heat: Heat | None, *, steps: int, tolerance: float, spike: bool
+    ) -> tuple[GridSolution, ShearedFlow, Heat | None]:
+        """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure."""
         flow = self.flow(state, heat)
         solution = newton(
             replace(self.problem.fluid, flow=flow),
             self.levels,
             state,
-            tolerance=self.tolerance,
+            tolerance=tolerance,
             max_iterations=steps,
             min_iterations=1,
             progress=self.progress,
@@ -150,20 +148,20 @@ class Course:
         )
         if isinstance(flow.profile, FrozenTemperature):
             heat = flow.profile.at(self._clipped(solution.state))
-        return solution, heat
+        return solution, flow, heat
 
-    def columns(self, solution: GridSolution, heat: Heat | None) -> tuple[Columns, Array]:
+    def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
         state, mesh = solution.state, self.levels[0].mesh
-        found = self.flow(state, heat).columns(self.problem.fluid, state.pressure, state.thickness, mesh)
+        found = flow.columns(self.problem.fluid, state.pressure, state.thickness, mesh)
         mass = solution.final.coefficients.density * state.thickness
         return found, filled_part(solution.final.full_film, mass)
 
-    def stream(self, thermal: Thermal, solution: GridSolution, heat: Heat) -> tuple[Stream, Columns, Array]:
+    def stream(self, solution: GridSolution, heat: Heat, columns: Columns, filled: Array) -> Stream:
         """Flow of the energy equation at a film and a temperature."""
-        columns, filled = self.columns(solution, heat)
-        scales = self.problem.scales
-        stream = stream_of(
+        scales, thermal = self.problem.scales, self.physics.thermal
+        assert thermal is not None
+        return stream_of(
             thermal.oil,
             columns,
             heat.temperature,
@@ -176,7 +174,6 @@ class Course:
             speed=self.physics.mean_speed,
             stress=self.stress_scale,
         )
-        return stream, columns, filled
 
     def surfaces(self, thermal: Thermal) -> tuple[Surface, Surface]:
         """Surfaces of both bodies on the grid."""
@@ -197,23 +194,28 @@ class Course:
 
     def __call__(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
         """Film and temperature from an initial guess of both."""
-        thermal = self.physics.thermal
+        thermal, most = self.physics.thermal, self.problem.max_iterations
         if thermal is None:
-            solution, _ = self.film(state, None, steps=self.problem.max_iterations, spike=spike)
-            columns, filled = self.columns(solution, None)
-            return HeatedGrid(solution, None, columns, None, filled, 0)
+            solution, flow, _ = self.film(state, None, steps=most, tolerance=self.tolerance, spike=spike)
+            return HeatedGrid(solution, None, flow, 0)
         heat = self.start(thermal) if heat is None else heat
-        surfaces = self.surfaces(thermal)
-        weight = _weight(self.levels[0], state)
+        surfaces, weight = self.surfaces(thermal), _weight(self.levels[0], state)
         mixing, taken = _mixing(weight, heat), list[NewtonStep]()
-        before = np.inf
+        allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
+        rises, films, central, ends = list[float](), list[float](), np.inf, False
         for loop in range(_LOOPS):
-            solution, heat = self.film(state, heat, steps=_STEPS, spike=spike and loop == 0)
+            steps, tolerance = (most, self.tolerance) if ends else (_STEPS, max(self.tolerance, _LOOSE))
+            solution, flow, heat = self.film(
+                state, heat, steps=steps, tolerance=tolerance, spike=spike and loop == 0
+            )
             assert heat is not None
             taken += solution.steps
-            stream, columns, filled = self.stream(thermal, solution, heat)
-            if solution.status == "diverged":
+            before, central = central, at_centre(self.levels[0].mesh, solution.state.thickness)
+            films.append(abs(central - before) / (_FILM * central))
+            stands = ends and solution.status == "converged" and films[-1] < allowed
+            if stands or solution.status == "diverged":
                 break
+            stream = self.stream(solution, heat, *self.columns(solution, flow))
             new = solve_energy(
                 HeatColumns.of(stream, heat.temperature),
                 surfaces,
@@ -221,23 +223,21 @@ class Course:
                 inlet_temperature=thermal.inlet_temperature,
                 symmetric=stream.symmetric,
             )
-            central = at_centre(self.levels[0].mesh, solution.state.thickness)
-            change = max(_change(weight, heat, new, thermal), abs(central - before) / (_FILM * central))
-            stands = change < (1.0 if self.finest else _COARSE)
-            if stands and solution.status != "converged":
-                # The temperature stands; only the film has digits to gain.
-                solution, heat = self.film(solution.state, heat, steps=self.problem.max_iterations, spike=False)
-                assert heat is not None
-                taken += solution.steps
-                stream, columns, filled = self.stream(thermal, solution, heat)
-            if stands and solution.status == "converged":
-                break
-            before, state = central, solution.state
-            heat = _mixed(mixing, heat, new)
+            rises.append(_change(weight, heat, new, thermal))
+            # Film and temperature that are close enough end with a film at the last temperature.
+            ends = max(_distance(rises), _distance(films)) < allowed
+            state, heat = solution.state, _mixed(mixing, heat, new)
         else:
             solution = replace(solution, status="stalled")
-        solution = replace(solution, steps=tuple(taken))
-        return HeatedGrid(solution, heat, columns, stream, filled, loop + 1)
+        return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
+
+
+def _distance(changes: list[float]) -> float:
+    """Distance from the limit after changes that fall in a geometric sequence, or the only change."""
+    if len(changes) < 2 or not np.isfinite(changes[-2]):
+        return changes[-1]
+    ratio = min(_SLOWEST, changes[-1] / max(changes[-2], 1e-300))
+    return changes[-1] * ratio / (1.0 - ratio)
 
 
 def _change(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:

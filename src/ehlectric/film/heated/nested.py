@@ -12,7 +12,7 @@ from ehlectric.film.heated.course import Course, HeatedGrid
 from ehlectric.film.levels import Level
 from ehlectric.film.nested import NESTED_TOLERANCE, interpolated_state, levels_of
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.sheared.profile import on_mesh
+from ehlectric.film.sheared.profile import Across, on_mesh
 from ehlectric.film.sheared.traction import traction
 from ehlectric.film.state import GridSolution, Progress, State, Status
 from ehlectric.film.thermal.balance import energy_imbalance
@@ -122,8 +122,8 @@ def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
         width = None if grids[-1].width is None else grids[-1].width.coarser()
         grids.append(replace(grids[-1], nodes=grids[-1].nodes // 2 + 1, width=width))
     found: list[tuple[Course, HeatedGrid]] = []
-    for posed in reversed(grids):
-        course = _course(posed, finest=posed is grids[0], progress=progress)
+    for finer, posed in reversed(list(enumerate(grids))):
+        course = _course(posed, finer=finer, progress=progress)
         state, heat = _start(course, simple, found)
         grid = course(state, heat, spike=True)
         if not grid.converged and course.physics.slide_to_roll_ratio != 0.0:
@@ -141,12 +141,12 @@ def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmPr
     return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=3)
 
 
-def _course(problem: FilmProblem, *, finest: bool, progress: Progress | None) -> Course:
+def _course(problem: FilmProblem, *, finer: int, progress: Progress | None) -> Course:
     """Outer iteration on the grid of a problem."""
     levels = levels_of(problem)
     direct = problem.width is None and problem.nodes <= _DIRECT
-    tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
-    return Course(problem, levels[:1] if direct else levels, tolerance, finest, progress)
+    tolerance = problem.tolerance if finer == 0 else max(problem.tolerance, NESTED_TOLERANCE)
+    return Course(problem, levels[:1] if direct else levels, tolerance, finer, progress)
 
 
 def _by_slip(course: Course, simple: RefinedSolution) -> HeatedGrid:
@@ -195,31 +195,33 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
     if rises[-1] is not None and len(rises) > 1 and rises[-2] is not None and found[-2][1].converged:
         # The difference of two grids; at first order it is the error of the finer one.
         error = abs(rises[-1] - rises[-2])
+    columns, filled = course.columns(last.solution, last.flow)
     friction = traction(
-        last.columns,
+        columns,
         state.thickness,
         mesh,
         load=course.levels[0].load,
         stress_ratio=course.stress_scale / problem.scales.pressure,
-        filled=last.filled,
+        filled=filled,
     )
     scales, level = problem.scales, course.levels[0]
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
     heat = last.heat
-    middle = None if heat is None else _middle(last, heat.temperature)
+    middle = None if heat is None else _middle(heat.temperature)
     imbalance = None
-    if heat is not None and last.stream is not None and physics.thermal is not None:
-        imbalance = energy_imbalance(last.stream, heat, physics.thermal.inlet_temperature)
+    if heat is not None and physics.thermal is not None:
+        stream = course.stream(last.solution, heat, columns, filled)
+        imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
     return HeatedSolution(
         refined=RefinedSolution(problem, [grid.solution for _, grid in found]),
         simple=simple,
         temperature=None if heat is None else heat.temperature,
-        zeta=last.columns.across.zeta,
+        zeta=columns.across.zeta,
         heat_flux=None if heat is None else heat.flux,
         mid_temperature=middle,
         max_temperature_rise=rises[-1],
         temperature_rise_error=error,
-        shear_stress=course.stress_scale * last.columns.middle[0] * last.filled,
+        shear_stress=course.stress_scale * columns.middle[0] * filled,
         traction_coefficient=friction.sliding,
         rolling_coefficient=friction.rolling,
         power_loss=friction.power_loss(
@@ -233,9 +235,9 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
     )
 
 
-def _middle(grid: HeatedGrid, temperature: Array) -> Array:
+def _middle(temperature: Array) -> Array:
     """Temperature at mid-film (nx, ny) [K]."""
-    weights = grid.columns.across.at(np.array([0.5]))[0]
+    weights = Across.of(len(temperature) - 1).at(np.array([0.5]))[0]
     return np.asarray(np.tensordot(weights, temperature, axes=1))
 
 
@@ -244,4 +246,4 @@ def _rise(course: Course, grid: HeatedGrid) -> float | None:
     thermal = course.physics.thermal
     if grid.heat is None or thermal is None:
         return None
-    return float(np.max(_middle(grid, grid.heat.temperature))) - thermal.inlet_temperature
+    return float(np.max(_middle(grid.heat.temperature))) - thermal.inlet_temperature

@@ -3,8 +3,8 @@
 The march solves the columns from the inlet to the outlet. The fluxes into the bodies at the column itself are
 implicit, those of the columns before it enter by the history of the moving surfaces. In the reverse flow of
 the inlet the columns depend on those behind them; there one banded system of all columns is exact. Three
-parts are taken from the last iterate: the history of the surfaces in the reverse flow, the heat that a slow body conducts
-upstream, and the convection across the contact. The march is repeated for the last two.
+parts are taken from the last iterate: the history of the surfaces in the reverse flow, the heat that a slow
+body conducts upstream, and the convection across the contact. The march is repeated for the last two.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ class _March:
         nx, ny, nz = columns.right.shape
         old = np.moveaxis(last.temperature, 0, -1)
         right = columns.right + self._from_sides(old, inlet_temperature, symmetric=symmetric)
-        # Surface temperatures without the flux at the column itself, (2, nx, ny); first without all before it.
+        # Surface temperatures without the fluxes at the column itself and, so far, before it, (2, nx, ny).
         rest = np.stack([s.bulk + s.rise_ahead(q) for s, q in zip(surfaces, flux, strict=True)])
         own = np.array([surface.downstream[0] for surface in surfaces])[:, np.newaxis]
         tails = np.stack([surface.downstream[::-1] for surface in surfaces])[:, np.newaxis]
@@ -178,7 +178,7 @@ class _Entry:
         """Factorise ``count`` columns; ``matrix`` has the fluxes into the bodies at each column."""
         ny, nz = columns.right.shape[1:]
         lower, upper = 2 * nz, nz
-        # Columns of the band storage of LAPACK, (ny, count, nz, 3 kl/2 + ...), with room for the pivoting.
+        # Band storage of LAPACK, each column of the matrix in one row here, with room for the pivoting.
         band = np.zeros((ny, count, nz, 2 * lower + upper + 1))
         row, column = np.indices((nz, nz))
         node, centre = np.arange(nz), lower + upper

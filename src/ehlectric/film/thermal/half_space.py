@@ -49,7 +49,7 @@ class Surface:
 
     def rise(self, flux: Array) -> Array:
         """Temperature rise (nx, ny) [K] by a flux (nx, ny) into the body [W/m^2]."""
-        return self.downstream[0] * flux + self.rise_behind(flux) + self.rise_ahead(flux)
+        return np.asarray(self.downstream[0] * flux + self.rise_behind(flux) + self.rise_ahead(flux))
 
     def rise_behind(self, flux: Array) -> Array:
         """Part of the temperature rise (n, ny) [K] at the first n nodes by the flux further upstream."""

@@ -47,7 +47,8 @@ class Property:
 
     def _series(self, coefficients: Array) -> Array:
         """Chebyshev series (m, ...) at the temperatures, m <= n."""
-        return np.einsum("k...,k...->...", self._polynomials[: len(coefficients)], coefficients)
+        of_each = self._polynomials[: len(coefficients)]
+        return np.asarray(np.einsum("k...,k...->...", of_each, coefficients), dtype=np.float64)
 
     @cached_property
     def _by_t(self) -> Array:
