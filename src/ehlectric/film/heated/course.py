@@ -36,7 +36,7 @@ _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
 # the next coarser one, which gives the estimates of the errors, and of all others.
-_RISE, _KELVIN, _FILM = 2e-3, 5e-3, 5e-5
+_RISE, _KELVIN, _FILM = 3e-3, 5e-3, 5e-5
 _MULTIPLES = (1.0, 5.0, 25.0)
 
 # Largest ratio of two successive changes in the estimate of the distance.

@@ -137,15 +137,16 @@ def eyring_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
     True
     """
     small = squared < _SMALL
-    x = np.where(small, squared, 0.0)
-    series = 1.0 + x / 6.0 * (1.0 + x / 20.0 * (1.0 + x / 42.0 * (1.0 + x / 72.0)))
-    series_slope = (1.0 + x / 10.0 * (1.0 + x / 28.0 * (1.0 + x / 54.0))) / 6.0
     large = np.where(small, 1.0, squared)
     r = np.minimum(np.sqrt(large), _LARGEST)
     up = np.exp(r)
-    factor = 0.5 * (up - 1.0 / up) / r
-    slope = (0.5 * (up + 1.0 / up) - factor) / (2.0 * large)
-    return np.where(small, series, factor), np.where(small, series_slope, slope)
+    down = 1.0 / up
+    factor = np.asarray(0.5 * (up - down) / r)
+    slope = np.asarray((0.5 * (up + down) - factor) / (2.0 * large))
+    x = squared[small]
+    factor[small] = 1.0 + x / 6.0 * (1.0 + x / 20.0 * (1.0 + x / 42.0 * (1.0 + x / 72.0)))
+    slope[small] = (1.0 + x / 10.0 * (1.0 + x / 28.0 * (1.0 + x / 54.0))) / 6.0
+    return factor, slope
 
 
 def carreau_factor(squared: Array, constants: Constants) -> tuple[Array, Array]:

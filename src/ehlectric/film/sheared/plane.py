@@ -17,11 +17,9 @@ from ehlectric.film.sheared.even import Flux
 from ehlectric.film.sheared.laws import Constants, Rheology, ShearLaw
 from ehlectric.film.sheared.profile import GAUSS, Quadrature, over_columns
 
-# Largest number of Newton steps for the mid-film stress, and the relative step at which it is exact.
-_MOST_STEPS, _EXACT = 80, 1e-12
-
-# Relative step below which Newton's method has converged up to rounding, so that it needs no damping.
-_CLOSE = 1e-9
+# Largest number of Newton steps for the mid-film stress, and the relative step at which it is exact: the
+# error of Newton's method is the square of its step.
+_MOST_STEPS, _EXACT = 80, 1e-8
 
 # Smallest rate that is divided by.
 _TINY = 1e-300
@@ -115,8 +113,7 @@ class _Iteration:
         reached, undo = _as_stress(law, constants, rate / self.unit)
         difference = reached - self.wanted
         size = _size(difference)
-        close = _size(self.step) < _CLOSE * (1.0 + _size(self.middle))
-        better = (size < self.before) | close
+        better = size < self.before
         following = -self.unit * _solved(by_t, _times(undo, difference))
         middle = np.where(better, self.trial, self.middle)
         step = np.where(better, following, 0.5 * self.step)

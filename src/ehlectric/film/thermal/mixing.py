@@ -6,6 +6,9 @@ import numpy as np
 
 from ehlectric.arrays import Array
 
+# Smallest eigenvalue of the matrix of the cosines between differences, over the largest one.
+_DEPENDENT = 1e-12
+
 
 class Mixing:
     """Anderson acceleration: the next iterate from the last few iterates and their images.
@@ -36,7 +39,7 @@ class Mixing:
 
     def __init__(self, depth: int = 5, weights: Array | float = 1.0) -> None:
         self._depth = depth
-        self._weights = np.reshape(weights, (-1, 1))
+        self._weights = weights
         self._images: list[Array] = []
         self._changes: list[Array] = []
 
@@ -48,11 +51,18 @@ class Mixing:
         del self._images[: -self._depth - 1], self._changes[: -self._depth - 1]
         if len(self._changes) == 1:
             return image
-        differences = np.stack([change - other for other in self._changes[:-1]], axis=1)
+        differences = np.stack([change - other for other in self._changes[:-1]])
+        differences *= self._weights
+        # The differences shrink from iterate to iterate: they are compared by direction.
+        lengths = np.maximum(np.linalg.norm(differences, axis=1), 1e-300)
+        products = differences @ differences.T / np.outer(lengths, lengths)
+        wanted = differences @ (self._weights * change) / lengths
         # Nearly dependent differences are left out: they would combine far iterates with large factors.
-        factors, *_ = np.linalg.lstsq(self._weights * differences, self._weights[:, 0] * change, rcond=1e-8)
-        moves = np.stack([image - other for other in self._images[:-1]], axis=1)
-        return np.asarray(image - moves @ factors)
+        factors = np.linalg.lstsq(products, wanted, rcond=_DEPENDENT)[0] / lengths
+        following = np.array(image)
+        for factor, other in zip(factors, self._images[:-1], strict=True):
+            following -= factor * (image - other)
+        return following
 
     def forget(self) -> None:
         """Start anew from the next iterate."""
