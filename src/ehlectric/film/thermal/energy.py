@@ -98,50 +98,69 @@ def solve_energy(
 
 @dataclass(frozen=True, eq=False)
 class _March:
-    """Factorised columns: a banded system up to the end of the reverse flow, and inverses behind it."""
+    """Factorised columns: a banded system up to the end of the reverse flow, and inverses behind it.
+
+    Behind the reverse flow the temperatures of a column and its fluxes into the bodies are a known part plus
+    ``chain`` times the temperatures of the two columns before it and the rise of both surfaces by the fluxes
+    before it.
+    """
 
     columns: HeatColumns
     surfaces: tuple[Surface, Surface]
     entry: _Entry | None
-    inverse: Array  # of the columns behind the entry, (n, ny, nz, nz)
+    inverse: Array  # of the n columns behind the entry, (n, ny, nz, nz)
+    chain: Array  # (n, ny, nz + 2, 2 nz + 2)
 
     @classmethod
     def of(cls, columns: HeatColumns, surfaces: tuple[Surface, Surface]) -> _March:
-        matrix = columns.matrix.copy()
-        for row, surface in zip((0, -1), surfaces, strict=True):
-            matrix[..., row, row] += 1.0 / surface.downstream[0]
+        matrix, own = columns.matrix.copy(), _own(surfaces)
+        nz = len(matrix[0, 0])
+        for row, resistance in zip((0, -1), own, strict=True):
+            matrix[..., row, row] += 1.0 / resistance
         back = np.flatnonzero(np.any(columns.after[:-1], axis=(1, 2)))
         entry = _Entry.of(matrix, columns, int(back[-1]) + 2) if back.size else None
-        behind = matrix[entry.count if entry else 0 :]
-        return cls(columns, surfaces, entry, np.asarray(np.linalg.inv(behind), dtype=np.float64))
+        behind = slice(entry.count if entry else 0, None)
+        inverse: Array = np.asarray(np.linalg.inv(matrix[behind]), dtype=np.float64)
+        chain = np.empty((*inverse.shape[:2], nz + 2, 2 * nz + 2))
+        chain[..., :nz, :nz] = inverse * columns.second[behind, :, np.newaxis]
+        chain[..., :nz, nz:-2] = inverse * columns.before[behind, :, np.newaxis]
+        chain[..., :nz, -2:] = inverse[..., :: nz - 1] / own
+        chain[..., nz:, :] = chain[..., : nz : nz - 1, :] / own[:, np.newaxis]
+        chain[..., nz:, -2:] -= np.diag(1.0 / own)
+        return cls(columns, surfaces, entry, inverse, chain)
 
     def __call__(self, last: Heat, inlet_temperature: float, *, symmetric: bool) -> Heat:
-        columns, surfaces, flux = self.columns, self.surfaces, last.flux.copy()
+        columns, surfaces, own = self.columns, self.surfaces, _own(self.surfaces)
         nx, ny, nz = columns.right.shape
         old = np.moveaxis(last.temperature, 0, -1)
         right = columns.right + self._from_sides(old, inlet_temperature, symmetric=symmetric)
-        # Surface temperatures without the fluxes at the column itself and, so far, before it, (2, nx, ny).
-        rest = np.stack([s.bulk + s.rise_ahead(q) for s, q in zip(surfaces, flux, strict=True)])
-        own = np.array([surface.downstream[0] for surface in surfaces])[:, np.newaxis]
-        tails = np.stack([surface.downstream[::-1] for surface in surfaces])[:, np.newaxis]
-        # Two columns of the inlet temperature lie before the first one.
-        new = np.full((nx + 2, ny, nz), inlet_temperature)
-        at_surfaces = new[2:, :, :: nz - 1].transpose(2, 0, 1)
+        # Surface temperatures (nx, ny, 2) without the fluxes at the column itself and, so far, before it.
+        rest = np.stack([s.bulk + s.rise_ahead(q) for s, q in zip(surfaces, last.flux, strict=True)], axis=-1)
+        # Temperatures along each line, with two columns of the inlet temperature before the first one.
+        new = np.full((ny, (nx + 2) * nz + 2), inlet_temperature)
+        columns_of = new[:, 2 * nz : -2].reshape(ny, nx, nz)
+        flux = np.ascontiguousarray(last.flux.swapaxes(1, 2))
         start = 0
         if self.entry is not None:
             start = self.entry.count
-            before = np.stack([s.rise_behind(q[:start]) for s, q in zip(surfaces, flux, strict=True)])
-            rest[:, :start] += before
-            right[:start, :, :: nz - 1] += (rest[:, :start] / own[..., np.newaxis]).transpose(1, 2, 0)
-            new[2 : start + 2] = self.entry(right[:start], inlet_temperature)
-            flux[:, :start] = (at_surfaces[:, :start] - rest[:, :start]) / own[..., np.newaxis]
-        for i in range(start, nx):
-            rest[:, i] += (tails[..., nx - 1 - i : nx - 1] @ flux[:, :i])[:, 0]
-            r = right[i] + columns.before[i] * new[i + 1] + columns.second[i] * new[i]
-            r[:, :: nz - 1] += (rest[:, i] / own).T
-            new[i + 2] = (self.inverse[i - start] @ r[..., np.newaxis])[..., 0]
-            flux[:, i] = (at_surfaces[:, i] - rest[:, i]) / own
-        return replace(last, temperature=np.ascontiguousarray(np.moveaxis(new[2:], -1, 0)), flux=flux)
+            before = [s.rise_behind(q[:start]) for s, q in zip(surfaces, last.flux, strict=True)]
+            rest[:start] += np.stack(before, axis=-1)
+            right[:start, :, :: nz - 1] += rest[:start] / own
+            found = self.entry(right[:start], inlet_temperature)
+            columns_of[:, :start] = found.swapaxes(0, 1)
+            flux[..., :start] = ((found[..., :: nz - 1] - rest[:start]) / own).transpose(2, 1, 0)
+        right[start:, :, :: nz - 1] += rest[start:] / own
+        known = (self.inverse @ right[start:, ..., np.newaxis])[..., 0]
+        known = np.concatenate([known, (known[..., :: nz - 1] - rest[start:]) / own], axis=-1)
+        tails = np.stack([surface.downstream[::-1, np.newaxis] for surface in surfaces])
+        for i, chain, part in zip(range(start, nx), self.chain, known, strict=True):
+            place = (i + 2) * nz
+            # Until the column is known, its place holds the rise of both surfaces.
+            new[:, place : place + 2] = (flux[..., :i] @ tails[:, nx - 1 - i : nx - 1])[..., 0].T
+            column = (chain @ new[:, place - 2 * nz : place + 2, np.newaxis])[..., 0] + part
+            new[:, place : place + nz], flux[..., i] = column[:, :nz], column[:, nz:].T
+        temperature = np.ascontiguousarray(columns_of.transpose(2, 1, 0))
+        return replace(last, temperature=temperature, flux=np.ascontiguousarray(flux.swapaxes(1, 2)))
 
     @property
     def by_pressure(self) -> Array:
@@ -159,6 +178,11 @@ class _March:
         if symmetric:
             padded[:, 0] = old[:, 1]
         return np.asarray(self.columns.from_left * padded[:, :-2] + self.columns.from_right * padded[:, 2:])
+
+
+def _own(surfaces: tuple[Surface, Surface]) -> Array:
+    """Rise of both surfaces by a unit flux at the same column, shape (2,)."""
+    return np.array([surface.downstream[0] for surface in surfaces])
 
 
 @dataclass(frozen=True, eq=False)
