@@ -20,7 +20,7 @@ from ehlectric.film.thermal.energy import Heat
 from ehlectric.runtime.threads import quiet_solution
 
 # Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
-_FIRST, _FIRST_POINT = 101, 33
+_FIRST, _FIRST_POINT = 151, 33
 
 # Parts of the slip of a film that does not converge at once.
 _SLIPS = (0.0, 0.03, 0.1, 0.3, 1.0)
