@@ -119,3 +119,38 @@ def test_heat_into_surfaces_and_oil_balances():
     enthalpy = 1.74e6 * 1e-6 * stream.across.weights @ (stream.u * (found.temperature - 300.0))[:, :, 0]
     # The second-order upstream difference sums to 1.5 times the last column less half of the one before.
     assert into + 1.5 * enthalpy[-1] - 0.5 * enthalpy[-2] == pytest.approx(made, rel=1e-9)
+
+
+def test_temperature_follows_the_pressure_at_its_own_node():
+    # The pressure of a node enters only the heat of compression of its own column in this stream.
+    nodes, column = 31, 20
+    stream = channel(1.0, nodes=nodes, length=2e-5)
+    stream = replace(stream, compression=np.full(stream.u.shape, 1e9), compression_p=1e3 + 0.0 * stream.u)
+    # Fast surfaces, which heat nothing upstream
+    surfaces = tuple(
+        moving_surface(steel(310.0), speed, nodes=nodes, spacing=stream.dx, half_width=1e-2)
+        for speed in (5.0, 8.0)
+    )
+    pressed = replace(stream, compression=stream.compression.copy())
+    pressed.compression[:, column] += 1e6 * stream.compression_p[:, column]
+    last = at_rest(stream, 300.0)
+    before, after = (
+        solve_energy(HeatColumns.of(each, last.temperature), surfaces, last, inlet_temperature=300.0)
+        for each in (stream, pressed)
+    )
+    change = after.temperature[:, column, 0] - before.temperature[:, column, 0]
+    assert np.max(change) > 1e-2
+    np.testing.assert_allclose(1e6 * before.by_pressure[:, column, 0], change, rtol=1e-6, atol=1e-12)
+
+
+def test_temperature_follows_no_pressure_in_reverse_flow():
+    stream = channel(1.0, nodes=12, degree=5)
+    u = stream.u.copy()
+    u[2:4, :5] = -0.5
+    stream = replace(stream, u=u, compression_p=np.ones_like(u))
+    last = at_rest(stream, 300.0)
+    surfaces = (cold_surface(300.0, 12), cold_surface(300.0, 12))
+    found = solve_energy(HeatColumns.of(stream, last.temperature), surfaces, last, inlet_temperature=300.0)
+    follows = np.any(found.by_pressure, axis=(0, 2))
+    assert not follows[:5].any()
+    assert follows[6:].all()
