@@ -20,6 +20,9 @@ from ehlectric.film.sheared.profile import Quadrature, to_points
 # for the Eyring law and to 1e-7 for Carreau's law.
 _SMALL, _FEW, _FEW_OF_PROFILE = 2.0, 8, 12
 
+# Number of columns, as around a pressure spike, up to which two quadratures take longer than the larger one.
+_TOGETHER = 100
+
 
 def flux_of(
     rheology: Rheology,
@@ -61,6 +64,8 @@ def flux_of(
     ratio, layers = (None, None) if profile is None else (values.reshape(nz, -1) for values in profile)
     few = _FEW if profile is None else _FEW_OF_PROFILE
     small = (np.max(np.abs(gradient), axis=0) < _SMALL) | rheology.law.even
+    if mean.size <= _TOGETHER and not small.all():
+        small[:] = False
     flux, by_gradient, by_slip = np.empty_like(mean), np.empty_like(gradient), np.empty_like(slip)
     by_viscosity, by_weight = np.empty((nz, mean.size)), np.empty((nz, mean.size))
     for part, quadrature in ((small, Quadrature.gauss(few)), (~small, Quadrature.gauss())):
