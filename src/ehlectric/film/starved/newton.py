@@ -205,12 +205,14 @@ def next_filled(fluid: Fluid, level: Level, state: State, now: Content) -> Mask:
     """Nodes that oil fills after a Newton step: no tension where it is filled, no overflow elsewhere.
 
     A filled node below ambient pressure becomes cavitated, and a cavitated node with more oil than the gap
-    holds is filled.
+    holds is filled. The nodes on the edges stay as ``assess_content`` found them.
     """
     full = now.residual.coefficients.density * state.thickness
     under = state.pressure - fluid.ambient_pressure < -_TENSION
     over = now.mass > (1.0 + _OVERFLOW) * full
-    return np.where(now.filled, ~under, over | _backed_up(now, full)) & level.mesh.inner
+    moved = np.where(now.filled, ~under, over | _backed_up(now, full))
+    # On the inlet edge the layer and the gap say which nodes are filled, whatever the pressure is.
+    return np.where(level.mesh.inner, moved, now.filled)
 
 
 def _backed_up(now: Content, full: Array) -> Mask:
