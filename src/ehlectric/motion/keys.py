@@ -75,7 +75,7 @@ _SUPPLIED: Keys = {
     ),
     "meniscus_before": ResultKey(
         "position on the centre line from which oil fills the gap before the motion; null if the film is "
-        "flooded, like the two below; only with `[inlet]`",
+        "flooded or oil fills the gap at the inlet edge there, like the two below; only with `[inlet]`",
         "m",
     ),
     "meniscus_least": ResultKey("minimum over time of this position; only with `[inlet]`", "m"),

@@ -99,12 +99,13 @@ def test_nodes_that_overflow_or_are_under_tension_change():
 
 @pytest.mark.parametrize("part", [1.0, 0.025], ids=["uniform", "little beside the middle"])
 def test_a_layer_that_fills_the_gap_at_the_inlet_edge_on_some_lines(part):
-    """The gap at the edge is 11.5 in the middle and grows to the sides, so that a layer of 12 fills the middle."""
+    """The gap at the edge is 11.5 in the middle and grows to the sides: a layer of 12 fills the middle."""
     problem = posed(POINT)
     problem = replace(problem, nodes=49, width=replace(problem.width, nodes=33))
     found = supplied(problem, lambda y: np.where(np.abs(y) < 0.3, 12.0, 12.0 * part))
     filled = found.film.content.filled[0]
-    assert filled.any() and not filled.all()
+    assert filled.any()
+    assert not filled.all()
     assert found.last.status == "converged"
 
 

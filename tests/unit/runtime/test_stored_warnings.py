@@ -44,6 +44,7 @@ UNSTORED = {
     "oil-layer-thick",
     "meniscus-at-edge",
     "film-ratio-missed",
+    "flooded-film-wrong",
     "load-share-unresolved",
     "oil-not-conserved",
     "hardness-low",
