@@ -278,6 +278,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "oil-layer-thick": Cause("The layer of oil is thicker than what the contact takes.", "note"),
         "meniscus-at-edge": Cause("The meniscus is at the edge of the domain or of the Hertz zone."),
         "film-ratio-missed": Cause("No layer of oil was found that gives the ratio of films asked for."),
+        "layer-table-short": Cause("The layer of oil over y does not reach the sides of the contact."),
         "flooded-film-wrong": Cause("The flooded film beside a starved one is wrong or not known."),
         "newtonian-traction": Cause("The traction of a Newtonian film at high pressure is far too large."),
         "film-temperature-range": Cause("The film is hotter or colder than the laws of the oil are known."),

@@ -67,8 +67,8 @@ _FILM: Keys = {
 }
 _SUPPLIED: Keys = {
     "oil_layer": ResultKey(
-        "thickness of the oil on both surfaces together before the contact, on the centre line; only with "
-        "`[inlet]`",
+        "thickness of the oil on both surfaces together before the contact, on the centre line; if they "
+        "slide, the oil that they carry over the mean speed; only with `[inlet]`",
         "m",
         "layer of oil",
         r"$h_\mathrm{oil}$",

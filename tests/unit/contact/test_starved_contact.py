@@ -163,11 +163,14 @@ def test_the_whole_flooded_film_has_the_layer_that_passes(flooded):
 
 def test_a_film_that_is_flooded_on_the_centre_line_alone_is_starved():
     table = {"y": ["-60 um", "-50 um", "50 um", "60 um"], "thickness": ["0.2 um", "15 um", "15 um", "0.2 um"]}
-    result = solve(POINT.replace({"inlet.layer_table": table}))
+    few = {"grid.field_degree": 2, "grid.field_nodes": 17, "grid.field_nodes_y": 17}
+    result = solve(POINT.replace({"inlet.layer_table": table, **few}))
     assert result.film.starvation.meniscus is None
     assert result.film.film_fraction is not None
     assert result.film.inlet_deficit > 0.0
-    assert "oil-layer-thick" not in codes(result)
+    assert not {"oil-layer-thick", "film-ratio-missed"} & codes(result)
+    # The table ends within the Hertz zone, whose semi-axis is 0.11 mm.
+    assert "layer-table-short" in codes(result)
     (text,) = [warning.text for warning in result.warnings if warning.code == "meniscus-at-edge"]
     assert "on y = 0 already" in text
     assert any(row.value == "at the inlet edge on y = 0" for row in result_rows(result))
@@ -185,8 +188,10 @@ def test_layer_for_a_ratio_of_films(case):
 
 def test_a_layer_over_y_may_differ_on_both_sides():
     table = {"y": ["-0.2 mm", "0.2 mm"], "thickness": ["0.4 um", "0.1 um"]}
-    film = solve(POINT.replace({"inlet.layer_table": table})).film
+    result = solve(POINT.replace({"inlet.layer_table": table}))
+    film = result.film
     assert film.converged
+    assert "layer-table-short" not in codes(result)
     assert film.starvation.oil_layer == pytest.approx(0.25e-6, rel=1e-9)
     middle = int(np.argmin(np.abs(film.x)))
     side = 0.5 * film.semi_axis_y

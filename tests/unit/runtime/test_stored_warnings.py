@@ -44,6 +44,7 @@ UNSTORED = {
     "oil-layer-thick",
     "meniscus-at-edge",
     "film-ratio-missed",
+    "layer-table-short",
     "flooded-film-wrong",
     "load-share-unresolved",
     "oil-not-conserved",

@@ -57,6 +57,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "oil-layer-thick": _FILM,
         "meniscus-at-edge": _FILM,
         "film-ratio-missed": _FILM,
+        "layer-table-short": _FILM,
         "flooded-film-wrong": (),
         "newtonian-traction": ("traction",),
         "film-temperature-range": (*_FILM, "temperature-rise"),

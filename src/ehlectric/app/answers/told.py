@@ -98,6 +98,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "oil-layer-thick": _FILM,
         "meniscus-at-edge": _FILM,
         "film-ratio-missed": _FILM,
+        "layer-table-short": _FILM,
         "flooded-film-wrong": (),
         "newtonian-traction": (),
         "film-temperature-range": _FILM,

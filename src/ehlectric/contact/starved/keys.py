@@ -11,8 +11,9 @@ _ONLY = "; only with `[inlet]`"
 
 STARVED_KEYS: Keys = {
     "oil_layer": ResultKey(
-        "thickness of the oil on both surfaces together before the contact, on the centre line; null for "
-        f"`film_ratio = 1` in a point contact{_ONLY}",
+        "thickness of the oil on both surfaces together before the contact, on the centre line; if they "
+        "slide, the oil that they carry over the mean speed; null for `film_ratio = 1` in a point "
+        f"contact{_ONLY}",
         "m",
         "layer of oil",
         r"$h_\mathrm{oil}$",

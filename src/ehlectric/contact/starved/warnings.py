@@ -44,6 +44,16 @@ def starvation_warnings(
             f"boundary film of {1e9 * conditions.boundary_film:.3g} nm: the surfaces would touch there, "
             "which is not solved with [inlet]",
         )
+    table = inlet.layer_table
+    if table is not None and isinstance(film, PointFilm):
+        side = film.semi_axis_y
+        if table.y[0] > -side or table.y[-1] < side:
+            yield ResultWarning(
+                "layer-table-short",
+                f"inlet.layer_table has the layer from y = {1e6 * table.y[0]:.3g} to {1e6 * table.y[-1]:.3g} "
+                f"µm, and the Hertz zone reaches from {-1e6 * side:.3g} to {1e6 * side:.3g} µm: its ends "
+                "are taken beyond",
+            )
     asked, ratio = inlet.film_ratio, found.film_ratio
     if asked is not None and ratio is not None and abs(ratio / asked - 1.0) > _MISSED:
         yield ResultWarning(
