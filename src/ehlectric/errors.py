@@ -325,6 +325,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "partial-film": Cause("The lambda ratio is below 3: surfaces may touch, and discharge then."),
         "smooth-film": Cause("The films are smooth, with the film factor of the case.", "note"),
         "supply-rule": Cause("A rule for the rolling friction gives the supply of oil to the films."),
+        "film-factor-low": Cause("The film factor is so low that films differ from it by its exponent."),
         "supply-low": Cause("The supply of oil leaves less than half of the flooded film."),
         "film-decays": Cause("The film halves soon if no oil returns to its track.", "note"),
         "shaft-leaks": Cause("The oil discharges the shaft within a period of the inverter."),

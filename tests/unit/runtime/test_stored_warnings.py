@@ -32,6 +32,7 @@ UNSTORED = {
     "strength-above-liquids",
     "smooth-film",
     "supply-rule",
+    "film-factor-low",
     "supply-low",
     "film-decays",
     "roughness-factor-rough",

@@ -104,6 +104,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "partial-film": _FILM,
         "smooth-film": _BREAKDOWN,
         "supply-rule": _FILM,
+        "film-factor-low": _FILM,
         "supply-low": _FILM,
         "film-decays": _FILM,
         "shaft-leaks": (),

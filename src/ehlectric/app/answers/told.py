@@ -145,6 +145,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "partial-film": ("regime", *_FILM),
         "smooth-film": _FILM,
         "supply-rule": _FILM,
+        "film-factor-low": _FILM,
         "supply-low": _FILM,
         "film-decays": _FILM,
         "shaft-leaks": _SPARK,
