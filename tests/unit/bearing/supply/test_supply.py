@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from ehlectric.bearing.measured.forward import OperatingPoint
@@ -9,8 +10,8 @@ from ehlectric.bearing.preparation import prepare_bearing, resolve_bearing, with
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.storage.dataset import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
-from ehlectric.bearing.supply.decay import track_length
-from ehlectric.bearing.supply.warnings import film_note, supply_words
+from ehlectric.bearing.supply.decay import half_time, track_length
+from ehlectric.bearing.supply.warnings import film_note, supply_warnings, supply_words
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.formulas.replenishment import replenishment_factor
@@ -61,14 +62,18 @@ def test_rule_takes_the_kinematic_viscosity_at_each_ring():
 def test_flooded_is_what_it_was(tables):
     """Films of a flooded bearing are those of the whole film as a number, and no time is given."""
     flooded, whole = (
-        solve_bearing(case(tables, bearing__supply=supply)).summary() for supply in ("flooded", 1.0)
+        solve_bearing(case(tables, bearing__supply=supply)).solution for supply in ("flooded", 1.0)
     )
-    assert flooded["contacts"] == whole["contacts"]
-    for key in ("film_factor", "capacitance", "first_break", "lambda_ratio"):
-        assert flooded["bearing"][key] == whole["bearing"][key]
-    totals = flooded["bearing"]
-    assert (totals["heat_factor"], totals["supply_factor"], totals["film_half_time"]) == (1.0, 1.0, None)
-    assert not {"supply-rule", "supply-low", "film-decays"} & set(flooded["warning_codes"])
+    assert flooded.least_film == whole.least_film
+    films = [
+        [ring.values.central_thickness for position in one.positions for ring in position.rings]
+        for one in (flooded, whole)
+    ]
+    np.testing.assert_array_equal(*films)
+    conditions = flooded.conditions
+    assert (conditions.film_factor, conditions.heat_factor, conditions.supply_factor) == (1.0, 1.0, 1.0)
+    assert half_time(flooded) is None
+    assert not list(supply_warnings(flooded))
 
 
 def test_summary_of_a_greased_bearing():
