@@ -4,7 +4,8 @@ python -m benchmarks.starvation    (minutes: writes the table of docs/data and i
 python -m benchmarks.starvation --figure    (figure from the existing table)
 
 The relation h_c/h_ff = r/(1 + r^gamma)^(1/gamma) with r = h_oil/(rho_c h_ff) is that of F. Chevalier, A. A.
-Lubrecht, P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175.
+Lubrecht, P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175,
+second-hand.
 """
 
 from __future__ import annotations
@@ -37,7 +38,8 @@ HEADER = """\
 """
 
 # Load [N] and entrainment speed [m/s] of the contacts, steel bodies with R = 10 mm in the oil of the paper.
-CONTACTS = ((2.0, 2.0), (20.0, 2.0), (60.0, 2.0))
+# At 2 N the flooded film changes by a tenth with the domain, and a meniscus of r = 3 lies at its edge.
+CONTACTS = ((20.0, 2.0), (60.0, 2.0))
 PARTS = (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0)
 NODES = 129
 
@@ -82,6 +84,7 @@ def compute() -> list[dict[str, float]]:
                 assert isinstance(found, StarvedSolution)
                 assert found.last.status == "converged"
                 starved = found.starvation
+                assert starved.film_ratio is not None
                 place = np.nan if starved.meniscus is None else starved.meniscus / problem.scales.length
                 row = {
                     "moes_m": conditions.contact.moes_m,

@@ -138,9 +138,7 @@ class Case(Tabled, Table):
             length = None if self.discharge is None else self.discharge.length
             self.meter.check(self.contact, length, rough=bool(self.roughness), moves=moves)
         if self.inlet is not None:
-            self.inlet.check(
-                self.contact.geometry, beside=[name for name, table in self if table is not None]
-            )
+            self.inlet.check(self.contact, beside=[name for name, table in self if table is not None])
         if self.motion is not None:
             self.motion.check(self.grid, rough=bool(self.roughness))
             object.__setattr__(self, "grid", self.grid.fixed())

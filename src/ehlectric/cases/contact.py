@@ -143,6 +143,13 @@ class Contact(Table):
         """Gap [m] at which the surfaces touch: the boundary film, or a thinner one than an atom for none."""
         return max(BOUNDARY_FILM if self.boundary_film is None else self.boundary_film, _ATOM)
 
+    @property
+    def opposed(self) -> bool:
+        """Whether the surfaces move in opposite directions."""
+        if self.speed_1 is not None and self.speed_2 is not None:
+            return self.speed_1 * self.speed_2 < 0.0
+        return abs(self.slide_to_roll_ratio or 0.0) > 2.0
+
     @model_validator(mode="after")
     def _check(self) -> Self:
         self._check_geometry()

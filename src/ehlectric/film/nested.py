@@ -34,7 +34,7 @@ _FIRST_GRID_POINT = 33
 
 # Largest number of nodes of a line contact whose linear systems are solved directly, without coarser grids:
 # the factorisation then takes less time than the cycles.
-_DIRECT = 401
+DIRECT = 401
 
 # Largest number of nodes of a smooth line contact whose grids are kept for the next contact, and number of
 # such grids, which take about 10 MB at most.
@@ -248,7 +248,7 @@ def _solve_grid(
     to solve the nodes of the pressure spike separately.
     """
     finest = levels[0].nodes == problem.nodes
-    direct = problem.width is None and levels[0].nodes <= _DIRECT
+    direct = problem.width is None and levels[0].nodes <= DIRECT
     return newton(
         problem.fluid,
         levels[:1] if direct else levels,

@@ -32,7 +32,7 @@ ROUNDING = 40.0 * np.finfo(float).eps
 
 # Smallest H of an iterate; thinner iterates count as diverged. It is thousands of times thinner than the
 # films at the corners of the Moes map.
-_SMALLEST_GAP = 1e-8
+SMALLEST_GAP = 1e-8
 
 # Smallest relative tolerance of the linear solutions: Newton's method gains about three digits per step.
 LINEAR_TOLERANCE = 1e-3
@@ -53,7 +53,7 @@ _KEPT = (201, 10_000)
 
 # Weight of the relative load imbalance in the residual: the load is balanced ten times as closely as the
 # Reynolds equation.
-_LOAD_WEIGHT = 10.0
+LOAD_WEIGHT = 10.0
 
 
 def newton(
@@ -132,7 +132,7 @@ def newton(
         if length < 1.0:
             candidate = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
         assessed = assess(fluid, level, candidate)
-        if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > _SMALLEST_GAP):
+        if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > SMALLEST_GAP):
             return GridSolution(level, state, now, tuple(steps), "diverged")
         grown = grown + 1 if np.sum(assessed.full_film) > np.sum(now.full_film) else 0
         if grown > 1 and tolerance < assessed.norm < _NEAR:
@@ -187,7 +187,7 @@ def assess(fluid: Fluid, level: Level, state: State) -> Residual:
     diagonal = poiseuille + gap.elastic_weight(at_faces.coefficients.density)
     unnormed = Residual(at_faces, r, diagonal, full_film, load, np.nan)
     rows = np.where(full_film, unnormed.scaled, excess)
-    norm = float(np.max(np.abs(np.append(rows, _LOAD_WEIGHT * load / level.load))))
+    norm = float(np.max(np.abs(np.append(rows, LOAD_WEIGHT * load / level.load))))
     return replace(unnormed, norm=norm)
 
 
@@ -208,7 +208,7 @@ def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> t
     if pressure is None:
         return state, now
     relaxed = State.of(level, pressure, state.h00)
-    if np.min(relaxed.thickness) <= _SMALLEST_GAP:
+    if np.min(relaxed.thickness) <= SMALLEST_GAP:
         return state, now
     return relaxed, assess(fluid, level, relaxed)
 

@@ -73,9 +73,9 @@ class PointFilm(FilmSolution):
         """
         if self.inlet_deficit is None or self.side_deficit is None:
             return None
-        at = np.log(max(self.central_thickness / self.scales.thickness, 1e-12))
-        upstream = np.interp(at, _LOSS_AT, _LOST_UPSTREAM) * self.inlet_deficit
-        return float(upstream + np.interp(at, _LOSS_AT, _LOST_AT_SIDES) * self.side_deficit)
+        flooded = None if self.starvation is None else self.starvation.flooded_central_thickness
+        central = self.central_thickness if flooded is None else flooded
+        return lost_film(central / self.scales.thickness, self.inlet_deficit, self.side_deficit)
 
     @property
     def minimum_position(self) -> tuple[float, float]:
@@ -120,6 +120,21 @@ class PointFilm(FilmSolution):
         middle = int(np.argmin(np.abs(self.y)))
         behind = int(np.argmax(self.pressure[:, middle]))
         return bool(np.any(self.cavitated[behind:-1, middle]))
+
+
+def lost_film(thickness: float, upstream: float, sides: float) -> float:
+    """Estimated relative loss of a film whose domain is too small, dimensionless.
+
+    Parameters
+    ----------
+    thickness : float
+        Central film thickness H of the flooded film.
+    upstream, sides : float
+        Shares of the reduced pressure that are missing upstream of the domain and at its sides.
+    """
+    at = np.log(max(thickness, 1e-12))
+    lost = np.interp(at, _LOSS_AT, _LOST_UPSTREAM) * upstream
+    return float(lost + np.interp(at, _LOSS_AT, _LOST_AT_SIDES) * sides)
 
 
 def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) -> PointFilm:
@@ -186,8 +201,8 @@ def _film(problem: FilmProblem, found: RefinedSolution) -> PointFilm:
         stationary_film(found, mesh.mirrored),
         y=problem.scales.length * y,
         semi_axis_y=semi_axis_across(problem),
-        side_deficit=0.0
-        if isinstance(found, StarvedSolution) and found.starved_at_sides
+        side_deficit=found.side_deficit
+        if isinstance(found, StarvedSolution)
         else side_deficit(problem, mesh, whole.state.pressure, whole.state.thickness),
     )
 

@@ -168,9 +168,8 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
         ),
         steps=steps,
         discretisation_error=found.error,
-        # No pressure builds up upstream of a meniscus.
-        inlet_deficit=0.0
-        if supplied.get("film_fraction") is not None
+        inlet_deficit=found.inlet_deficit
+        if isinstance(found, StarvedSolution)
         else inlet_deficit(
             problem.fluid,
             problem.geometry,

@@ -53,6 +53,12 @@ _MOST_CHANGE = 0.1
 # Largest distance that oil travels in a time step, in grid spacings.
 MOST_COURANT = 8.0
 
+# Why a film with a layer of oil at the inlet is not solved where it is thinner than the boundary film: the
+# solver of films that touch has no part of the gap without oil, and would make oil.
+TOUCHING = (
+    "it is thinner than contact.boundary_film in places, and surfaces that touch are not solved with [inlet]"
+)
+
 # Gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny).
 MovingGap: TypeAlias = Callable[[float, Array, Array], Array]
 
@@ -200,7 +206,8 @@ class UnsteadyFilm:
         Raises
         ------
         ConvergenceError
-            If the film equations do not converge after six halvings.
+            If the film equations do not converge after six halvings, or a film with a layer of oil is thinner
+            than the boundary film somewhere.
         """
         return self._advance(replace(history, effort=Effort()), step, _MOST_HALVINGS)
 
@@ -243,9 +250,11 @@ class UnsteadyFilm:
             effort += Effort(len(solution.steps), krylov)
             if solution.status == "converged":
                 if float(solution.state.thickness.min()) < self.problem.boundary_film:
+                    if self.layer is not None:
+                        raise ConvergenceError(f"film at T = {time:.6g}: {TOUCHING}")
                     break
                 return self._instant(time, solution), effort
-        if self.problem.boundary_film > 0.0:
+        if self.problem.boundary_film > 0.0 and self.layer is None:
             solution = self._touching(levels, history)
             effort += Effort(len(solution.steps), sum(one.krylov_iterations for one in solution.steps))
             if solution.status == "converged":

@@ -67,15 +67,15 @@ _FILM: Keys = {
 }
 _SUPPLIED: Keys = {
     "oil_layer": ResultKey(
-        "thickness of the oil on both surfaces together before the contact, on the centre line; only with "
-        "`[inlet]`",
+        "thickness of the oil on both surfaces together before the contact, on the centre line; if they "
+        "slide, the oil that they carry over the mean speed; only with `[inlet]`",
         "m",
         "layer of oil",
         r"$h_\mathrm{oil}$",
     ),
     "meniscus_before": ResultKey(
         "position on the centre line from which oil fills the gap before the motion; null if the film is "
-        "flooded, like the two below; only with `[inlet]`",
+        "flooded or oil fills the gap at the inlet edge there, like the two below; only with `[inlet]`",
         "m",
     ),
     "meniscus_least": ResultKey("minimum over time of this position; only with `[inlet]`", "m"),

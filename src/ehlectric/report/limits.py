@@ -265,8 +265,8 @@ REFERENCES = (
     ),
     Reference(
         "heating by shear in the inlet",
-        "Wilson and Sheu, J. Lubr. Technol. 105 (1983) 187-195",
-        "10.1115/1.3254558",
+        "Wilson and Sheu, J. Lubr. Technol. 105 (1983) 187-188",
+        "10.1115/1.3254563",
         lambda case: isinstance(case, BearingCase) and case.bearing.heated,
     ),
     Reference(

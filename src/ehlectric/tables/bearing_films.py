@@ -44,9 +44,11 @@ def _note(summary: Mapping[str, Any], supply: object) -> str:
     """Parts of the film factor."""
     if summary["bearing"]["film_factor"] == 1.0:
         return "(isothermal, fully flooded)"
-    heat = _HEAT.get(summary["inputs"]["bearing"]["film_factor"], "")
-    oil = "supply of oil" if supply != "flooded" else ""
-    return f"({' and '.join(filter(None, (heat, oil))) or 'given'})"
+    factor = summary["inputs"]["bearing"]["film_factor"]
+    if supply == "flooded":
+        return f"({_HEAT.get(factor, 'given')})"
+    other = _HEAT.get(factor) or (f"given factor of {factor:.3g}" if factor not in ("none", 1.0) else "")
+    return f"({' and '.join(filter(None, (other, 'supply of oil')))})"
 
 
 def friction_rows(summary: Mapping[str, Any]) -> Iterator[Row]:

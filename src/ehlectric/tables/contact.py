@@ -209,12 +209,20 @@ def _supply(result: Result | PointResult) -> Iterator[Row]:
     found = result.film.starvation
     if found is None:
         return
-    yield Row("central film / flooded central film", found.film_ratio)
-    yield Row("minimum film if flooded", found.flooded_minimum_thickness, "µm")
-    yield Row("layer of oil before the contact", found.oil_layer, "µm", ", on both surfaces together")
-    place = found.meniscus
-    filled = "none: flooded" if place is None else f"x/b = {place / result.conditions.half_width:.3g}"
+    yield _known("central film / flooded central film", found.film_ratio)
+    yield _known("minimum film if flooded", found.flooded_minimum_thickness, "µm")
+    yield _known("layer of oil before the contact", found.oil_layer, "µm", ", on both surfaces together")
+    place, filled = found.meniscus, "none: flooded"
+    if place is not None:
+        filled = f"x/b = {place / result.conditions.half_width:.3g}"
+    elif result.film.film_fraction is not None:
+        filled = "at the inlet edge on y = 0"
     yield Row("meniscus, where oil fills the gap", filled)
+
+
+def _known(name: str, value: float | None, unit: str = "", note: str = "") -> Row:
+    """Row of a number that may be unknown."""
+    return Row(name, "unknown") if value is None else Row(name, value, unit, note)
 
 
 def _pressure_error(error: float | None) -> str:

@@ -89,7 +89,7 @@ def test_rigid_line_from_its_meniscus(meniscus):
 
 
 def test_starved_circle_between_the_published_exponents():
-    """h_c/h_ff = r/(1 + r^gamma)^(1/gamma) with gamma from 2 to 5 for circles (Chevalier et al. 1998)."""
+    """h_c/h_ff = r/(1 + r^gamma)^(1/gamma), gamma from 2 to 5 (Chevalier et al. 1998, second-hand)."""
     problem = posed(CIRCLE)
     mass, _ = flooded_flow(problem)
     ratios = []
@@ -179,8 +179,8 @@ def test_random_starved_lines_converge(pressure, log_speed, log_part):
 def test_circle_from_its_meniscus_is_near_the_published_one():
     """Hamrock and Dowson IV (1977): h_c/h_ff = [(m - 1)/(m* - 1)]^0.29, m* = 1 + 3.06 [(R/b)^2 H_c]^0.58.
 
-    m is the distance of the meniscus in Hertz radii, H_c = h_ff/R. Their inlet is cut off by a straight line,
-    and the meniscus under a uniform layer is curved.
+    The constants are from memory. m is the distance of the meniscus in Hertz radii, H_c = h_ff/R. Their inlet
+    is cut off by a straight line, and the meniscus under a uniform layer is curved.
     """
     problem = posed(CIRCLE)
     mass, flooded = flooded_flow(problem)

@@ -135,6 +135,25 @@ def test_another_geometry_of_a_contact_drops_keys_of_this_one():
     assert not {"grid.nodes", "grid.error"} & set(flat)
 
 
+@pytest.mark.parametrize(
+    ("start", "change", "dropped"),
+    [
+        ("hot_contact", {"inlet.oil_layer": "0.2 um"}, "film"),
+        ("starved_contact", {"film.rheology": "newtonian"}, "inlet"),
+        ("starved_contact", {"meter.fill": "oil"}, "inlet"),
+        ("moving_roughness", {"inlet.oil_layer": "0.2 um"}, None),
+        ("moving_roughness", {"inlet.film_ratio": 0.5}, "motion"),
+    ],
+)
+def test_a_supply_of_oil_takes_the_place_of_what_cases_refuse_beside_it(start, change, dropped):
+    inputs = Inputs(tomllib.loads(example_text(start)))
+    found = changed(inputs, change)
+    case(found)
+    assert [key for key in ("film", "inlet", "motion") if inputs.value(key) and not found.value(key)] == (
+        [dropped] if dropped else []
+    )
+
+
 def test_nodes_and_error_of_a_grid_take_the_place_of_one_another():
     line = Inputs(tomllib.loads(example_text("line_contact")))
     given = changed(line, {"grid.nodes": 801})

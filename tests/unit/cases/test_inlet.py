@@ -79,6 +79,19 @@ def test_one_supply_replaces_another():
             r"inlet: got \[inlet\] beside \[meter\]",
         ),
         (
+            {**LINE, "contact": {**LINE["contact"], "slide_to_roll_ratio": -2.1}},
+            {"inlet": {"oil_layer": "1 um"}},
+            r"inlet: got \[inlet\] with surfaces that move in opposite directions; expected a slide-to-roll",
+        ),
+        (
+            {
+                **POINT,
+                "contact": {**POINT["contact"], "entrainment_speed": None, "speed_1": 3.0, "speed_2": -1.0},
+            },
+            {"inlet": {"film_ratio": 0.5}},
+            r"inlet: got \[inlet\] with surfaces that move in opposite directions",
+        ),
+        (
             LINE,
             {
                 "inlet": {"film_ratio": 0.5},

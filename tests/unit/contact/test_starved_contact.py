@@ -117,9 +117,63 @@ def test_meniscus_at_the_edge_of_the_hertz_zone_and_of_the_domain(starved):
         if warning.code == "meniscus-at-edge"
     ]
     assert "at the edge of the Hertz zone" in text
-    short = LINE.replace({"inlet.film_ratio": 0.998, "grid.inlet": -2.3})
+    short = LINE.replace({"inlet.film_ratio": 0.99, "grid.inlet": -1.8})
     (text,) = [w.text for w in solve(short).warnings if w.code == "meniscus-at-edge"]
     assert "at the edge of the domain" in text
+    # Where the film is flooded to a tenth of a percent the meniscus may lie there.
+    nearly = LINE.replace({"inlet.film_ratio": 0.9995, "grid.inlet": -2.3})
+    assert "meniscus-at-edge" not in codes(solve(nearly))
+
+
+def test_a_short_inlet_of_the_flooded_film_is_told():
+    """It is that of the film, if this is a part of the flooded one; else of the ratio of films alone."""
+    short = LINE.replace({"grid.inlet": -1.3})
+    flooded, part = solve(short), solve(short.replace({"inlet.film_ratio": 0.7}))
+    assert part.film.inlet_deficit == pytest.approx(flooded.film.inlet_deficit, rel=1e-9)
+    assert "inlet-far-too-short" in codes(part)
+    layer = solve(short.replace({"inlet.oil_layer": "0.2 um"}))
+    assert layer.film.inlet_deficit == 0.0
+    assert not {"inlet-too-short", "inlet-far-too-short"} & codes(layer)
+    assert "flooded-film-wrong" in codes(layer)
+
+
+def test_a_flooded_film_that_did_not_converge_has_no_part():
+    few = LINE.replace({"solver.max_iterations": 3})
+    part = solve(few.replace({"inlet.film_ratio": 0.7}))
+    assert not part.converged
+    assert {"not-converged", "flooded-film-wrong"} <= codes(part)
+    layer = solve(few.replace({"inlet.oil_layer": "0.3 um"}))
+    assert layer.converged
+    assert "flooded-film-wrong" in codes(layer)
+    film = layer.summary()["film"]
+    assert film["film_ratio"] is None
+    assert film["flooded"] == {"minimum_thickness": None, "central_thickness": None}
+    rows = {row.name: row.value for row in result_rows(layer)}
+    assert rows["central film / flooded central film"] == "unknown"
+
+
+def test_the_whole_flooded_film_has_the_layer_that_passes(flooded):
+    """In a line contact that is the mass of the film; the least one of a point depends on its domain."""
+    film = solve(LINE.replace({"inlet.film_ratio": 1.0})).film
+    at_centre = np.interp(0.0, film.x, film.thickness * film.density) / film.density[0]
+    assert film.starvation.oil_layer == pytest.approx(at_centre, rel=2e-3)
+    np.testing.assert_array_equal(film.thickness, flooded.film.thickness)
+    assert solve(POINT.replace({"inlet.film_ratio": 1.0})).film.starvation.oil_layer is None
+
+
+def test_a_film_that_is_flooded_on_the_centre_line_alone_is_starved():
+    table = {"y": ["-60 um", "-50 um", "50 um", "60 um"], "thickness": ["0.2 um", "15 um", "15 um", "0.2 um"]}
+    few = {"grid.field_degree": 2, "grid.field_nodes": 17, "grid.field_nodes_y": 17}
+    result = solve(POINT.replace({"inlet.layer_table": table, **few}))
+    assert result.film.starvation.meniscus is None
+    assert result.film.film_fraction is not None
+    assert result.film.inlet_deficit > 0.0
+    assert not {"oil-layer-thick", "film-ratio-missed"} & codes(result)
+    # The table ends within the Hertz zone, whose semi-axis is 0.11 mm.
+    assert "layer-table-short" in codes(result)
+    (text,) = [warning.text for warning in result.warnings if warning.code == "meniscus-at-edge"]
+    assert "on y = 0 already" in text
+    assert any(row.value == "at the inlet edge on y = 0" for row in result_rows(result))
 
 
 @pytest.mark.parametrize("case", [LINE, POINT], ids=["line", "point"])
@@ -134,8 +188,10 @@ def test_layer_for_a_ratio_of_films(case):
 
 def test_a_layer_over_y_may_differ_on_both_sides():
     table = {"y": ["-0.2 mm", "0.2 mm"], "thickness": ["0.4 um", "0.1 um"]}
-    film = solve(POINT.replace({"inlet.layer_table": table})).film
+    result = solve(POINT.replace({"inlet.layer_table": table}))
+    film = result.film
     assert film.converged
+    assert "layer-table-short" not in codes(result)
     assert film.starvation.oil_layer == pytest.approx(0.25e-6, rel=1e-9)
     middle = int(np.argmin(np.abs(film.x)))
     side = 0.5 * film.semi_axis_y

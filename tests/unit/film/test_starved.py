@@ -1,5 +1,7 @@
 """Parts of the starved film: derivatives, runs of cavitated nodes, and the search for a layer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,7 @@ from ehlectric.film.starved.newton import assess_content, next_filled
 from ehlectric.film.starved.ratio import first_layer
 from ehlectric.film.state import State
 from ehlectric.runtime.threads import quiet_solution
-from tests.helpers.starved_films import posed
+from tests.helpers.starved_films import posed, supplied
 
 LINE = Case.line(
     reduced_radius="14.1 mm",
@@ -93,6 +95,18 @@ def test_nodes_that_overflow_or_are_under_tension_change():
     pressure[first + 3] = -1.0
     under = State(pressure, state.h00, state.thickness)
     assert not next_filled(problem.fluid, level, under, now)[first + 3, 0]
+
+
+@pytest.mark.parametrize("part", [1.0, 0.025], ids=["uniform", "little beside the middle"])
+def test_a_layer_that_fills_the_gap_at_the_inlet_edge_on_some_lines(part):
+    """The gap at the edge is 11.5 in the middle and grows to the sides: a layer of 12 fills the middle."""
+    problem = posed(POINT)
+    problem = replace(problem, nodes=49, width=replace(problem.width, nodes=33))
+    found = supplied(problem, lambda y: np.where(np.abs(y) < 0.3, 12.0, 12.0 * part))
+    filled = found.film.content.filled[0]
+    assert filled.any()
+    assert not filled.all()
+    assert found.last.status == "converged"
 
 
 def test_runs_of_two_lines():

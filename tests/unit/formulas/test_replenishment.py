@@ -12,7 +12,6 @@ from ehlectric.formulas.replenishment import (
     GEOMETRY_CONSTANTS,
     SUPPLY_CONSTANTS,
     decay_rate,
-    decayed_thickness,
     film_half_time,
     replenishment_factor,
 )
@@ -91,6 +90,11 @@ def grease(pressure, radius, ratio, track):
         density_ratio=density(pressure),
         track_length=2.0 * math.pi * track,
     )
+
+
+def decayed_thickness(thickness, time, rate):
+    """Solution of dh/dt = -(rate/2) h^3."""
+    return thickness / np.sqrt(1.0 + rate * time * thickness**2)
 
 
 def test_decay_of_grease_between_ball_and_disc():

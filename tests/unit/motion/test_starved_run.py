@@ -1,17 +1,21 @@
 """Runs with a layer of oil at the inlet: their file and summary, how they resume, what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from ehlectric import InputError
 from ehlectric.contact.resolve import resolve
 from ehlectric.errors import ConvergenceError
+from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.keys import MOTION_KEYS
 from ehlectric.motion.run import run
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.tables.motion import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving
+from tests.helpers.starved_motion import line, motion, smooth
 
 LAYER = 200e-9
 SHORT = {"passes": 0.5, "record": 3}
@@ -96,6 +100,23 @@ def test_a_point_contact_runs_with_a_layer_over_y(tmp_path):
     film = found.result.sel(x=0.0, method="nearest")["thickness"].values[-1]
     lower, upper = (film[np.argmin(np.abs(y - at))] for at in (-40e-6, 40e-6))
     assert upper > 1.3 * lower
+
+
+def test_a_layer_thinner_than_the_boundary_film_is_refused(tmp_path):
+    with pytest.raises(ConvergenceError, match=r"before the motion: .* thinner than contact\.boundary_film"):
+        run(moving(LINE, inlet={"oil_layer": 1e-9}, motion=SHORT), tmp_path)
+
+
+def test_a_film_that_becomes_thinner_than_the_boundary_film_ends_the_run():
+    """Waves that grow in a film just above the boundary film."""
+    problem = line(0.2, nodes=101)
+    least = 0.999 * float(MovingFilm(problem, smooth).steady.state.thickness.min())
+
+    def waves(time, x, _y):
+        return least * time * np.sin(6.0 * (x - time))[:, np.newaxis]
+
+    with pytest.raises(ConvergenceError, match=r"surfaces that touch are not solved with \[inlet\]"):
+        list(motion(replace(problem, boundary_film=least), waves, steps=20))
 
 
 def test_a_ratio_of_films_is_refused_beside_motion():

@@ -135,7 +135,6 @@ _SPEEDS = (
         log=True,
         note="on both surfaces together; none: flooded",
         optional=True,
-        when=lambda inputs: inputs.value("motion") is None,
     ),
 )
 

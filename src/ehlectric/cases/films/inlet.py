@@ -7,6 +7,7 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.contact import Contact
 from ehlectric.cases.quantity import Quantities, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
@@ -62,23 +63,29 @@ class Inlet(Table):
             raise InputError(names[0], got=together, takes=f"one of {', '.join(names)}")
         return self
 
-    def check(self, geometry: str, *, beside: Collection[str]) -> None:
+    def check(self, contact: Contact, *, beside: Collection[str]) -> None:
         """Check that the table fits the other tables of its case.
 
         Parameters
         ----------
-        geometry : str
-            Geometry of the contact, "line" or "point".
+        contact : Contact
+            Table ``contact`` of the case.
         beside : collection of str
             Names of the other tables of the case.
 
         Raises
         ------
         InputError
-            If a line contact has a layer over y, a contact with motion has a ratio of films, or the case has
-            the table ``meter`` or ``film``.
+            If a line contact has a layer over y, surfaces move in opposite directions, a contact with motion
+            has a ratio of films, or the case has the table ``meter`` or ``film``.
         """
-        if self.layer_table is not None and geometry == "line":
+        if contact.opposed:
+            raise InputError(
+                "inlet",
+                got="[inlet] with surfaces that move in opposite directions",
+                takes="a slide-to-roll ratio from -2 to 2: one of the surfaces carries its oil away",
+            )
+        if self.layer_table is not None and contact.geometry == "line":
             raise InputError("inlet.layer_table", got="that of a line contact", takes="inlet.oil_layer")
         if "motion" in beside and self.film_ratio is not None:
             raise InputError(

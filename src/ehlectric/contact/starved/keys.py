@@ -11,30 +11,35 @@ _ONLY = "; only with `[inlet]`"
 
 STARVED_KEYS: Keys = {
     "oil_layer": ResultKey(
-        f"thickness of the oil on both surfaces together before the contact, on the centre line{_ONLY}",
+        "thickness of the oil on both surfaces together before the contact, on the centre line; if they "
+        "slide, the oil that they carry over the mean speed; null for `film_ratio = 1` in a point "
+        f"contact{_ONLY}",
         "m",
         "layer of oil",
         r"$h_\mathrm{oil}$",
     ),
     "film_ratio": ResultKey(
-        f"central film thickness over that of the flooded contact{_ONLY}",
+        f"central film thickness over that of the flooded contact; null if that did not converge{_ONLY}",
         "",
         "starved / flooded central film",
         r"$h_\mathrm{c}/h_\mathrm{c,ff}$",
     ),
     "meniscus": ResultKey(
-        f"position on the centre line from which oil fills the gap; null if the film is flooded{_ONLY}",
+        "position on the centre line from which oil fills the gap; null if the film is flooded, or if oil "
+        f"fills the gap at the inlet edge there{_ONLY}",
         "m",
         "position of the meniscus",
         r"$x_\mathrm{m}$",
     ),
     "flooded.minimum_thickness": ResultKey(
-        f"minimum film thickness of the same contact with a flooded inlet, on the same grid{_ONLY}",
+        "minimum film thickness of the same contact with a flooded inlet, on the same grid; null if it "
+        f"did not converge{_ONLY}",
         "m",
         "minimum film thickness, flooded",
     ),
     "flooded.central_thickness": ResultKey(
-        f"central film thickness of the same contact with a flooded inlet{_ONLY}",
+        "central film thickness of the same contact with a flooded inlet; null if it did not converge"
+        f"{_ONLY}",
         "m",
         "central film thickness, flooded",
     ),

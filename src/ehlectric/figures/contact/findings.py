@@ -95,7 +95,8 @@ def film_text(result: AnyContact) -> str:
     )
     if result.smooth is None:
         starved = film.starvation
-        part = "" if starved is None else f", {per_cent(starved.film_ratio)} of the flooded one"
+        ratio = None if starved is None else starved.film_ratio
+        part = "" if ratio is None else f", {per_cent(ratio)} of the flooded one"
         return f"{text}; central film {_film(result, film.central_thickness)}{part}"
     change = film.minimum_thickness / result.smooth.minimum_thickness - 1.0
     return f"{text}, {_more(change, 'thicker', 'thinner')} than smooth"

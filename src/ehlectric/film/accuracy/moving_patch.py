@@ -22,7 +22,7 @@ from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.starved.course import StarvedFilm
 from ehlectric.film.state import GridSolution, State
-from ehlectric.film.unsteady import History, Instant, MovingGap, UnsteadyFilm
+from ehlectric.film.unsteady import TOUCHING, History, Instant, MovingGap, UnsteadyFilm
 from ehlectric.runtime.threads import quiet_solution
 
 # Distance of the patch's edge ahead of the dry contact, in semi-axes along entrainment. It is twice that of a
@@ -54,7 +54,7 @@ class MovingFilm:
         Raises
         ------
         ConvergenceError
-            If it does not converge.
+            If it does not converge, or if it is starved and thinner than the boundary film somewhere.
         """
         return self._found[0]
 
@@ -75,6 +75,8 @@ class MovingFilm:
                 steady, starved = found.last, found.film
         if steady.status != "converged":
             raise ConvergenceError(f"film before the motion, {steady.status}")
+        if starved is not None and float(np.min(steady.state.thickness)) < self.problem.boundary_film:
+            raise ConvergenceError(f"film before the motion: {TOUCHING}")
         return steady, starved
 
     @cached_property

@@ -11,19 +11,16 @@ from scipy.interpolate import RegularGridInterpolator
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.accuracy.adaptive import UNKNOWN, RefinedSolution, refined_solution
 from ehlectric.film.accuracy.rough_film import rough_film_error
-from ehlectric.film.estimates import richardson
+from ehlectric.film.estimates import inlet_deficit, richardson, side_deficit
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import NESTED_TOLERANCE, interpolated_state, levels_of, nested_iteration
+from ehlectric.film.nested import DIRECT, NESTED_TOLERANCE, interpolated_state, levels_of, nested_iteration
 from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.starved.course import Course, StarvedFilm, at_centre_line
-from ehlectric.film.starved.ratio import film_of_ratio
+from ehlectric.film.starved.ratio import film_of_ratio, taken_layer
 from ehlectric.film.state import GridSolution, Progress, State
 
 # Largest number of times that the grid of a point contact is refined, over the whole domain.
 _MOST_REFINED_POINT = 2
-
-# Largest number of nodes of a line contact whose linear systems are solved directly, as for a flooded film.
-_DIRECT = 401
 
 # Multiple of the largest number of Newton steps of a flooded film: where the meniscus moves upstream, it does
 # so by few nodes in each step.
@@ -39,21 +36,30 @@ class Starvation:
 
     Attributes
     ----------
-    oil_layer : float
-        Thickness of the layer of oil on both surfaces together, on the line y = 0 [m].
-    film_ratio : float
-        Central film thickness over that of the flooded film.
+    oil_layer : float or None
+        Thickness of the layer of oil on both surfaces together, on the line y = 0 [m]. None for the flooded
+        film of a point contact that was asked for by its ratio of 1: the least layer that floods it depends
+        on the domain.
+    film_ratio : float or None
+        Central film thickness over that of the flooded film; None if the flooded film did not converge.
     meniscus : float or None
-        Position of the first node on the line y = 0 that oil fills [m]; None if the film is flooded.
-    flooded_minimum_thickness, flooded_central_thickness : float
-        Minimum and central film thickness of the flooded film on the same grid [m].
+        Position of the first node on the line y = 0 that oil fills [m]; None if the film is flooded, or if
+        oil fills the gap at the inlet edge on this line.
+    flooded_minimum_thickness, flooded_central_thickness : float or None
+        Minimum and central film thickness of the flooded film on the same grid [m]; None if it did not
+        converge.
+    flooded_inlet_deficit, flooded_side_deficit : float or None
+        Shares of the reduced pressure of the flooded film that are missing because the domain is too small.
+        None if the film did not converge; a line contact has none at its sides.
     """
 
-    oil_layer: float
-    film_ratio: float
+    oil_layer: float | None
+    film_ratio: float | None
     meniscus: float | None
-    flooded_minimum_thickness: float
-    flooded_central_thickness: float
+    flooded_minimum_thickness: float | None
+    flooded_central_thickness: float | None
+    flooded_inlet_deficit: float | None = None
+    flooded_side_deficit: float | None = None
 
 
 @dataclass(frozen=True)
@@ -67,7 +73,7 @@ class StarvedSolution(RefinedSolution):
     film : StarvedFilm or None
         Starved film on the last grid; None if the flooded film needs no more oil than there is.
     layer : ndarray, shape (ny,), or None
-        Thickness H of the layer of oil at the lines of the last grid.
+        Thickness H of the layer of oil at the lines of the last grid; None where it is not known.
     """
 
     flooded: GridSolution | None = None
@@ -95,24 +101,67 @@ class StarvedSolution(RefinedSolution):
         return None if self.film is None else self.film.fraction
 
     @property
-    def starved_at_sides(self) -> bool:
-        """Whether no node beside the sides of the domain is filled, so that no pressure is cut off there."""
-        return self.film is not None and not np.any(self.film.content.filled[:, -2])
+    def by_ratio(self) -> bool:
+        """Whether the film is asked for as a part of the flooded one, which it depends on."""
+        return self.problem.supply is not None and self.problem.supply.film_ratio is not None
+
+    @property
+    def inlet_deficit(self) -> float:
+        """Share of the reduced pressure missing upstream: of the flooded film if it sets the film.
+
+        No pressure builds up upstream of a meniscus.
+        """
+        if not self.by_ratio and self.film is not None and self._meniscus is not None:
+            return 0.0
+        return self._inlet_deficit(self._decisive)
+
+    @property
+    def side_deficit(self) -> float:
+        """Share of the reduced pressure missing at the sides: of the flooded film if it sets the film.
+
+        No pressure is cut off where no node beside the sides of the domain is filled.
+        """
+        if not self.by_ratio and self.film is not None and not np.any(self.film.content.filled[:, -2]):
+            return 0.0
+        return self._side_deficit(self._decisive)
 
     @property
     def starvation(self) -> Starvation:
         """Supply of oil and flooded film in SI units."""
-        assert self.flooded is not None and self.layer is not None
-        scales, mesh = self.problem.scales, self.last.level.mesh
-        meniscus = None if self.film is None else meniscus_of(mesh, self.film.content.filled)
-        flooded = self.flooded.state.thickness
+        assert self.flooded is not None
+        scales, mesh, flooded = self.problem.scales, self.last.level.mesh, self.flooded
+        layer = None if self.layer is None else scales.thickness * at_centre_line(self.last.level, self.layer)
+        meniscus = None if self._meniscus is None else scales.length * self._meniscus
+        if flooded.status != "converged":
+            return Starvation(layer, None, meniscus, None, None)
+        thickness = flooded.state.thickness
         return Starvation(
-            oil_layer=scales.thickness * at_centre_line(self.last.level, self.layer),
-            film_ratio=at_centre(mesh, self.last.state.thickness) / at_centre(mesh, flooded),
-            meniscus=None if meniscus is None else scales.length * meniscus,
-            flooded_minimum_thickness=scales.thickness * float(np.min(flooded)),
-            flooded_central_thickness=scales.thickness * at_centre(mesh, flooded),
+            oil_layer=layer,
+            film_ratio=at_centre(mesh, self.last.state.thickness) / at_centre(mesh, thickness),
+            meniscus=meniscus,
+            flooded_minimum_thickness=scales.thickness * float(np.min(thickness)),
+            flooded_central_thickness=scales.thickness * at_centre(mesh, thickness),
+            flooded_inlet_deficit=self._inlet_deficit(flooded),
+            flooded_side_deficit=None if self.problem.width is None else self._side_deficit(flooded),
         )
+
+    @property
+    def _meniscus(self) -> float | None:
+        """Position X of the meniscus on the line Y = 0."""
+        return None if self.film is None else meniscus_of(self.last.level.mesh, self.film.content.filled)
+
+    @property
+    def _decisive(self) -> GridSolution:
+        """Film whose domain must be large enough."""
+        return self.flooded if self.by_ratio and self.flooded is not None else self.last
+
+    def _inlet_deficit(self, grid: GridSolution) -> float:
+        mass = grid.final.coefficients.density * grid.state.thickness
+        of = self.problem
+        return inlet_deficit(of.fluid, of.geometry, grid.level.mesh, grid.state.pressure, mass)
+
+    def _side_deficit(self, grid: GridSolution) -> float:
+        return side_deficit(self.problem, grid.level.mesh, grid.state.pressure, grid.state.thickness)
 
 
 def meniscus_of(mesh: Mesh, filled: Mask) -> float | None:
@@ -213,7 +262,7 @@ def _course(
     """Equations of the starved film on the grid of a problem."""
     levels = levels_of(problem)
     mesh = levels[0].mesh
-    direct = problem.width is None and problem.nodes <= _DIRECT
+    direct = problem.width is None and problem.nodes <= DIRECT
     return Course(
         fluid=problem.fluid,
         levels=levels[:1] if direct else levels,
@@ -228,7 +277,7 @@ def _course(
 
 def _supplied(
     course: Course, supply: OilSupply, near: tuple[State, Mask] | None, last: StarvedFilm | None
-) -> tuple[Array, StarvedFilm | None]:
+) -> tuple[Array | None, StarvedFilm | None]:
     """Layer of oil on a grid and its film; None where the flooded film needs no more oil than there is."""
     if supply.layer is None:
         assert supply.film_ratio is not None
@@ -239,15 +288,10 @@ def _supplied(
 
 def is_flooded(course: Course, layer: Array) -> bool:
     """Whether the flooded film of a course takes no more oil at any line than a layer (ny,) supplies."""
-    flooded, mesh = course.flooded, course.level.mesh
-    if flooded.status != "converged":
+    if course.flooded.status != "converged":
         return False
-    flow = flooded.final.flow
-    mass = flow.coefficients.density * flooded.state.thickness
-    edge = mass[0] if course.order == 1 else 0.5 * (mass[0] + mass[1])
-    taken = edge - mesh.dx * flow.along.flux[0]
-    lines = mesh.inner[1]
-    return bool(np.all(flow.coefficients.density[0] * layer >= (1.0 - _ROUNDING) * taken, where=lines))
+    enough = layer >= (1.0 - _ROUNDING) * taken_layer(course)
+    return bool(np.all(enough, where=course.level.mesh.inner[1]))
 
 
 def _near(course: Course, last: StarvedFilm) -> tuple[State, Mask]:

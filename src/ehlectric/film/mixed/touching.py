@@ -26,11 +26,9 @@ from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import DIPOLE, Level
+from ehlectric.film.newton import LOAD_WEIGHT
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.state import State
-
-# Weight of the relative load imbalance in the norm of the residual.
-_LOAD_WEIGHT = 10.0
 
 
 @dataclass(frozen=True)
@@ -164,7 +162,7 @@ def assess_touching(fluid: Fluid, level: Level, state: State, asperities: Asperi
     to_hardness = np.where(plastic, asperities.hardness - state.pressure, 0.0)
     load = level.load - Gap(level, thickness).load(state.pressure)
     rows = np.where(contact, missing / compliance + to_hardness, scaled)
-    norm = max(float(np.max(np.abs(rows))), _LOAD_WEIGHT * abs(load) / level.load)
+    norm = max(float(np.max(np.abs(rows))), LOAD_WEIGHT * abs(load) / level.load)
     oil_norm = float(np.max(np.abs(np.where(contact, scaled, 0.0))))
     return Touching(
         flow=at_faces,

@@ -12,7 +12,7 @@ the Reynolds equation one after the other. They are eliminated: the row of the f
 is the sum of the rows of the run and its own.
 
 H. G. Elrod, J. Lubr. Technol. 103 (1981) 350, doi:10.1115/1.3251669; F. Chevalier, A. A. Lubrecht,
-P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175.
+P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175 (both second-hand).
 """
 
 from __future__ import annotations

@@ -10,9 +10,10 @@ sum, which the row of the next node takes as it is:
     W(X, T + dT) - W(X - dT, T) = dT [d/dX(eps dP/dX) + d/dY(eps dP/dY)]
 
 Here r is the step over the last step. At the first filled node behind a meniscus, D is the same part of dT
-times the slope of the mass to the next node at the last instant. The sum of W over the nodes changes by what
-crosses the ends of the domain alone. A film that does not change fulfils the equations of
-``ehlectric.film.starved.content``.
+times the slope of the mass to the next node at the last instant. With equal steps, r = 1, the sum of W over
+the nodes changes by what crosses the ends of the domain alone. Between steps of different lengths the weight
+of the differences in D changes, and the sum of W with it. A film that does not change fulfils the equations
+of ``ehlectric.film.starved.content``.
 """
 
 from __future__ import annotations

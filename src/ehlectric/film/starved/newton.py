@@ -14,8 +14,10 @@ from ehlectric.film.newton import (
     GAP_STEP,
     KRYLOV_LIMIT,
     LINEAR_TOLERANCE,
+    LOAD_WEIGHT,
     PRESSURE_STEP,
     ROUNDING,
+    SMALLEST_GAP,
     flexible_gmres,
 )
 from ehlectric.film.reynolds import poiseuille_weight
@@ -23,12 +25,6 @@ from ehlectric.film.spike import relax_spike, step_length
 from ehlectric.film.starved.content import Runs, Supply, content, unreduced
 from ehlectric.film.starved.jacobian import StarvedJacobian
 from ehlectric.film.state import GridSolution, NewtonStep, Progress, Residual, State, Status
-
-# Smallest H of an iterate; thinner iterates count as diverged, as in ``ehlectric.film.newton``.
-_SMALLEST_GAP = 1e-8
-
-# Weight of the relative load imbalance in the residual, as in ``ehlectric.film.newton``.
-_LOAD_WEIGHT = 10.0
 
 # Relative tolerance of the linear systems of a point contact while the filled nodes change.
 _UNSETTLED = 1e-2
@@ -127,7 +123,7 @@ def starved_newton(
         if length < 1.0:
             full = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
         assessed = assess_content(fluid, level, full, now.filled, supply)
-        if not (np.isfinite(assessed.norm) and np.min(full.thickness) > _SMALLEST_GAP):
+        if not (np.isfinite(assessed.norm) and np.min(full.thickness) > SMALLEST_GAP):
             status = "diverged"
             break
         moved = next_filled(fluid, level, full, assessed)
@@ -196,7 +192,7 @@ def assess_content(fluid: Fluid, level: Level, state: State, filled: Mask, suppl
     unnormed = Residual(at_faces, reynolds, diagonal, full_film, load, np.nan)
     excess = state.pressure - fluid.ambient_pressure - level.edge_excess
     largest = np.max(np.abs(np.where(full_film, unnormed.scaled, excess)))
-    norm = float(max(largest, _LOAD_WEIGHT * abs(load) / level.load))
+    norm = float(max(largest, LOAD_WEIGHT * abs(load) / level.load))
     mass = supply.at_rupture(filled, content(runs, rows, density * thickness, mesh.dx))
     return Content(replace(unnormed, norm=norm), filled, mass)
 
@@ -205,12 +201,14 @@ def next_filled(fluid: Fluid, level: Level, state: State, now: Content) -> Mask:
     """Nodes that oil fills after a Newton step: no tension where it is filled, no overflow elsewhere.
 
     A filled node below ambient pressure becomes cavitated, and a cavitated node with more oil than the gap
-    holds is filled.
+    holds is filled. The nodes on the edges stay as ``assess_content`` found them.
     """
     full = now.residual.coefficients.density * state.thickness
     under = state.pressure - fluid.ambient_pressure < -_TENSION
     over = now.mass > (1.0 + _OVERFLOW) * full
-    return np.where(now.filled, ~under, over | _backed_up(now, full)) & level.mesh.inner
+    moved = np.where(now.filled, ~under, over | _backed_up(now, full))
+    # On the inlet edge the layer and the gap say which nodes are filled, whatever the pressure is.
+    return np.where(level.mesh.inner, moved, now.filled)
 
 
 def _backed_up(now: Content, full: Array) -> Mask:
@@ -249,7 +247,7 @@ def _without_spike(
     if pressure is None:
         return state, now
     relaxed = State.of(level, pressure, state.h00)
-    if np.min(relaxed.thickness) <= _SMALLEST_GAP:
+    if np.min(relaxed.thickness) <= SMALLEST_GAP:
         return state, now
     assessed = assess_content(fluid, level, relaxed, now.filled, supply)
     return (relaxed, assessed) if assessed.norm < now.norm else (state, now)

@@ -22,7 +22,7 @@ _MOST_FACTOR, _FLOODED = 4.0, 1.0 - 1e-9
 
 def film_of_ratio(
     course: Course, ratio: float, near: tuple[State, Mask] | None, last: StarvedFilm | None
-) -> tuple[Array, StarvedFilm | None]:
+) -> tuple[Array | None, StarvedFilm | None]:
     """Uniform layer of oil (ny,) for a ratio of central films, and its starved film.
 
     Parameters
@@ -38,10 +38,12 @@ def film_of_ratio(
 
     Returns
     -------
-    layer : ndarray, shape (ny,)
-        Thickness H of the layer.
+    layer : ndarray, shape (ny,), or None
+        Thickness H of the layer. None where it is not known: for a flooded film that did not converge, and
+        for that of a point contact, the least layer of which depends on the domain.
     film : StarvedFilm or None
-        Its film; None for the flooded film. The ratio may be missed where a film did not converge.
+        Its film; None for the flooded film, also where that did not converge and has no parts. The ratio may
+        be missed where a film did not converge.
 
     Notes
     -----
@@ -49,8 +51,10 @@ def film_of_ratio(
     """
     lines, mesh = np.ones_like(course.level.mesh.y), course.level.mesh
     ambient = float(course.flooded.final.coefficients.density[0, 0])
+    if course.flooded.status != "converged":
+        return None, None
     if ratio >= _FLOODED:
-        return course.flooded.state.thickness[0], None
+        return (taken_layer(course) if mesh.dy is None else None), None
     flooded = at_centre(mesh, course.flooded.state.thickness)
     layer = first_layer(ratio, line=mesh.dy is None) * course.flooded_mass / ambient
     if last is not None:
@@ -71,6 +75,17 @@ def film_of_ratio(
         layer = float(np.exp(_next(found)))
     chosen = film if best is None else best[1]
     return chosen.layer, chosen
+
+
+def taken_layer(course: Course) -> Array:
+    """Thickness H (ny,) at ambient pressure of the oil that the flooded film takes through the inlet edge."""
+    flooded, mesh = course.flooded, course.level.mesh
+    flow = flooded.final.flow
+    density = flow.coefficients.density
+    mass = density * flooded.state.thickness
+    edge = mass[0] if course.order == 1 else 0.5 * (mass[0] + mass[1])
+    taken: Array = (edge - mesh.dx * flow.along.flux[0]) / density[0]
+    return taken
 
 
 def first_layer(ratio: float, *, line: bool) -> float:

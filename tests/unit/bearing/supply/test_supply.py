@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from ehlectric.bearing.measured.forward import OperatingPoint
@@ -9,11 +10,12 @@ from ehlectric.bearing.preparation import prepare_bearing, resolve_bearing, with
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.storage.dataset import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
-from ehlectric.bearing.supply.decay import track_length
-from ehlectric.bearing.supply.warnings import supply_words
+from ehlectric.bearing.supply.decay import half_time, track_length
+from ehlectric.bearing.supply.warnings import film_note, supply_warnings, supply_words
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.formulas.replenishment import replenishment_factor
+from ehlectric.tables.bearing_films import film_factors
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.places import EXAMPLES
 
@@ -58,15 +60,20 @@ def test_rule_takes_the_kinematic_viscosity_at_each_ring():
 
 @pytest.mark.parametrize("tables", [BALLS, ROLLERS], ids=["balls", "rollers"])
 def test_flooded_is_what_it_was(tables):
-    """The supply of a flooded bearing is 1 to the last digit, and no time is given."""
-    plain, flooded = (solve_bearing(case(tables, **more)) for more in ({}, {"bearing__supply": "flooded"}))
-    summaries = [one.summary() for one in (plain, flooded)]
-    for one in summaries:
-        one.pop("seconds")
-    assert summaries[0] == summaries[1]
-    totals = summaries[0]["bearing"]
-    assert (totals["heat_factor"], totals["supply_factor"], totals["film_half_time"]) == (1.0, 1.0, None)
-    assert not {"supply-rule", "supply-low", "film-decays"} & set(summaries[0]["warning_codes"])
+    """Films of a flooded bearing are those of the whole film as a number, and no time is given."""
+    flooded, whole = (
+        solve_bearing(case(tables, bearing__supply=supply)).solution for supply in ("flooded", 1.0)
+    )
+    assert flooded.least_film == whole.least_film
+    films = [
+        [ring.values.central_thickness for position in one.positions for ring in position.rings]
+        for one in (flooded, whole)
+    ]
+    np.testing.assert_array_equal(*films)
+    conditions = flooded.conditions
+    assert (conditions.film_factor, conditions.heat_factor, conditions.supply_factor) == (1.0, 1.0, 1.0)
+    assert half_time(flooded) is None
+    assert not list(supply_warnings(flooded))
 
 
 def test_summary_of_a_greased_bearing():
@@ -85,8 +92,23 @@ def test_summary_of_a_greased_bearing():
 
 def test_starved_films_are_told():
     starved = solve_bearing(case(bearing__supply=0.3)).summary()
-    assert "supply-low" in starved["warning_codes"]
+    assert {"supply-low", "film-factor-low"} <= set(starved["warning_codes"])
     assert not {"supply-rule", "film-decays"} & set(starved["warning_codes"])
+
+
+@pytest.mark.parametrize(
+    ("factor", "note", "row"),
+    [
+        (0.9, "of a given factor of 0.9 and the supply of oil:", "(given factor of 0.9 and supply of oil)"),
+        ("none", "of the supply of oil:", "(supply of oil)"),
+    ],
+)
+def test_parts_of_a_film_factor_are_all_named(factor, note, row):
+    solution = solve_bearing(case(bearing__film_factor=factor, bearing__supply=0.8)).solution
+    assert note in film_note(solution).text
+    inputs = {"film_factor": factor, "supply": 0.8}
+    summary = {"bearing": {"film_factor": 0.72}, "inputs": {"bearing": inputs}}
+    assert next(film_factors(summary))[3] == row
 
 
 def test_half_time_goes_with_the_film_and_the_track():
