@@ -281,6 +281,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "newtonian-traction": Cause("The traction of a Newtonian film at high pressure is far too large."),
         "film-temperature-range": Cause("The film is hotter or colder than the laws of the oil are known."),
         "film-very-hot": Cause("The film is hotter than oils stand."),
+        "isothermal-unsolved": Cause("The isothermal film beside that with heat or shear did not converge."),
         "heat-unresolved": Cause("The grid does not resolve the heat in the film."),
         "slow-body": Cause("A surface moves too slowly for the model of its temperature."),
         # Electric field and discharge

@@ -50,6 +50,7 @@ UNSTORED = {
     "newtonian-traction",
     "film-temperature-range",
     "film-very-hot",
+    "isothermal-unsolved",
     "heat-unresolved",
     "slow-body",
     "radius-large",

@@ -60,6 +60,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "newtonian-traction": ("traction",),
         "film-temperature-range": (*_FILM, "temperature-rise"),
         "film-very-hot": (*_FILM, "temperature-rise"),
+        "isothermal-unsolved": (),
         "heat-unresolved": (*_FILM, "temperature-rise"),
         "slow-body": (*_FILM, "temperature-rise"),
         # Electric field and discharge

@@ -101,6 +101,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "newtonian-traction": (),
         "film-temperature-range": _FILM,
         "film-very-hot": _FILM,
+        "isothermal-unsolved": (),
         "heat-unresolved": _FILM,
         "slow-body": _FILM,
         # Electric field and discharge

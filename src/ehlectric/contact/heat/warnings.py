@@ -62,7 +62,8 @@ def heat_warnings(
     if heated is None or physics is None:
         return
     if not film.converged:
-        thinnest = min(heated.isothermal_minimum_thickness, film.minimum_thickness)
+        simple = heated.isothermal_minimum_thickness
+        thinnest = film.minimum_thickness if simple is None else min(simple, film.minimum_thickness)
         if thinnest < _TOUCHING * conditions.boundary_film:
             yield ResultWarning(
                 "surfaces-touch",
@@ -70,6 +71,13 @@ def heat_warnings(
                 "only; leave it out, lower the roughness, or raise speed or viscosity",
             )
         return
+    if heated.isothermal_minimum_thickness is None:
+        yield ResultWarning(
+            "isothermal-unsolved",
+            "the isothermal Newtonian film of this contact did not converge, so that the effect of heat and "
+            "shear on the film is not known; the film itself may be used; raise solver.max_iterations or "
+            "grid.nodes",
+        )
     yield from _traction(heated, conditions)
     if physics.thermal is not None and isinstance(case, Case):
         yield from _temperatures(case, heated)

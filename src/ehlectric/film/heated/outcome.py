@@ -32,8 +32,8 @@ def heated_film(
     found: HeatedSolution,
     shaped: Callable[[NDArray[Any]], NDArray[Any]],
     *,
-    minimum_thickness: float,
-    central_thickness: float,
+    minimum_thickness: float | None,
+    central_thickness: float | None,
 ) -> HeatedFilm:
     """Heat and shear of a solution, at the nodes of the whole domain.
 
@@ -43,8 +43,8 @@ def heated_film(
         Film with its temperature and shear stress.
     shaped : callable
         Function that brings nodal values (nx, ny) into their shape in the film.
-    minimum_thickness, central_thickness : float
-        Film thicknesses without heat and shear [m].
+    minimum_thickness, central_thickness : float or None
+        Film thicknesses without heat and shear [m]; None if the film without them did not converge.
 
     Returns
     -------

@@ -26,8 +26,9 @@ class HeatedFilm(Values):
         Rolling friction over the load, dimensionless, of each of the two surfaces.
     power_loss : float
         Power that the film turns into heat [W]; of a line contact per length [W/m].
-    isothermal_minimum_thickness, isothermal_central_thickness : float
-        Film thicknesses of the same contact with an isothermal Newtonian film [m].
+    isothermal_minimum_thickness, isothermal_central_thickness : float or None
+        Film thicknesses of the same contact with an isothermal Newtonian film [m]; None if that film did not
+        converge.
     outer_iterations : int
         Number of alternations between the film and its temperature.
     zeta : ndarray, shape (nz,), or None
@@ -49,8 +50,8 @@ class HeatedFilm(Values):
     traction_coefficient: float
     rolling_coefficient: float
     power_loss: float
-    isothermal_minimum_thickness: float
-    isothermal_central_thickness: float
+    isothermal_minimum_thickness: float | None
+    isothermal_central_thickness: float | None
     outer_iterations: int
     zeta: Array | None = None
     temperature: Array | None = None

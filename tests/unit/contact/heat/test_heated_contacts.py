@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError, Laws, solve
+from ehlectric.app.compute.heat import heat_numbers
 from ehlectric.contact.check import check_case
 from ehlectric.contact.files import load, save
 from ehlectric.contact.heat.oil import hot_oil, oil_over_temperature
@@ -87,6 +88,21 @@ def test_files_bring_heat_and_shear_back(hot, sheared, tmp_path):
         assert loaded.summary() == result.summary()
         for name, value in vars(result.film.heated).items():
             assert np.array_equal(getattr(loaded.film.heated, name), value), name
+
+
+def test_an_isothermal_film_that_did_not_converge_is_not_told(tmp_path):
+    """With three Newton steps only the film with heat converges, which takes more of them in its turns."""
+    result = solve(Case.from_dict(HOT_LINE | {"solver": {"max_iterations": 3}}))
+    assert result.converged
+    assert result.summary()["film"]["isothermal"] == {"minimum_thickness": None, "central_thickness": None}
+    assert "isothermal-unsolved" in [each.code for each in result.warnings]
+    rows = {row.name: row for row in result_rows(result)}
+    assert rows["minimum film, isothermal and Newtonian"].text == "not converged"
+    texts = [text.get_text() for text in figure(result, "temperature.png").texts]
+    texts += [number.note for number in heat_numbers(result)]
+    assert not any("isothermal and Newtonian" in text for text in texts)
+    save(result, tmp_path)
+    assert load(tmp_path / "result.nc").summary() == result.summary()
 
 
 def test_a_film_without_heat_has_none_in_its_file(tmp_path):
