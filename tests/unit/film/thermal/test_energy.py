@@ -119,3 +119,19 @@ def test_heat_into_surfaces_and_oil_balances():
     enthalpy = 1.74e6 * 1e-6 * stream.across.weights @ (stream.u * (found.temperature - 300.0))[:, :, 0]
     # The second-order upstream difference sums to 1.5 times the last column less half of the one before.
     assert into + 1.5 * enthalpy[-1] - 0.5 * enthalpy[-2] == pytest.approx(made, rel=1e-9)
+
+
+def test_columns_are_the_same_from_both_surfaces():
+    """Also where a wide gap adds conduction: exchanged surfaces turn the columns over, to rounding."""
+    stream = channel(lambda zeta: 0.1 + 1.8 * zeta, nodes=21, thickness=1e-4)
+    faster = np.linspace(1.0, 1.5, 21)[:, np.newaxis]
+    stream = replace(stream, u=stream.u * faster, heating=1e12 * stream.u)
+    fields = {key: value for key, value in vars(stream).items() if np.shape(value) == stream.u.shape}
+    other = replace(stream, **{key: value[::-1] for key, value in fields.items()})
+    temperature = 300.0 + 10.0 * stream.u
+    columns = HeatColumns.of(stream, temperature)
+    mirrored = HeatColumns.of(other, temperature[::-1])
+    for key in ("right", "before", "second", "after"):
+        np.testing.assert_allclose(getattr(columns, key), getattr(mirrored, key)[..., ::-1], rtol=1e-12)
+    turned = mirrored.matrix[..., ::-1, ::-1]
+    np.testing.assert_allclose(columns.matrix, turned, atol=1e-12 * columns.matrix.max())
