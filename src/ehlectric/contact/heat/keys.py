@@ -18,7 +18,7 @@ def heat_keys(power: str) -> Keys:
             r"$\Delta T_\mathrm{max}$",
         ),
         "temperature_rise_error": ResultKey(
-            "estimated error of max_temperature_rise by the grid; null if unknown",
+            "estimated error of max_temperature_rise by the grid and the iteration; null if unknown",
             "K",
             "error of the temperature rise",
         ),

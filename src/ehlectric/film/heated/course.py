@@ -233,7 +233,12 @@ def _change(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
     """Change of the temperature over that at which it stands."""
     rise = float(np.max(new.temperature)) - thermal.inlet_temperature
     change = np.max(weight * np.abs(new.temperature - heat.temperature))
-    return float(change) / (_KELVIN + _RISE * abs(rise))
+    return float(change) / close_enough(rise)
+
+
+def close_enough(rise: float) -> float:
+    """Change of the temperature [K] that is small enough on the finest grid, for a largest rise [K]."""
+    return _KELVIN + _RISE * abs(rise)
 
 
 def _weight(level: Level, state: State) -> Array:
