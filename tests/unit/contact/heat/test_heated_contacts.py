@@ -61,6 +61,15 @@ def test_traction_has_the_sign_of_the_sliding(hot, sheared):
     assert hot.film.heated.traction_coefficient < -sheared.film.heated.traction_coefficient
 
 
+@pytest.mark.parametrize(("warmer", "drags"), [(0.0, False), (20.0, True)])
+def test_equal_bodies_that_roll_have_no_traction(warmer, drags):
+    """Between bodies at different temperatures the oil on both sides is not equally thick."""
+    contact = {"slide_to_roll_ratio": 0.0, "temperature_2": 313.15 + warmer}
+    result = solve(case_with("contact", **contact).replace({"grid.nodes": 101}))
+    assert result.converged
+    assert (result.film.heated.traction_coefficient != 0.0) == drags
+
+
 def test_power_is_the_heat_of_shear_in_the_film(hot):
     """Integral of stress times shear rate over the full film, with the law of Ree and Eyring written out.
 
@@ -209,6 +218,18 @@ def test_the_range_ends_where_a_law_has_no_values():
     assert 600.0 + 30.0 <= oil.highest < 813.15
 
 
+@pytest.mark.parametrize("key", ["contact.temperature_1", "contact.temperature_2"])
+def test_a_temperature_without_values_of_the_oil_is_refused_by_its_key(key):
+    """A density that falls by 0.2 % per kelvin from -60 degC is zero at 440 degC, less than 30 K hotter."""
+    case = case_with("lubricant", thermal_expansion=2e-3, reference_temperature=213.15)
+    with pytest.raises(InputError, match="properties; expected at most") as refused:
+        check_case(case.replace({key: "426 degC"}))
+    assert refused.value.key == key
+    allowed = float(refused.value.takes.split()[2])
+    assert 400.0 <= allowed < 410.0
+    check_case(case.replace({key: f"{allowed} degC"}))
+
+
 @pytest.mark.parametrize("ratio", [2.5, -2.5])
 def test_a_surface_against_entrainment_is_refused(ratio):
     case = case_with("contact", slide_to_roll_ratio=ratio)
@@ -231,8 +252,8 @@ def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
     table = HOT_LINE | {"contact": contact, "roughness": [rough], "grid": {"nodes": 401}}
     result = solve(Case.from_dict(table | {"film": {"rheology": "eyring"}}), beside_smooth=False)
     assert not result.converged
-    told = [each.text for each in result.warnings if each.code == "surfaces-touch"]
-    assert any("solved without the table [film] only" in text for text in told)
+    (told,) = (each.text for each in result.warnings if each.code == "surfaces-touch")
+    assert "solved without the table [film] only" in told
 
 
 def test_heat_that_does_not_fit_into_memory_is_refused():
@@ -259,27 +280,63 @@ def test_a_point_contact_is_hot_on_both_sides_alike(tmp_path):
     assert figure(result, "temperature.png").axes
 
 
-def codes(result, case=None, **changes):
-    """Codes of the warnings about a film whose heat and shear differ in some values."""
+def told(result, case=None, **changes):
+    """Texts by code of the warnings about a film whose heat and shear differ in some values."""
     film = replace(result.film, heated=replace(result.film.heated, **changes))
     case = result.case if case is None else case
     conditions = resolve(case)
-    return [each.code for each in heat_warnings(case, conditions, film, physics_of(case, conditions))]
+    return {
+        each.code: each.text for each in heat_warnings(case, conditions, film, physics_of(case, conditions))
+    }
 
 
-def test_warnings(hot, sheared):
-    assert codes(hot, temperature_rise_error=0.0) == []
+def test_warnings(hot):
+    resolved = {"temperature_rise_error": 0.0}
+    assert told(hot, **resolved) == {}
+    assert [*told(hot, **resolved, energy_imbalance=0.05)] == ["heat-unresolved"]
+    assert [*told(hot, **resolved, max_temperature_rise=250.0)] == ["film-very-hot"]
+    slow = case_with("contact", slide_to_roll_ratio=1.9999)
+    assert [*told(hot, slow, **resolved)] == ["slow-body"]
+
+
+def test_warning_about_stress_without_a_limit(hot, sheared):
+    """Heat and Carreau's law bring the stress near to that of oils; a Newtonian one is too large by far."""
     newtonian = Case.from_dict(HOT_LINE | {"film": {"rheology": "newtonian"}})
-    assert codes(sheared, newtonian, rheology="newtonian") == ["newtonian-traction"]
+    (text,) = told(sheared, newtonian, rheology="newtonian").values()
+    assert text.startswith("do not use the traction coefficient of 0.0")
+    assert "and the power loss" in text
+    assert "temperature rise" not in text
     low = newtonian.replace({"contact.max_hertz_pressure": "0.4 GPa"})
     rolling = newtonian.replace({"contact.slide_to_roll_ratio": 0.0})
     for case in (low, rolling):
-        assert codes(sheared, case, rheology="newtonian") == []
+        assert told(sheared, case, rheology="newtonian") == {}
+    warm = told(hot, rheology="newtonian", temperature_rise_error=0.0)["newtonian-traction"]
+    assert warm.startswith("do not use")
+    assert "the temperature rise and the power loss" in warm
+    warm = told(hot, rheology="carreau", temperature_rise_error=0.0)["newtonian-traction"]
+    assert "may be too large" in warm
+    assert "do not use" not in warm
+
+
+def test_warning_about_temperatures_at_which_the_oil_is_not_known(hot):
+    """Beyond the range of its laws, and beyond that at which they are taken: 40 - 20 to 40 + 250 degC."""
     narrow = case_with("lubricant", temperature_range=["39 degC", "41 degC"])
-    assert codes(hot, narrow, temperature_rise_error=0.0) == ["film-temperature-range"]
-    assert codes(hot, temperature_rise_error=1.0, max_temperature_rise=10.0) == ["heat-unresolved"]
-    assert codes(hot, temperature_rise_error=0.1, max_temperature_rise=10.0) == []
-    assert codes(hot, temperature_rise_error=0.0, energy_imbalance=0.05) == ["heat-unresolved"]
-    assert codes(hot, temperature_rise_error=0.0, max_temperature_rise=250.0) == ["film-very-hot"]
-    slow = case_with("contact", slide_to_roll_ratio=1.9999)
-    assert codes(hot, slow, temperature_rise_error=0.0) == ["slow-body"]
+    (text,) = told(hot, narrow, temperature_rise_error=0.0).values()
+    assert "the laws of the oil hold for 39 to 41 °C" in text
+    assert "straight lines" not in text
+    beyond = {"temperature": hot.film.heated.temperature + 250.0, "temperature_rise_error": 0.0}
+    (text,) = told(hot, **beyond).values()
+    assert "its properties were taken from 20 to 290 °C, and go on as straight lines" in text
+
+
+def test_warning_about_a_rise_that_the_grid_does_not_resolve(hot):
+    """It blames the pressure spike only where the film is hottest there."""
+    x, middle = hot.film.x / hot.film.scales.length, hot.film.heated.mid_temperature
+    spike = x > 0.5
+    at_spike = x[spike][np.argmax(hot.film.pressure[spike] * (np.gradient(hot.film.pressure)[spike] >= 0.0))]
+    for place, blamed in ((at_spike, True), (0.0, False)):
+        peak = middle + 100.0 * np.exp(-((10.0 * (x - place)) ** 2))
+        rise = {"mid_temperature": peak, "max_temperature_rise": 10.0}
+        text = told(hot, **rise, temperature_rise_error=1.0)["heat-unresolved"]
+        assert ("spike" in text) == blamed
+    assert told(hot, temperature_rise_error=0.1, max_temperature_rise=10.0) == {}
