@@ -171,7 +171,8 @@ def _at_spike(film: Film | PointFilm, heated: HeatedFilm) -> bool:
     """Whether the hottest node at mid-film is at the pressure spike, a maximum near the outlet."""
     assert heated.mid_temperature is not None
     along, *across = np.unravel_index(np.argmax(heated.mid_temperature), film.pressure.shape)
-    pressure, x = film.pressure[:, *across], film.x / film.scales.length
+    pressure = film.pressure[:, across[0]] if across else film.pressure
+    x = film.x / film.scales.length
     peaks = 1 + np.flatnonzero((pressure[1:-1] > pressure[:-2]) & (pressure[1:-1] >= pressure[2:]))
     return bool(np.any((x[peaks] > _OUTLET) & (np.abs(x[peaks] - x[along]) < _NEAR)))
 

@@ -258,5 +258,5 @@ def _rise_error(found: list[tuple[Course, HeatedGrid]]) -> float | None:
         rises.append(rise)
     if len(rises) < 2:
         return None
-    changes = (abs(fine - coarse) / 2**k for k, (fine, coarse) in enumerate(pairwise(rises)))
+    changes = (0.5**k * abs(fine - coarse) for k, (fine, coarse) in enumerate(pairwise(rises)))
     return max(*changes, close_enough(rises[0]))

@@ -246,12 +246,11 @@ def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
 
 
 def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
-    """The film does not converge, and a warning says why."""
-    rough = {"surface": 1, "generator": "gaussian", "rq": "150 nm", "correlation_length": "20 um", "seed": 1}
+    """The film does not converge, and one warning says why; another advice would contradict it."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
-    table = HOT_LINE | {"contact": contact, "roughness": [rough], "grid": {"nodes": 401}}
-    result = solve(Case.from_dict(table | {"film": {"rheology": "eyring"}}), beside_smooth=False)
-    assert not result.converged
+    table = HOT_LINE | {"contact": contact, "grid": {"nodes": 101}, "film": {"rheology": "eyring"}}
+    result = solve(Case.from_dict(table))
+    assert result.film.collapsed_positions.size
     (told,) = (each.text for each in result.warnings if each.code == "surfaces-touch")
     assert "solved without the table [film] only" in told
 
