@@ -278,6 +278,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "oil-layer-thick": Cause("The layer of oil is thicker than what the contact takes.", "note"),
         "meniscus-at-edge": Cause("The meniscus is at the edge of the domain or of the Hertz zone."),
         "film-ratio-missed": Cause("No layer of oil was found that gives the ratio of films asked for."),
+        "shear-constant-unused": Cause("Constants of another law of shear are given.", "note"),
         "newtonian-traction": Cause("The law between stress and shear rate has no limit at high pressure."),
         "film-temperature-range": Cause("The film is hotter or colder than the laws of the oil are known."),
         "film-very-hot": Cause("The film is hotter than oils stand."),

@@ -47,6 +47,7 @@ UNSTORED = {
     "load-share-unresolved",
     "oil-not-conserved",
     "hardness-low",
+    "shear-constant-unused",
     "newtonian-traction",
     "film-temperature-range",
     "film-very-hot",

@@ -57,6 +57,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "oil-layer-thick": _FILM,
         "meniscus-at-edge": _FILM,
         "film-ratio-missed": _FILM,
+        "shear-constant-unused": (),
         "newtonian-traction": ("traction", "temperature-rise", "power-loss"),
         "film-temperature-range": (*_FILM, "temperature-rise"),
         "film-very-hot": (*_FILM, "temperature-rise"),

@@ -98,6 +98,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "oil-layer-thick": _FILM,
         "meniscus-at-edge": _FILM,
         "film-ratio-missed": _FILM,
+        "shear-constant-unused": (),
         "newtonian-traction": (),
         "film-temperature-range": _FILM,
         "film-very-hot": _FILM,

@@ -298,6 +298,18 @@ def test_warnings(hot):
     assert [*told(hot, slow, **resolved)] == ["slow-body"]
 
 
+@pytest.mark.parametrize(
+    ("rheology", "told"), [("eyring", "carreau_stress and lubricant.carreau_exponent are"), ("newtonian", "")]
+)
+def test_constants_of_another_law_are_not_taken_without_a_word(rheology, told):
+    """A Newtonian film stands for comparison in sweeps of the law, and needs no note."""
+    case = case_with("lubricant", carreau_stress="5 MPa", carreau_exponent=0.5)
+    case = case.replace({"film.rheology": rheology})
+    notes = [each for each in check_case(case).warnings() if each.code == "shear-constant-unused"]
+    assert len(notes) == bool(told)
+    assert all(f"lubricant.{told} not used" in note.text and note.severity == "note" for note in notes)
+
+
 def test_warning_about_stress_without_a_limit(hot, sheared):
     """Heat and Carreau's law bring the stress near to that of oils; a Newtonian one is too large by far."""
     newtonian = Case.from_dict(HOT_LINE | {"film": {"rheology": "newtonian"}})
