@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import ehlectric
-from ehlectric.errors import CODES, ResultWarning
+from ehlectric.causes import CODES
+from ehlectric.errors import ResultWarning
 
 SOURCE = Path(ehlectric.__file__).parent
 # The codes themselves, and the module that classifies warnings of earlier versions.

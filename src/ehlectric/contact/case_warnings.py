@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ehlectric.cases import library
 from ehlectric.cases.case import Case
+from ehlectric.cases.films.physics import CONSTANTS
 from ehlectric.cases.oils.resolution import viscosity_over_temperature
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
@@ -33,6 +35,7 @@ def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[
     """Warnings about the operating conditions of a line contact, known before it is solved."""
     yield from radius_warnings("reduced_radius", conditions.reduced_radius)
     yield from temperature_warnings(setup)
+    yield from rheology_warnings(setup)
     yield from regime_warnings(conditions)
     width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
     yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
@@ -51,6 +54,26 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
             f"does not change it: it must be that at {celsius}; give [lubricant.temperature] or "
             "lubricant.atmospheric_law for a viscosity that follows the temperature",
         )
+
+
+def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
+    """Note about constants of another law between shear stress and shear rate than that of the film.
+
+    Constants of the library's oil are no choice of the case, and a Newtonian film may stand for comparison.
+    """
+    if not isinstance(setup, Case) or setup.film is None or setup.film.rheology == "newtonian":
+        return
+    oil, rheology = setup.lubricant, setup.film.rheology
+    base = library.tables("lubricant", oil.base)["lubricant"] if oil.base else {}
+    for other, keys in CONSTANTS.items():
+        given = [key for key in keys if getattr(oil, key) is not None and key not in base]
+        if other != rheology and given:
+            names = " and ".join(f"lubricant.{key}" for key in given)
+            yield ResultWarning(
+                "shear-constant-unused",
+                f"{names} {'are' if len(given) > 1 else 'is'} not used: film.rheology is {rheology!r}, not "
+                f"{other!r}; change it or leave them out",
+            )
 
 
 def hardness_warnings(conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
@@ -128,6 +151,7 @@ def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Ite
     """Warnings about the operating conditions of a point contact, known before it is solved."""
     yield from radius_warnings("radius_x", conditions.radius_x)
     yield from temperature_warnings(setup)
+    yield from rheology_warnings(setup)
     yield from point_regime_warnings(conditions)
     area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)

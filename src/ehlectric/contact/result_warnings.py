@@ -50,7 +50,8 @@ def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[Resul
             f"{film.residual:.1e}); {_advice(setup, film)}",
         )
     places = film.collapsed_positions / film.scales.length
-    if len(places):
+    # A film with heat or shear has a warning of its own: its surfaces must not touch at all.
+    if len(places) and film.heated is None:
         where = "x/b" if places.ndim == 1 else "(x/b, y/b)"
         named = (", ".join(f"{place:.3f}" for place in np.atleast_1d(p)) for p in places[:_NAMED])
         yield ResultWarning(

@@ -186,8 +186,8 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
         heated = heated_film(
             found,
             found.refined.last.level.mesh.mirrored,
-            minimum_thickness=simple.minimum_thickness,
-            central_thickness=simple.central_thickness,
+            minimum_thickness=simple.minimum_thickness if simple.converged else None,
+            central_thickness=simple.central_thickness if simple.converged else None,
         )
         return replace(film, heated=heated, status=film_status_of(found, film.status))
 

@@ -91,8 +91,8 @@ LIMITS = (
     ),
     Limit(
         "heat and supply of oil",
-        "The supply of oil is that of the case; how it is replenished is not computed. Without `[film]` "
-        "heating is left out, which makes real films thinner.",
+        "The supply of oil is that of the case; how it is replenished is not computed. Heating is left out, "
+        "which makes real films thinner.",
         starved,
     ),
     Limit(

@@ -119,7 +119,14 @@ def hot_and_flooded(case: AnyCase) -> bool:
 
 def sheared(case: AnyCase) -> bool:
     """Whether the oil thins where it is sheared."""
-    return isinstance(case, Case) and case.film is not None and case.film.rheology != "newtonian"
+    return _rheology(case) != "newtonian"
+
+
+def _rheology(case: AnyCase) -> str:
+    """Name of the law between shear stress and shear rate; that of a bearing is in its solved heat only."""
+    if isinstance(case, BearingCase):
+        return "eyring" if solved_heat(case) and case.lubricant.eyring_stress is not None else "newtonian"
+    return "newtonian" if case.film is None else case.film.rheology
 
 
 def newtonian(case: AnyCase) -> bool:
@@ -131,7 +138,7 @@ def with_rheology(name: str) -> Callable[[AnyCase], bool]:
     """Function of a case: whether the rheology of its film has this name."""
 
     def used(case: AnyCase) -> bool:
-        return isinstance(case, Case) and case.film is not None and case.film.rheology == name
+        return _rheology(case) == name
 
     return used
 

@@ -30,8 +30,12 @@ def heat_rows(result: Result | PointResult) -> Iterator[Row]:
     effect = "heat and shear" if heated.thermal else "shear"
     for name in ("minimum", "central"):
         simple, now = getattr(heated, f"isothermal_{name}_thickness"), getattr(film, f"{name}_thickness")
+        label = f"{name} film, isothermal and Newtonian"
+        if simple is None:
+            yield Row(label, "not converged")
+            continue
         note = f", {100.0 * (now / simple - 1.0):+.2g} % by {effect}" if result.converged else ""
-        yield Row(f"{name} film, isothermal and Newtonian", simple, "µm", note)
+        yield Row(label, simple, "µm", note)
     yield from _temperatures(heated)
     yield Row("traction coefficient", heated.traction_coefficient, digits=".3g")
     rolling = heated.rolling_coefficient

@@ -106,22 +106,35 @@ def test_oil_that_keeps_its_temperature_has_the_isothermal_film():
     assert [hot, thin] == pytest.approx([cold, cold_thin], rel=1e-3)
 
 
-def test_reversed_slip_mirrors_the_temperature_across():
+@pytest.mark.parametrize(
+    ("ratio", "film", "kelvin"),
+    [
+        (1.0, 1e-5, 0.02),
+        # With a body at rest the temperature converges slowly, and ends within its tolerance of 0.3 K.
+        pytest.param(2.0, 5e-5, 0.3, marks=pytest.mark.slow),
+    ],
+)
+def test_reversed_slip_mirrors_the_temperature_across(ratio, film, kelvin):
     plus, minus = (
-        film_of(paper_line(speed=5.0, nodes=201, slide_to_roll_ratio=s, rheology=EYRING)) for s in (0.5, -0.5)
+        film_of(paper_line(speed=5.0, nodes=201, slide_to_roll_ratio=s, rheology=EYRING))
+        for s in (ratio, -ratio)
     )
-    assert films(plus) == pytest.approx(films(minus), rel=1e-4)
-    assert plus.traction_coefficient == pytest.approx(-minus.traction_coefficient, rel=1e-3)
-    assert plus.power_loss == pytest.approx(minus.power_loss, rel=1e-3)
-    np.testing.assert_allclose(plus.temperature, minus.temperature[::-1], atol=0.5)
+    assert films(plus) == pytest.approx(films(minus), rel=film)
+    assert plus.traction_coefficient == pytest.approx(-minus.traction_coefficient, rel=film)
+    assert plus.power_loss == pytest.approx(minus.power_loss, rel=film)
+    np.testing.assert_allclose(plus.temperature, minus.temperature[::-1], atol=kelvin)
 
 
-def test_order_along_x():
+def test_order_along_x_and_error_of_the_rise():
     speed = {"speed": 5.0, "slide_to_roll_ratio": 0.25, "rheology": EYRING}
-    central = [films(film_of(paper_line(nodes=n, **speed)))[0] for n in (101, 201, 401)]
+    *found, fine = (film_of(paper_line(nodes=n, **speed)) for n in (101, 201, 401, 801))
+    central = [films(each)[0] for each in found]
     order = np.log2((central[1] - central[0]) / (central[2] - central[1]))
     assert order > 1.0
     assert central[2] == pytest.approx(central[1], rel=2e-3)
+    for each in found:
+        error = abs(each.max_temperature_rise - fine.max_temperature_rise)
+        assert error <= each.temperature_rise_error < 0.05 * each.max_temperature_rise
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -311,10 +311,12 @@ def test_numbers_of_surfaces_that_touch_say_so(touching_line, touching_point):
     ],
 )
 def test_heat_and_shear_have_a_panel(film, title, curves):
-    result = solve(Case.from_dict(HOT_LINE | {"film": film}))
+    bodies = {"temperature_1": "20 degC", "temperature_2": "120 degC"} if "thermal" in film else {}
+    result = solve(Case.from_dict(HOT_LINE | {"contact": HOT_LINE["contact"] | bodies, "film": film}))
     (panel,) = heat_panels(result, 1.0)
     assert panel.title == title
     assert {curve.name for curve in panel.curves} == curves
-    highest = max(float(curve.y.max()) for curve in panel.curves)
-    assert 0.0 < highest < panel.top
+    values = np.concatenate([curve.y for curve in panel.curves])
+    assert panel.bottom <= values.min()
+    assert 0.0 < values.max() < panel.top
     assert title in by_name(line_figures(result))["profiles"].label

@@ -19,7 +19,7 @@ from ehlectric.report.light import Light, light_of
 from ehlectric.report.limits import LIMITS, REFERENCES, limits_of, references_of
 from ehlectric.report.origins import inputs_of, material_sources
 from tests.conftest import PAPER_CONTACT
-from tests.helpers.bearings import BALLS, OIL, changed
+from tests.helpers.bearings import BALLS, OIL, bearing_case, changed
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import ROOT
 
@@ -168,7 +168,7 @@ def test_every_figure_that_a_result_can_have_has_a_caption():
 
 def test_a_film_with_heat_has_its_own_limits_and_references():
     hot, plain = Case.from_dict(HOT_LINE), Case.from_dict({k: v for k, v in HOT_LINE.items() if k != "film"})
-    of_hot, of_plain = (" ".join(limit.text for limit in limits_of(case)) for case in (hot, plain))
+    of_hot, of_plain = limits_text(hot), limits_text(plain)
     assert "isothermal" not in of_hot
     assert "Newtonian" not in of_hot
     assert "The oil is Newtonian" in of_plain
@@ -176,6 +176,32 @@ def test_a_film_with_heat_has_its_own_limits_and_references():
     assert all(name in cited for name in ("Carslaw", "Yang and Wen", "Johnson and Tevaarwerk"))
     assert "Carslaw" not in " ".join(one.citation for one in references_of(plain))
     assert {name for name, _ in material_sources(hot)} == {"steel"}
+
+
+def limits_text(case):
+    return " ".join(limit.text for limit in limits_of(case))
+
+
+def test_a_bearing_whose_solved_heat_thins_the_oil_is_not_newtonian():
+    """The films of its solved heat follow Ree and Eyring where the oil has their stress."""
+    oil = {"temperature__thermal_conductivity": "0.14 W/m/K", "heat_capacity": "2000 J/kg/K"}
+    changes = {f"lubricant__{key}": value for key, value in oil.items()} | {"motor": None}
+    for factor, stress, newtonian in (
+        ("solved", "5 MPa", False),
+        ("solved", None, True),
+        (0.9, "5 MPa", True),
+    ):
+        given = {"bearing__film_factor": factor, "lubricant__eyring_stress": stress}
+        case = bearing_case(BALLS, contacts="formula", **changes, **given)
+        assert ("The oil is Newtonian" in limits_text(case)) == newtonian
+        assert any("Tevaarwerk" in one.citation for one in references_of(case)) != newtonian
+
+
+def test_a_starved_contact_has_no_heat_to_switch_on():
+    """``[film]`` is refused beside ``[inlet]``, so that no text tells to give it."""
+    case = Case.from_dict(TABLE | {"inlet": {"oil_layer": "200 nm"}})
+    assert "Heating is left out" in limits_text(case)
+    assert "[film]" not in limits_text(case)
 
 
 def test_a_result_that_is_not_converged_says_so_everywhere(tmp_path):

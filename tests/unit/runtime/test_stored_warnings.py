@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import load, read_sweep
-from ehlectric.errors import CODES, ResultWarning
+from ehlectric.causes import CODES
+from ehlectric.errors import ResultWarning
 from ehlectric.runtime.stored_warnings import (
     as_attributes,
     code_of_text,
@@ -50,9 +51,11 @@ UNSTORED = {
     "load-share-unresolved",
     "oil-not-conserved",
     "hardness-low",
+    "shear-constant-unused",
     "newtonian-traction",
     "film-temperature-range",
     "film-very-hot",
+    "isothermal-unsolved",
     "heat-unresolved",
     "slow-body",
     "radius-large",

@@ -59,9 +59,11 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "film-ratio-missed": _FILM,
         "layer-table-short": _FILM,
         "flooded-film-wrong": (),
-        "newtonian-traction": ("traction",),
+        "shear-constant-unused": (),
+        "newtonian-traction": ("traction", "temperature-rise", "power-loss"),
         "film-temperature-range": (*_FILM, "temperature-rise"),
         "film-very-hot": (*_FILM, "temperature-rise"),
+        "isothermal-unsolved": (),
         "heat-unresolved": (*_FILM, "temperature-rise"),
         "slow-body": (*_FILM, "temperature-rise"),
         # Electric field and discharge

@@ -100,9 +100,11 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "film-ratio-missed": _FILM,
         "layer-table-short": _FILM,
         "flooded-film-wrong": (),
+        "shear-constant-unused": (),
         "newtonian-traction": (),
         "film-temperature-range": _FILM,
         "film-very-hot": _FILM,
+        "isothermal-unsolved": (),
         "heat-unresolved": _FILM,
         "slow-body": _FILM,
         # Electric field and discharge

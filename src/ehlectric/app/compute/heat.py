@@ -25,8 +25,10 @@ def heat_numbers(result: Result | PointResult) -> Iterator[Number]:
     heated = result.film.heated
     if heated is None:
         return
-    change = 100.0 * (result.film.minimum_thickness / heated.isothermal_minimum_thickness - 1.0)
-    beside = f"minimum film {change:+.2g} % against isothermal and Newtonian".replace("-", "−")
+    beside, simple = "the isothermal film did not converge", heated.isothermal_minimum_thickness
+    if simple is not None:
+        change = 100.0 * (result.film.minimum_thickness / simple - 1.0)
+        beside = f"minimum film {change:+.2g} % against isothermal and Newtonian".replace("-", "−")
     if heated.max_temperature_rise is not None:
         error = heated.temperature_rise_error
         note = beside if error is None else f"error {short_text(error, 1)} K; {beside}"

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from ehlectric.app.answers.told import PLACES, SEVERITIES, Told
-from ehlectric.errors import CODES, ResultWarning
+from ehlectric.causes import CODES
+from ehlectric.errors import ResultWarning
 
 _LIKELY = "The margin is below 1: breakdown is likely."
 

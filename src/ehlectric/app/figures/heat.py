@@ -51,4 +51,6 @@ def heat_panels(result: Result, to_x: float) -> Iterator[Panel]:
         Curve("surface 2", x, second[kept], ORANGE, "dot", 1.5),
         Curve("mid-film", x, middle[kept], GREEN),
     ]
-    yield Panel("temperature rise", "K", curves, 1.05 * max(float(middle.max()), 0.1))
+    # A body may be warmer than the film, or colder than the oil in the inlet.
+    low, high = (float(end([end(curve.y) for curve in curves])) for end in (np.min, np.max))
+    yield Panel("temperature rise", "K", curves, 1.05 * max(high, 0.1), 1.05 * min(low, 0.0))

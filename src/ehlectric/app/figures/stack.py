@@ -57,14 +57,15 @@ class Panel:
         Quantity of its axis, and its unit.
     curves : sequence of Curve
         Curves.
-    top : float
-        End of its axis at first, which begins at 0.
+    top, bottom : float
+        Ends of its axis at first.
     """
 
     title: str
     unit: str
     curves: Sequence[Curve] = field(repr=False)
     top: float
+    bottom: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -120,7 +121,7 @@ def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True) -> P
     for number, panel in enumerate(panels):
         top = 1.0 - number * (share + _GAP)
         title = f"{panel.title}<br>[{panel.unit}]"
-        ends = {"domain": [max(0.0, top - share), top], "range": [0.0, panel.top], "anchor": "x"}
+        ends = {"domain": [max(0.0, top - share), top], "range": [panel.bottom, panel.top], "anchor": "x"}
         layout["yaxis" + _AXES[number][1:]] = axis(title, **ends)
     data = [
         _trace(curve, panel, _AXES[number], converged=converged)

@@ -173,12 +173,15 @@ def _solved(hot: _HotContact) -> tuple[float, ContactFriction]:
     kind, setup = KINDS[conditions.geometry], hot.setup
     for _ in range(_GRIDS):
         film = kind.solve_film(replace(kind.film_problem(setup, conditions, ()), physics=physics))
-        if film.converged:
-            factor = float(film.central_thickness / film.heated.isothermal_central_thickness)
+        isothermal = film.heated.isothermal_central_thickness
+        if film.converged and isothermal is not None:
+            factor = float(film.central_thickness / isothermal)
             nodes = " x ".join(map(str, film.thickness.shape))
             LOGGER.info("film factor of the heat: %.4g on %s nodes", factor, nodes)
             return factor, _friction(film, conditions, hot.temperature)
         setup = replace(setup, grid=_with_nodes(setup.grid, 2 * (setup.grid.nodes_along - 1)))
+    if film.converged:
+        raise ConvergenceError("the isothermal film did not converge; raise solver.max_iterations")
     raise ConvergenceError(f"film with heat, {film.status} at a residual of {film.residual:.1e}")
 
 

@@ -30,8 +30,8 @@ _KINDS: Mapping[str, Callable[[Any], bool]] = {
     "traction_coefficient": is_number,
     "rolling_coefficient": is_number,
     "power_loss": partial(is_number, values="not negative"),
-    "isothermal_minimum_thickness": partial(is_number, values="positive"),
-    "isothermal_central_thickness": partial(is_number, values="positive"),
+    "isothermal_minimum_thickness": lambda value: value is None or is_number(value, values="positive"),
+    "isothermal_central_thickness": lambda value: value is None or is_number(value, values="positive"),
     "outer_iterations": partial(is_number, values="whole"),
 }
 _OPTIONAL = ("max_temperature_rise", "temperature_rise_error", "energy_imbalance")

@@ -18,7 +18,7 @@ def heat_keys(power: str) -> Keys:
             r"$\Delta T_\mathrm{max}$",
         ),
         "temperature_rise_error": ResultKey(
-            "estimated error of max_temperature_rise by the grid; null if unknown",
+            "estimated error of max_temperature_rise by the grid and the iteration; null if unknown",
             "K",
             "error of the temperature rise",
         ),
@@ -41,12 +41,14 @@ def heat_keys(power: str) -> Keys:
             "error of the heat balance",
         ),
         "isothermal.minimum_thickness": ResultKey(
-            "minimum film thickness of the same contact, isothermal and Newtonian",
+            "minimum film thickness of the same contact, isothermal and Newtonian; null if that film did not "
+            "converge",
             "m",
             "minimum isothermal film thickness",
         ),
         "isothermal.central_thickness": ResultKey(
-            "central film thickness of the same contact, isothermal and Newtonian",
+            "central film thickness of the same contact, isothermal and Newtonian; null if that film did not "
+            "converge",
             "m",
             "central isothermal film thickness",
         ),

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.oils.resolution import CELSIUS
 from ehlectric.errors import InputError
 from ehlectric.film.thermal.oil import HotOil
 from ehlectric.lubricant.oil import Oil
@@ -18,6 +19,9 @@ _BELOW, _ABOVE = 20.0, 250.0
 # Steps by which the range shrinks where a law has no value at its end [K], and its smallest part above the
 # inlet.
 _STEP, _LEAST = 10.0, 30.0
+
+# Largest number of such steps in the search for a temperature that a message may name.
+_SEARCHED = 100
 
 
 def oil_over_temperature(lubricant: Lubricant) -> Callable[[float], Oil]:
@@ -38,7 +42,9 @@ def oil_over_temperature(lubricant: Lubricant) -> Callable[[float], Oil]:
     return lambda temperature: mechanical.at(temperature)
 
 
-def hot_oil(lubricant: Lubricant, temperatures: tuple[float, ...], max_pressure: float) -> HotOil:
+def hot_oil(
+    lubricant: Lubricant, temperatures: tuple[float, ...], max_pressure: float, keys: tuple[str, ...] = ()
+) -> HotOil:
     """Oil over pressure and temperature for the energy equation of a film.
 
     Parameters
@@ -49,6 +55,8 @@ def hot_oil(lubricant: Lubricant, temperatures: tuple[float, ...], max_pressure:
         Temperatures of the oil in the inlet and of both bodies [K].
     max_pressure : float
         Hertz pressure [Pa], at which the laws must have values.
+    keys : tuple of str
+        Keys of the temperatures in the file, which a message names; without them it names the lubricant.
 
     Returns
     -------
@@ -62,26 +70,50 @@ def hot_oil(lubricant: Lubricant, temperatures: tuple[float, ...], max_pressure:
         If the laws of the oil have no values in this neighbourhood.
     """
     oil_at = oil_over_temperature(lubricant)
-    lowest, highest = min(temperatures), max(temperatures)
-    top = _end(oil_at, highest, _ABOVE, _LEAST, max_pressure)
-    bottom = _end(oil_at, lowest, -_BELOW, 0.0, max_pressure)
-    return HotOil.through(oil_at, bottom, top)
+    ends = []
+    for extreme, furthest, least in ((min, -_BELOW, 0.0), (max, _ABOVE, _LEAST)):
+        start = extreme(temperatures)
+        end = _end(oil_at, start, furthest, least, max_pressure)
+        if end is None:
+            key = keys[temperatures.index(start)] if keys else None
+            raise _no_values(oil_at, start, np.copysign(least, furthest), max_pressure, key)
+        ends.append(end)
+    return HotOil.through(oil_at, *ends)
 
 
 def _end(
     oil_at: Callable[[float], Oil], start: float, furthest: float, least: float, max_pressure: float
-) -> float:
-    """End of the range [K]: as far from ``start`` as the laws of the oil have values."""
+) -> float | None:
+    """End of the range [K]: as far from ``start`` as the laws of the oil have values; None if nowhere."""
     away = abs(furthest)
     while away >= least:
         end = start + np.copysign(away, furthest)
         if _has_values(oil_at, end, max_pressure):
             return float(end)
         away -= _STEP
-    raise InputError.worded(
-        "lubricant",
-        f"has no viscosity, density or thermal properties at {start + np.copysign(least, furthest):.4g} K, "
-        "a temperature that the film may reach; choose other laws for a thermal film",
+    return None
+
+
+def _no_values(
+    oil_at: Callable[[float], Oil], start: float, beyond: float, max_pressure: float, key: str | None
+) -> InputError:
+    """Error of a temperature [K] from which the film reaches ``beyond`` [K], where an oil has no values."""
+    needed = start + beyond
+    what = f"has no viscosity, density or thermal properties at {needed - CELSIUS:.4g} °C"
+    if key is None:
+        text = f"{what}, a temperature that the film may reach; choose other laws for a thermal film"
+        return InputError.worded("lubricant", text)
+    towards = np.copysign(_STEP, -beyond)
+    known = (needed + k * towards for k in range(1, _SEARCHED))
+    end = next((at for at in known if _has_values(oil_at, at, max_pressure)), None)
+    takes = "other laws of the lubricant"
+    if end is not None:
+        takes = f"at {'least' if towards > 0.0 else 'most'} {end - beyond - CELSIUS:.4g} °C, or {takes}"
+    return InputError(
+        key,
+        f"got {start - CELSIUS:.4g} °C, with which the film may reach {needed - CELSIUS:.4g} °C, where the "
+        "lubricant has no viscosity, density or thermal properties",
+        takes=takes,
     )
 
 

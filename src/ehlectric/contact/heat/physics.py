@@ -12,6 +12,9 @@ from ehlectric.errors import InputError
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.thermal.physics import Body, Physics, Thermal
 
+# Keys of the temperatures of the oil in the inlet and of both bodies.
+_TEMPERATURES = ("contact.temperature", "contact.temperature_1", "contact.temperature_2")
+
 
 def physics_of(case: Case | Setup, conditions: Conditions | PointConditions) -> Physics | None:
     """Heat and shear of the film of a contact; None for an isothermal Newtonian one.
@@ -77,5 +80,5 @@ def _thermal(case: Case, conditions: Conditions | PointConditions, speeds: tuple
     return Thermal(
         bodies=(bodies[0], bodies[1]),
         inlet_temperature=inlet,
-        oil=hot_oil(case.lubricant, (inlet, *warm), conditions.max_pressure),
+        oil=hot_oil(case.lubricant, (inlet, *warm), conditions.max_pressure, _TEMPERATURES),
     )

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.film.thermal.oil import HotOil
 from ehlectric.film.thermal.physics import Body, Physics
 from ehlectric.film.thermal.result import HeatedFilm
 
@@ -29,6 +32,10 @@ _SLOW = {"line": 0.1, "point": 5.0}
 
 # Error of the temperature rise over the rise, and of the balance of heat, above which there is a warning.
 _RISE_ERROR, _IMBALANCE = 0.05, 0.02
+
+# Position from which a maximum of the pressure is the spike, and the distance from it that counts as at the
+# spike, in half-widths of the contact.
+_OUTLET, _NEAR = 0.3, 0.05
 
 # Rise whose error is of no interest [K], and rise from which the model is doubtful [K].
 _SMALL_RISE, _LARGE_RISE = 1.0, 200.0
@@ -62,44 +69,69 @@ def heat_warnings(
     if heated is None or physics is None:
         return
     if not film.converged:
-        thinnest = min(heated.isothermal_minimum_thickness, film.minimum_thickness)
-        if thinnest < _TOUCHING * conditions.boundary_film:
+        simple = heated.isothermal_minimum_thickness
+        thinnest = film.minimum_thickness if simple is None else min(simple, film.minimum_thickness)
+        if film.status == "film collapsed" or thinnest < _TOUCHING * conditions.boundary_film:
             yield ResultWarning(
                 "surfaces-touch",
                 "the surfaces would touch: films whose surfaces touch are solved without the table [film] "
                 "only; leave it out, lower the roughness, or raise speed or viscosity",
             )
         return
+    if heated.isothermal_minimum_thickness is None:
+        yield ResultWarning(
+            "isothermal-unsolved",
+            "the isothermal Newtonian film of this contact did not converge, so that the effect of heat and "
+            "shear on the film is not known; the film itself may be used; raise solver.max_iterations or "
+            "grid.nodes",
+        )
     yield from _traction(heated, conditions)
     if physics.thermal is not None and isinstance(case, Case):
-        yield from _temperatures(case, heated)
-        yield from _accuracy(heated)
+        yield from _temperatures(case, heated, physics.thermal.oil)
+        yield from _accuracy(film, heated)
         for number, (body, speed) in enumerate(zip(physics.thermal.bodies, physics.speeds, strict=True), 1):
             yield from _slow(number, body, speed, conditions)
 
 
 def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
-    """Warning about the traction of a film at high pressure whose shear stress has no bound."""
+    """Warning about the friction of a film at high pressure whose shear stress has no bound."""
     slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
-    if heated.rheology in _UNBOUNDED and slides and conditions.max_pressure > _NEWTONIAN:
-        yield ResultWarning(
-            "newtonian-traction",
-            f"do not use the traction coefficient of {abs(heated.traction_coefficient):.3g}: above "
-            f"{_NEWTONIAN / 1e9:g} GPa that of a {heated.rheology.capitalize()} film is several times too "
-            "large, as its shear stress has no limit; give film.rheology 'eyring' or 'limiting'",
+    if heated.rheology not in _UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
+        return
+    traction, above = f"{abs(heated.traction_coefficient):.3g}", f"{_NEWTONIAN / 1e9:g} GPa"
+    numbers = f"the traction coefficient of {traction}"
+    numbers += ", the temperature rise and the power loss" if heated.thermal else " and the power loss"
+    if heated.rheology == "carreau" and heated.thermal:
+        # Heat and Carreau's law keep the stress within the size of measured ones, but not below their limit.
+        text = (
+            f"{numbers} may be too large: above {above} the shear stress of oils has a limit, which the law "
+            "of Carreau does not have; compare with film.rheology 'limiting'"
         )
+    else:
+        text = (
+            f"do not use {numbers}: above {above} the stress of a {heated.rheology.capitalize()} film is "
+            "several times too large, as it has no limit; give film.rheology 'eyring' or 'limiting'"
+        )
+    yield ResultWarning("newtonian-traction", text)
 
 
-def _temperatures(case: Case, heated: HeatedFilm) -> Iterator[ResultWarning]:
+def _temperatures(case: Case, heated: HeatedFilm, oil: HotOil) -> Iterator[ResultWarning]:
     """Warnings about temperatures at which oil, laws or model are not known."""
     found, known = heated.temperature_range, case.lubricant.temperature_range
     assert found is not None
+    reasons = []
     if known is not None and not (known[0] <= found[0] and found[1] <= known[1]):
-        yield ResultWarning(
-            "film-temperature-range",
-            f"the film has {_celsius(*found)}, but the laws of the oil hold for {_celsius(*known)} "
-            "(lubricant.temperature_range): they are extrapolated",
+        reasons.append(
+            f"the laws of the oil hold for {_celsius(*known)} (lubricant.temperature_range), and are "
+            "extrapolated"
         )
+    if not (oil.lowest <= found[0] and found[1] <= oil.highest):
+        reasons.append(
+            f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight lines"
+        )
+    if reasons:
+        text = f"the film has {_celsius(*found)}, but {'; '.join(reasons)}"
+        yield ResultWarning("film-temperature-range", text)
     rise = heated.max_temperature_rise or 0.0
     if rise > _LARGE_RISE:
         yield ResultWarning(
@@ -113,23 +145,36 @@ def _celsius(low: float, high: float) -> str:
     return f"{low - _CELSIUS:.4g} to {high - _CELSIUS:.4g} °C"
 
 
-def _accuracy(heated: HeatedFilm) -> Iterator[ResultWarning]:
+def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarning]:
     """Warning about a temperature rise that the grid does not resolve."""
     rise, error, lost = heated.max_temperature_rise, heated.temperature_rise_error, heated.energy_imbalance
     if rise is None or rise < _SMALL_RISE:
         return
     if error is not None and error > _RISE_ERROR * rise:
-        yield ResultWarning(
-            "heat-unresolved",
-            f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %: "
-            "where surfaces hardly slide it is that of the pressure spike, whose height depends on the grid; "
-            "use more grid.nodes, or the temperature elsewhere in the film",
-        )
+        text = f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %"
+        if _at_spike(film, heated):
+            text += (
+                ": it is that at the pressure spike, whose height depends on the grid; use more grid.nodes, "
+                "or the temperature elsewhere in the film"
+            )
+        else:
+            text += "; use more grid.nodes"
+        yield ResultWarning("heat-unresolved", text)
     elif lost is not None and abs(lost) > _IMBALANCE:
         yield ResultWarning(
             "heat-unresolved",
             f"the balance of heat in the film is {100 * abs(lost):.2g} % off; use more grid.nodes",
         )
+
+
+def _at_spike(film: Film | PointFilm, heated: HeatedFilm) -> bool:
+    """Whether the hottest node at mid-film is at the pressure spike, a maximum near the outlet."""
+    assert heated.mid_temperature is not None
+    along, *across = np.unravel_index(np.argmax(heated.mid_temperature), film.pressure.shape)
+    pressure = film.pressure[:, across[0]] if across else film.pressure
+    x = film.x / film.scales.length
+    peaks = 1 + np.flatnonzero((pressure[1:-1] > pressure[:-2]) & (pressure[1:-1] >= pressure[2:]))
+    return bool(np.any((x[peaks] > _OUTLET) & (np.abs(x[peaks] - x[along]) < _NEAR)))
 
 
 def _slow(

@@ -275,21 +275,24 @@ def temperature_text(result: AnyContact) -> str:
     heated = result.film.heated
     assert heated is not None and heated.max_temperature_rise is not None
     rise = f"Film up to {heated.max_temperature_rise:.3g} K hotter than the oil in the inlet"
-    return f"{rise}; {_thinning(result)}"
+    return f"{rise}{_thinning(result)}"
 
 
 def shear_text(result: AnyContact) -> str:
     """Traction coefficient, and what shear makes of the minimum film."""
     heated = result.film.heated
     assert heated is not None
-    return signed(f"Traction coefficient {heated.traction_coefficient:.3g}; {_thinning(result)}")
+    return signed(f"Traction coefficient {heated.traction_coefficient:.3g}{_thinning(result)}")
 
 
 def _thinning(result: AnyContact) -> str:
+    """Clause about the minimum film against the isothermal one; none if that did not converge."""
     heated = result.film.heated
     assert heated is not None
+    if heated.isothermal_minimum_thickness is None:
+        return ""
     change = result.film.minimum_thickness / heated.isothermal_minimum_thickness - 1.0
-    return f"{_more(change, 'thicker', 'thinner')} than isothermal and Newtonian"
+    return f"; {_more(change, 'thicker', 'thinner')} than isothermal and Newtonian"
 
 
 LINE_FINDINGS: Mapping[str, Callable[[Result], str]] = {

@@ -30,8 +30,8 @@ DEGREE = 12
 # Largest change of temperature in one outer loop [K].
 _MOST_CHANGE = 40.0
 
-# Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most, as
-# far as this residual: its temperature is still to change.
+# Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most,
+# as far as this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
@@ -245,7 +245,12 @@ def _change(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
     """Change of the temperature over that at which it stands."""
     rise = float(np.max(new.temperature)) - thermal.inlet_temperature
     change = np.max(weight * np.abs(new.temperature - heat.temperature))
-    return float(change) / (_KELVIN + _RISE * abs(rise))
+    return float(change) / close_enough(rise)
+
+
+def close_enough(rise: float) -> float:
+    """Change of the temperature [K] that is small enough on the finest grid, for a largest rise [K]."""
+    return _KELVIN + _RISE * abs(rise)
 
 
 def _weight(level: Level, state: State) -> Array:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import RefinedSolution, refined_solution
-from ehlectric.film.heated.course import Course, HeatedGrid
+from ehlectric.film.heated.course import Course, HeatedGrid, close_enough
 from ehlectric.film.levels import Level
 from ehlectric.film.nested import NESTED_TOLERANCE, interpolated_state, levels_of
 from ehlectric.film.problem import FilmProblem
@@ -49,7 +50,7 @@ class HeatedSolution:
         Temperature at mid-film [K].
     max_temperature_rise, temperature_rise_error : float or None
         Largest rise of the mid-film temperature over that of the oil that enters [K], and the estimate of its
-        error from two grids.
+        error from up to three grids, at least that of the outer iteration.
     shear_stress : ndarray, shape (nx, ny)
         Shear stress along x at mid-film [Pa].
     traction_coefficient, rolling_coefficient : float
@@ -190,11 +191,6 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
     course, last = found[-1]
     problem, physics = course.problem, course.physics
     mesh, state = course.levels[0].mesh, last.solution.state
-    rises = [_rise(each, grid) for each, grid in found]
-    error = None
-    if rises[-1] is not None and len(rises) > 1 and rises[-2] is not None and found[-2][1].converged:
-        # The difference of two grids; at first order it is the error of the finer one.
-        error = abs(rises[-1] - rises[-2])
     columns, filled = course.columns(last.solution, last.flow)
     friction = traction(
         columns,
@@ -219,8 +215,8 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
         zeta=columns.across.zeta,
         heat_flux=None if heat is None else heat.flux,
         mid_temperature=middle,
-        max_temperature_rise=rises[-1],
-        temperature_rise_error=error,
+        max_temperature_rise=_rise(course, last),
+        temperature_rise_error=_rise_error(found),
         shear_stress=course.stress_scale * columns.middle[0] * filled,
         traction_coefficient=friction.sliding,
         rolling_coefficient=friction.rolling,
@@ -247,3 +243,21 @@ def _rise(course: Course, grid: HeatedGrid) -> float | None:
     if grid.heat is None or thermal is None:
         return None
     return float(np.max(_middle(grid.heat.temperature))) - thermal.inlet_temperature
+
+
+def _rise_error(found: list[tuple[Course, HeatedGrid]]) -> float | None:
+    """Estimated error of the largest rise [K]; None without a converged film on the next coarser grid.
+
+    At first order the error is the difference to the next coarser grid, and half of the difference between
+    the two grids before. The larger one counts, as a difference of two maxima passes through zero.
+    """
+    rises = []
+    for course, grid in reversed(found[-3:]):
+        rise = _rise(course, grid)
+        if rise is None or not grid.converged:
+            break
+        rises.append(rise)
+    if len(rises) < 2:
+        return None
+    changes = (0.5**k * abs(fine - coarse) for k, (fine, coarse) in enumerate(pairwise(rises)))
+    return max(*changes, close_enough(rises[0]))

@@ -12,9 +12,6 @@ from ehlectric.film.heated.nested import HeatedSolution
 from ehlectric.film.state import Status
 from ehlectric.film.thermal.result import HeatedFilm
 
-# Traction coefficient below which there is none but rounding, as in pure rolling.
-_ROUNDING = 1e-14
-
 
 def film_status_of(found: HeatedSolution, status: Status) -> Status:
     """Status of a film, "converged" only if its temperature converged with it and its surfaces are apart.
@@ -32,8 +29,8 @@ def heated_film(
     found: HeatedSolution,
     shaped: Callable[[NDArray[Any]], NDArray[Any]],
     *,
-    minimum_thickness: float,
-    central_thickness: float,
+    minimum_thickness: float | None,
+    central_thickness: float | None,
 ) -> HeatedFilm:
     """Heat and shear of a solution, at the nodes of the whole domain.
 
@@ -43,8 +40,8 @@ def heated_film(
         Film with its temperature and shear stress.
     shaped : callable
         Function that brings nodal values (nx, ny) into their shape in the film.
-    minimum_thickness, central_thickness : float
-        Film thicknesses without heat and shear [m].
+    minimum_thickness, central_thickness : float or None
+        Film thicknesses without heat and shear [m]; None if the film without them did not converge.
 
     Returns
     -------
@@ -53,12 +50,14 @@ def heated_film(
     """
     physics = found.refined.problem.physics
     assert physics is not None
-    rows, traction = found.temperature, -found.traction_coefficient
+    rows, bodies = found.temperature, () if physics.thermal is None else physics.thermal.bodies
+    # Equal surfaces drag none of each other. The iteration leaves a stress of its tolerance.
+    alike = physics.slide_to_roll_ratio == 0.0 and len(set(bodies)) <= 1
     return HeatedFilm(
         rheology=physics.rheology.name,
         # A slide-to-roll ratio is positive where surface 1 is the faster one.
         shear_stress=-shaped(found.shear_stress),
-        traction_coefficient=traction if abs(traction) > _ROUNDING else 0.0,
+        traction_coefficient=0.0 if alike else -found.traction_coefficient,
         rolling_coefficient=found.rolling_coefficient,
         power_loss=found.power_loss,
         isothermal_minimum_thickness=minimum_thickness,

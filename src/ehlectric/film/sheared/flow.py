@@ -7,8 +7,9 @@ mass flux relative to the mean speed of the surfaces is, with the dimensionless 
 
     F = (12/lambda) H^2 S flux(a, w, q, g),    q = H dP/dX/S,    g = lambda SRR/(12 H S)
 
-Stresses are over p_h b/R, and S is the characteristic stress of the law. F is all that flows but the mean
-density times u_m h, so that the wedge term is that of a Newtonian oil with the mean density across the film.
+Stresses are over p_h b/R, and S is the characteristic stress of the law. F is the mass
+flux less the mean density times u_m h. The wedge term is therefore that of a Newtonian oil with the mean
+density across the film.
 """
 
 from __future__ import annotations

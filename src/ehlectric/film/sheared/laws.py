@@ -108,7 +108,7 @@ class ShearLaw:
 
 
 def newtonian_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
-    """Rate factor of a Newtonian fluid: one."""
+    """Rate factor of a Newtonian fluid: one; no film needs it, as the law is even."""
     return np.ones_like(squared), np.zeros_like(squared)
 
 
@@ -175,7 +175,10 @@ def carreau_factor(squared: Array, constants: Constants) -> tuple[Array, Array]:
 
 
 def limiting_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
-    """Rate factor (1 - r^5)^(-1/5) of a Newtonian fluid below a limiting shear stress, r = tau/tau_L < 1."""
+    """Rate factor (1 - r^5)^(-1/5) of a Newtonian fluid below a limiting shear stress, r = tau/tau_L < 1.
+
+    The law is even: films take its ``stress``, and the factor is a check of that.
+    """
     m = _SHARPNESS
     r = np.sqrt(squared)
     left = 1.0 - r**m

@@ -26,8 +26,9 @@ class HeatedFilm(Values):
         Rolling friction over the load, dimensionless, of each of the two surfaces.
     power_loss : float
         Power that the film turns into heat [W]; of a line contact per length [W/m].
-    isothermal_minimum_thickness, isothermal_central_thickness : float
-        Film thicknesses of the same contact with an isothermal Newtonian film [m].
+    isothermal_minimum_thickness, isothermal_central_thickness : float or None
+        Film thicknesses of the same contact with an isothermal Newtonian film [m]; None if that film did not
+        converge.
     outer_iterations : int
         Number of alternations between the film and its temperature.
     zeta : ndarray, shape (nz,), or None
@@ -39,7 +40,7 @@ class HeatedFilm(Values):
     max_temperature_rise : float or None
         Largest temperature at mid-film less that of the oil in the inlet [K].
     temperature_rise_error : float or None
-        Estimated error of ``max_temperature_rise`` by the grid [K]; None if unknown.
+        Estimated error of ``max_temperature_rise`` by the grid and the iteration [K]; None if unknown.
     energy_imbalance : float or None
         Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
     """
@@ -49,8 +50,8 @@ class HeatedFilm(Values):
     traction_coefficient: float
     rolling_coefficient: float
     power_loss: float
-    isothermal_minimum_thickness: float
-    isothermal_central_thickness: float
+    isothermal_minimum_thickness: float | None
+    isothermal_central_thickness: float | None
     outer_iterations: int
     zeta: Array | None = None
     temperature: Array | None = None

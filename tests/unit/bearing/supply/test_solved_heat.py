@@ -143,6 +143,12 @@ def test_an_unconverged_film_has_no_factor(monkeypatch):
         prepare_bearing(case(ROLLERS, bearing__inner_speed="777 rpm"), 1)
 
 
+def test_an_isothermal_film_that_did_not_converge_gives_no_factor():
+    """With three Newton steps only the film with heat converges, which takes more of them in its turns."""
+    with pytest.raises(ConvergenceError, match=r"N: the isothermal film did not converge; raise solver\.max"):
+        prepare_bearing(case(ROLLERS, solver__max_iterations=3), 1)
+
+
 def test_quick_analyses_take_the_formula(monkeypatch):
     """Checks and curves over the speed would otherwise solve dozens of films."""
     monkeypatch.setattr(solved_heat, "_solved", None)

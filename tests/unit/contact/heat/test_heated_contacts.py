@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError, Laws, solve
+from ehlectric.app.compute.heat import heat_numbers
 from ehlectric.contact.check import check_case
 from ehlectric.contact.files import load, save
 from ehlectric.contact.heat.oil import hot_oil, oil_over_temperature
@@ -15,6 +16,7 @@ from ehlectric.contact.resolve import resolve
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.errors import DamagedError
 from ehlectric.figures.contact.save import figure
+from ehlectric.film.sheared.profile import Across
 from ehlectric.paper.solvers import PAPER
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.tables.contact import result_rows
@@ -59,13 +61,31 @@ def test_traction_has_the_sign_of_the_sliding(hot, sheared):
     assert hot.film.heated.traction_coefficient < -sheared.film.heated.traction_coefficient
 
 
-def test_power_is_that_of_sliding_and_of_rolling(hot):
-    """Load times speeds: the traction acts over the sliding speed, rolling friction over both surfaces."""
-    film, conditions = hot.film.heated, hot.conditions
-    slide = abs(conditions.slide_to_roll_ratio) * conditions.entrainment_speed
-    rolling = 2.0 * film.rolling_coefficient * conditions.entrainment_speed
-    power = conditions.load_per_length * (abs(film.traction_coefficient) * slide + rolling)
-    assert film.power_loss == pytest.approx(power, rel=0.05)
+@pytest.mark.parametrize(("warmer", "drags"), [(0.0, False), (20.0, True)])
+def test_equal_bodies_that_roll_have_no_traction(warmer, drags):
+    """Between bodies at different temperatures the oil on both sides is not equally thick."""
+    contact = {"slide_to_roll_ratio": 0.0, "temperature_2": 313.15 + warmer}
+    result = solve(case_with("contact", **contact).replace({"grid.nodes": 101}))
+    assert result.converged
+    assert (result.film.heated.traction_coefficient != 0.0) == drags
+
+
+def test_power_is_the_heat_of_shear_in_the_film(hot):
+    """Integral of stress times shear rate over the full film, with the law of Ree and Eyring written out.
+
+    The surfaces also compress the oil, which gives this work back as it expands.
+    """
+    film, heated, limit = hot.film, hot.film.heated, hot.case.lubricant.eyring_stress
+    oil = physics_of(hot.case, resolve(hot.case)).thermal.oil
+    from_middle = film.thickness * (heated.zeta[:, np.newaxis] - 0.5)
+    stress = from_middle * np.gradient(film.pressure, film.x) - heated.shear_stress
+    viscosity = np.exp(oil.log_viscosity(film.pressure, heated.temperature).value)
+    rate = limit / viscosity * np.sinh(stress / limit)
+    across = Across.of(heated.zeta.size - 1).weights * film.thickness[:, np.newaxis]
+    centre = int(np.argmin(np.abs(film.x)))
+    assert across[centre] @ rate[:, centre] == pytest.approx(-0.3, rel=1e-4)  # slip of the surfaces [m/s]
+    power = np.sum(across.T * stress * rate, axis=0, where=~film.cavitated)
+    assert heated.power_loss == pytest.approx(np.trapezoid(power, film.x), rel=3e-3)
 
 
 def test_temperatures_of_the_film(hot):
@@ -87,6 +107,21 @@ def test_files_bring_heat_and_shear_back(hot, sheared, tmp_path):
         assert loaded.summary() == result.summary()
         for name, value in vars(result.film.heated).items():
             assert np.array_equal(getattr(loaded.film.heated, name), value), name
+
+
+def test_an_isothermal_film_that_did_not_converge_is_not_told(tmp_path):
+    """With three Newton steps only the film with heat converges, which takes more of them in its turns."""
+    result = solve(Case.from_dict(HOT_LINE | {"solver": {"max_iterations": 3}}))
+    assert result.converged
+    assert result.summary()["film"]["isothermal"] == {"minimum_thickness": None, "central_thickness": None}
+    assert "isothermal-unsolved" in [each.code for each in result.warnings]
+    rows = {row.name: row for row in result_rows(result)}
+    assert rows["minimum film, isothermal and Newtonian"].text == "not converged"
+    texts = [text.get_text() for text in figure(result, "temperature.png").texts]
+    texts += [number.note for number in heat_numbers(result)]
+    assert not any("isothermal and Newtonian" in text for text in texts)
+    save(result, tmp_path)
+    assert load(tmp_path / "result.nc").summary() == result.summary()
 
 
 def test_a_film_without_heat_has_none_in_its_file(tmp_path):
@@ -183,6 +218,18 @@ def test_the_range_ends_where_a_law_has_no_values():
     assert 600.0 + 30.0 <= oil.highest < 813.15
 
 
+@pytest.mark.parametrize("key", ["contact.temperature_1", "contact.temperature_2"])
+def test_a_temperature_without_values_of_the_oil_is_refused_by_its_key(key):
+    """A density that falls by 0.2 % per kelvin from -60 degC is zero at 440 degC, less than 30 K hotter."""
+    case = case_with("lubricant", thermal_expansion=2e-3, reference_temperature=213.15)
+    with pytest.raises(InputError, match="properties; expected at most") as refused:
+        check_case(case.replace({key: "426 degC"}))
+    assert refused.value.key == key
+    allowed = float(refused.value.takes.split()[2])
+    assert 400.0 <= allowed < 410.0
+    check_case(case.replace({key: f"{allowed} degC"}))
+
+
 @pytest.mark.parametrize("ratio", [2.5, -2.5])
 def test_a_surface_against_entrainment_is_refused(ratio):
     case = case_with("contact", slide_to_roll_ratio=ratio)
@@ -199,14 +246,13 @@ def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
 
 
 def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
-    """The film does not converge, and a warning says why."""
-    rough = {"surface": 1, "generator": "gaussian", "rq": "150 nm", "correlation_length": "20 um", "seed": 1}
+    """The film does not converge, and one warning says why; another advice would contradict it."""
     contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
-    table = HOT_LINE | {"contact": contact, "roughness": [rough], "grid": {"nodes": 401}}
-    result = solve(Case.from_dict(table | {"film": {"rheology": "eyring"}}), beside_smooth=False)
-    assert not result.converged
-    told = [each.text for each in result.warnings if each.code == "surfaces-touch"]
-    assert any("solved without the table [film] only" in text for text in told)
+    table = HOT_LINE | {"contact": contact, "grid": {"nodes": 101}, "film": {"rheology": "eyring"}}
+    result = solve(Case.from_dict(table))
+    assert result.film.collapsed_positions.size
+    (told,) = (each.text for each in result.warnings if each.code == "surfaces-touch")
+    assert "solved without the table [film] only" in told
 
 
 def test_heat_that_does_not_fit_into_memory_is_refused():
@@ -233,27 +279,75 @@ def test_a_point_contact_is_hot_on_both_sides_alike(tmp_path):
     assert figure(result, "temperature.png").axes
 
 
-def codes(result, case=None, **changes):
-    """Codes of the warnings about a film whose heat and shear differ in some values."""
+def told(result, case=None, **changes):
+    """Texts by code of the warnings about a film whose heat and shear differ in some values."""
     film = replace(result.film, heated=replace(result.film.heated, **changes))
     case = result.case if case is None else case
     conditions = resolve(case)
-    return [each.code for each in heat_warnings(case, conditions, film, physics_of(case, conditions))]
+    return {
+        each.code: each.text for each in heat_warnings(case, conditions, film, physics_of(case, conditions))
+    }
 
 
-def test_warnings(hot, sheared):
-    assert codes(hot, temperature_rise_error=0.0) == []
+def test_warnings(hot):
+    resolved = {"temperature_rise_error": 0.0}
+    assert told(hot, **resolved) == {}
+    assert [*told(hot, **resolved, energy_imbalance=0.05)] == ["heat-unresolved"]
+    assert [*told(hot, **resolved, max_temperature_rise=250.0)] == ["film-very-hot"]
+    slow = case_with("contact", slide_to_roll_ratio=1.9999)
+    assert [*told(hot, slow, **resolved)] == ["slow-body"]
+
+
+@pytest.mark.parametrize(
+    ("rheology", "told"), [("eyring", "carreau_stress and lubricant.carreau_exponent are"), ("newtonian", "")]
+)
+def test_constants_of_another_law_are_not_taken_without_a_word(rheology, told):
+    """A Newtonian film stands for comparison in sweeps of the law, and needs no note."""
+    case = case_with("lubricant", carreau_stress="5 MPa", carreau_exponent=0.5)
+    case = case.replace({"film.rheology": rheology})
+    notes = [each for each in check_case(case).warnings() if each.code == "shear-constant-unused"]
+    assert len(notes) == bool(told)
+    assert all(f"lubricant.{told} not used" in note.text and note.severity == "note" for note in notes)
+
+
+def test_warning_about_stress_without_a_limit(hot, sheared):
+    """Heat and Carreau's law bring the stress near to that of oils; a Newtonian one is too large by far."""
     newtonian = Case.from_dict(HOT_LINE | {"film": {"rheology": "newtonian"}})
-    assert codes(sheared, newtonian, rheology="newtonian") == ["newtonian-traction"]
+    (text,) = told(sheared, newtonian, rheology="newtonian").values()
+    assert text.startswith("do not use the traction coefficient of 0.0")
+    assert "and the power loss" in text
+    assert "temperature rise" not in text
     low = newtonian.replace({"contact.max_hertz_pressure": "0.4 GPa"})
     rolling = newtonian.replace({"contact.slide_to_roll_ratio": 0.0})
     for case in (low, rolling):
-        assert codes(sheared, case, rheology="newtonian") == []
+        assert told(sheared, case, rheology="newtonian") == {}
+    warm = told(hot, rheology="newtonian", temperature_rise_error=0.0)["newtonian-traction"]
+    assert warm.startswith("do not use")
+    assert "the temperature rise and the power loss" in warm
+    warm = told(hot, rheology="carreau", temperature_rise_error=0.0)["newtonian-traction"]
+    assert "may be too large" in warm
+    assert "do not use" not in warm
+
+
+def test_warning_about_temperatures_at_which_the_oil_is_not_known(hot):
+    """Beyond the range of its laws, and beyond that at which they are taken: 40 - 20 to 40 + 250 degC."""
     narrow = case_with("lubricant", temperature_range=["39 degC", "41 degC"])
-    assert codes(hot, narrow, temperature_rise_error=0.0) == ["film-temperature-range"]
-    assert codes(hot, temperature_rise_error=1.0, max_temperature_rise=10.0) == ["heat-unresolved"]
-    assert codes(hot, temperature_rise_error=0.1, max_temperature_rise=10.0) == []
-    assert codes(hot, temperature_rise_error=0.0, energy_imbalance=0.05) == ["heat-unresolved"]
-    assert codes(hot, temperature_rise_error=0.0, max_temperature_rise=250.0) == ["film-very-hot"]
-    slow = case_with("contact", slide_to_roll_ratio=1.9999)
-    assert codes(hot, slow, temperature_rise_error=0.0) == ["slow-body"]
+    (text,) = told(hot, narrow, temperature_rise_error=0.0).values()
+    assert "the laws of the oil hold for 39 to 41 °C" in text
+    assert "straight lines" not in text
+    beyond = {"temperature": hot.film.heated.temperature + 250.0, "temperature_rise_error": 0.0}
+    (text,) = told(hot, **beyond).values()
+    assert "its properties were taken from 20 to 290 °C, and go on as straight lines" in text
+
+
+def test_warning_about_a_rise_that_the_grid_does_not_resolve(hot):
+    """It blames the pressure spike only where the film is hottest there."""
+    x, middle = hot.film.x / hot.film.scales.length, hot.film.heated.mid_temperature
+    spike = x > 0.5
+    at_spike = x[spike][np.argmax(hot.film.pressure[spike] * (np.gradient(hot.film.pressure)[spike] >= 0.0))]
+    for place, blamed in ((at_spike, True), (0.0, False)):
+        peak = middle + 100.0 * np.exp(-((10.0 * (x - place)) ** 2))
+        rise = {"mid_temperature": peak, "max_temperature_rise": 10.0}
+        text = told(hot, **rise, temperature_rise_error=1.0)["heat-unresolved"]
+        assert ("spike" in text) == blamed
+    assert told(hot, temperature_rise_error=0.1, max_temperature_rise=10.0) == {}

@@ -154,3 +154,19 @@ def test_temperature_follows_no_pressure_in_reverse_flow():
     follows = np.any(found.by_pressure, axis=(0, 2))
     assert not follows[:5].any()
     assert follows[6:].all()
+
+
+def test_columns_are_the_same_from_both_surfaces():
+    """Also where a wide gap adds conduction: exchanged surfaces turn the columns over, to rounding."""
+    stream = channel(lambda zeta: 0.1 + 1.8 * zeta, nodes=21, thickness=1e-4)
+    faster = np.linspace(1.0, 1.5, 21)[:, np.newaxis]
+    stream = replace(stream, u=stream.u * faster, heating=1e12 * stream.u)
+    fields = {key: value for key, value in vars(stream).items() if np.shape(value) == stream.u.shape}
+    other = replace(stream, **{key: value[::-1] for key, value in fields.items()})
+    temperature = 300.0 + 10.0 * stream.u
+    columns = HeatColumns.of(stream, temperature)
+    mirrored = HeatColumns.of(other, temperature[::-1])
+    for key in ("right", "before", "second", "after"):
+        np.testing.assert_allclose(getattr(columns, key), getattr(mirrored, key)[..., ::-1], rtol=1e-12)
+    turned = mirrored.matrix[..., ::-1, ::-1]
+    np.testing.assert_allclose(columns.matrix, turned, atol=1e-12 * columns.matrix.max())
