@@ -30,7 +30,7 @@ _MANY_STEPS = 200
 
 # Relative loss of film thickness, caused by a domain that is too small, above which a point contact gets a
 # warning. The loss in the default domain is about 0.01.
-LOSS = 0.02
+_LOSS = 0.02
 
 # Share of the estimated error of the maximum pressure that is added to it for the warning about yielding
 # steel. On 692 grids of random rough contacts it missed 4 of 48 films above the limit, and warned of 17
@@ -38,7 +38,7 @@ LOSS = 0.02
 _LIKELY_RISE = 1.0 / 3.0
 
 # Share of the pressure that builds up upstream of the domain, above which a line contact gets a warning.
-DEFICIT = 0.01
+_DEFICIT = 0.01
 
 
 def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
@@ -156,7 +156,7 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
 def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:
     """Warnings about the inlet of a line contact and about the grid and range of its field."""
     deficit = film.inlet_deficit
-    if deficit is not None and deficit > DEFICIT:
+    if deficit is not None and deficit > _DEFICIT:
         code, effect = "inlet-too-short", "the film is wrong by about as much"
         if deficit > 0.2:
             code, effect = "inlet-far-too-short", "do not use this film"
@@ -192,13 +192,13 @@ def _longer_inlet(inlet: float, deficit: float) -> float:
     deficit : float
         Share of the reduced pressure that is missing with this inlet, from 0 to 1.
     """
-    return -math.ceil(-2.0 * inlet * math.cbrt(deficit / DEFICIT)) / 2.0
+    return -math.ceil(-2.0 * inlet * math.cbrt(deficit / _DEFICIT)) / 2.0
 
 
 def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:
     """Warnings about the domain of a point contact and about the grid and range of its field."""
     loss, before, beside = film.domain_loss, film.inlet_deficit, film.side_deficit
-    if loss is not None and before is not None and beside is not None and loss > LOSS:
+    if loss is not None and before is not None and beside is not None and loss > _LOSS:
         code, effect = "domain-too-small", ""
         if loss > 0.2:
             code, effect = "domain-far-too-small", "do not use this film, "

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from ehlectric.cases.case import Case
 from ehlectric.cases.films.inlet import Inlet
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.result_warnings import DEFICIT, LOSS
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.film.accuracy.starved import Starvation
@@ -17,6 +16,10 @@ from ehlectric.film.point import PointFilm, lost_film
 # Part of the flooded central film above which the layer of oil has no effect, and relative difference of the
 # ratio of films from the one asked for above which there is a warning.
 _FLOODED, _MISSED = 0.999, 0.01
+
+# Share by which a domain that is too small makes the flooded film beside too thin, above which there is a
+# warning: the film itself does not depend on it.
+_LOST = 0.05
 
 # Distance of the meniscus from the Hertz zone in half-widths, beside a grid spacing, up to which it is at the
 # edge of the zone.
@@ -95,13 +98,11 @@ def _of_flooded(film: Film | PointFilm, found: Starvation, inlet: Inlet) -> Iter
             "flooded-film-wrong", f"the flooded film beside did not converge: {what}; try more grid.nodes"
         )
     elif inlet.film_ratio is None and film.film_fraction is not None:
-        least, lost = DEFICIT, upstream
+        lost = upstream
         if sides is not None:
-            least, lost = (
-                LOSS,
-                lost_film(found.flooded_central_thickness / film.scales.thickness, upstream, sides),
-            )
-        if lost > least:
+            flooded = found.flooded_central_thickness / film.scales.thickness
+            lost = lost_film(flooded, upstream, sides)
+        if lost > _LOST:
             yield ResultWarning(
                 "flooded-film-wrong",
                 f"the domain is too small for the flooded film beside, which is too thin by about "
