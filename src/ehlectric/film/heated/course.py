@@ -30,8 +30,8 @@ DEGREE = 12
 # Largest change of temperature in one outer loop [K].
 _MOST_CHANGE = 40.0
 
-# Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most, as
-# far as this residual: its temperature is still to change.
+# Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most,
+# down to this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
