@@ -38,8 +38,8 @@ from ehlectric.cases.library.grade import Grade
 from ehlectric.cases.library.sources import Source
 from ehlectric.cases.oils.laws import LAWS
 from ehlectric.cases.quantity import Count, Quantities, Quantity
-from ehlectric.causes import CODES
 from ehlectric.commands.app import app as commands
+from ehlectric.errors import CODES
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.paper.contacts import CONTACTS

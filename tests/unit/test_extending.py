@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import Case, InputError, causes, errors, load, save, solve
+from ehlectric import Case, InputError, errors, load, save, solve
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases import library
 from ehlectric.cases.bearings.case import BearingCase
@@ -283,7 +283,7 @@ def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):
 
 def test_a_warning_is_a_code_and_a_condition(monkeypatch):
     """A code in the list, and a generator that gives it: results, summary and files carry it."""
-    monkeypatch.setattr(errors, "CODES", {**causes.CODES, "fast": causes.Cause("The contact is fast.")})
+    monkeypatch.setattr(errors, "CODES", {**errors.CODES, "fast": errors.Cause("The contact is fast.")})
     before = LINE.case_warnings
 
     def case_warnings(setup, conditions):

@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 import ehlectric
-from ehlectric.causes import CODES
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 
 SOURCE = Path(ehlectric.__file__).parent
 # The codes themselves, and the module that classifies warnings of earlier versions.

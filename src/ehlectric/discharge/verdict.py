@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ehlectric.cases.discharge import Discharge
-from ehlectric.causes import CODES
 from ehlectric.discharge.breakdown import Breakdown
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 
 # "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
 # expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 from matplotlib.figure import Figure
 
-from ehlectric.causes import Severity
+from ehlectric.errors import Severity
 from ehlectric.report.light import Light
 
 Tone = Literal["plain", "alarm", "code"]

@@ -7,8 +7,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from ehlectric.cases.row import Row
-from ehlectric.causes import CODES, Severity
-from ehlectric.errors import ResultWarning, printable
+from ehlectric.errors import CODES, ResultWarning, Severity, printable
 from ehlectric.report.content import Table, Text, WarningLine, Warnings
 
 if TYPE_CHECKING:

@@ -6,8 +6,7 @@ import json
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ehlectric.causes import CODES
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 
 # Keys of summary.json, and names of attributes in NetCDF files.
 TEXTS, CODES_OF_TEXTS = "warnings", "warning_codes"

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from ehlectric.causes import CODES
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 from ehlectric.sweep.results import Point, SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity
 from ehlectric.version import __version__

@@ -23,9 +23,8 @@ from ehlectric.app.figures.bearing_speeds import OverSpeed, speed_rows
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.row import amount
 from ehlectric.cases.units import rpm
-from ehlectric.causes import CODES
 from ehlectric.discharge.verdict import Verdict, ratio_text
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import CODES, InputError, ResultWarning
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text
 

@@ -17,8 +17,7 @@ from ehlectric.app.ranges import Range, with_ranges
 from ehlectric.app.work import Limits, Work
 from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
-from ehlectric.causes import CODES
-from ehlectric.errors import InputError
+from ehlectric.errors import CODES, InputError
 from ehlectric.runs.by_kind import read_sweep_file, run_sweep
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.plan import case_key

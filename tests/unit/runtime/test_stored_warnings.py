@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import load, read_sweep
-from ehlectric.causes import CODES
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 from ehlectric.runtime.stored_warnings import (
     as_attributes,
     code_of_text,

@@ -21,7 +21,7 @@ from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.result_key import key_of
 from ehlectric.cases.row import value_at
-from ehlectric.causes import CODES
+from ehlectric.errors import CODES
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of, result_keys, scale_for

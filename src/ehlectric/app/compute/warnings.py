@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from ehlectric.app.answers.told import PLACES, SEVERITIES, Told
-from ehlectric.causes import CODES
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 
 _LIKELY = "The margin is below 1: breakdown is likely."
 

@@ -11,8 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.tri import TriContourSet
 
 from ehlectric import InputError
-from ehlectric.causes import CODES
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import CODES, ResultWarning
 from ehlectric.figures.axes import levels_of, round_numbers
 from ehlectric.figures.style import style
 from ehlectric.figures.sweep.lines import value_lines
