@@ -110,8 +110,8 @@ def test_oil_that_keeps_its_temperature_has_the_isothermal_film():
     ("ratio", "film", "kelvin"),
     [
         (1.0, 1e-5, 0.02),
-        # With a body at rest the temperature converges slowly, and ends within its tolerance of 0.3 K.
-        pytest.param(2.0, 5e-5, 0.3, marks=pytest.mark.slow),
+        # Rounding at a surface at rest must not count as reverse flow; 0.2 K are at the end of the inlet.
+        (2.0, 1e-5, 0.2),
     ],
 )
 def test_reversed_slip_mirrors_the_temperature_across(ratio, film, kelvin):

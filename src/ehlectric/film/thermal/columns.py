@@ -21,6 +21,9 @@ from ehlectric.arrays import Array
 from ehlectric.film.sheared.profile import Across
 from ehlectric.film.thermal.across import conduction, derivative
 
+# Flow of mass over the largest one of its column that is zero but for rounding.
+_ROUNDING = 1e-12
+
 
 @dataclass(frozen=True, eq=False)
 class Stream:
@@ -162,6 +165,8 @@ class _Convection:
 
 def _parts(flow: Array) -> tuple[Array, Array]:
     """Parts of a flow towards larger and towards smaller positions, both not negative."""
+    # At a surface at rest the flow is zero but for rounding, and rounding is no reverse flow.
+    flow = np.where(np.abs(flow) > _ROUNDING * np.max(np.abs(flow), axis=0), flow, 0.0)
     return np.maximum(flow, 0.0), np.maximum(-flow, 0.0)
 
 
