@@ -189,3 +189,14 @@ def test_sixty_random_points_converge(first):
             assert found.status == "converged", seed
             assert found.energy_imbalance < 0.75 * coarse.energy_imbalance, seed
         assert found.energy_imbalance < 0.01, seed
+
+
+@pytest.mark.slow
+def test_a_very_hot_film_on_a_fine_grid():
+    # Its spike, 208 K hot, moves by less than a node from loop to loop.
+    found = film_of(random_contact(1, nodes=1601))
+    assert found.status == "converged"
+    assert found.energy_imbalance < 1e-3
+    assert found.max_temperature_rise == pytest.approx(
+        film_of(random_contact(1)).max_temperature_rise, rel=0.01
+    )
