@@ -33,7 +33,7 @@ def test_values_half_way_are_those_of_the_monotone_cubic(nodes, rising):
 def test_direct_solutions_give_the_film_of_the_cycles(monkeypatch, paper_case, speed):
     problem = problem_of(paper_case, **{"contact.entrainment_speed": speed})
     direct = solve_film(problem)
-    monkeypatch.setattr(nested, "_DIRECT", 0)
+    monkeypatch.setattr(nested, "DIRECT", 0)
     monkeypatch.setattr(newton, "_KEPT", (0, 0))
     cycled = solve_film(problem)
     assert direct.converged
