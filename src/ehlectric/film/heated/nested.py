@@ -11,7 +11,7 @@ from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import RefinedSolution, refined_solution
 from ehlectric.film.heated.course import Course, HeatedGrid, close_enough
 from ehlectric.film.levels import Level
-from ehlectric.film.nested import NESTED_TOLERANCE, interpolated_state, levels_of
+from ehlectric.film.nested import DIRECT, NESTED_TOLERANCE, interpolated_state, levels_of
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.sheared.profile import Across, on_mesh
 from ehlectric.film.sheared.traction import traction
@@ -25,9 +25,6 @@ _FIRST, _FIRST_POINT = 151, 33
 
 # Parts of the slip of a film that does not converge at once.
 _SLIPS = (0.0, 0.03, 0.1, 0.3, 1.0)
-
-# Largest number of nodes of a line contact whose linear systems are solved directly.
-_DIRECT = 401
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +142,7 @@ def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmPr
 def _course(problem: FilmProblem, *, finer: int, progress: Progress | None) -> Course:
     """Outer iteration on the grid of a problem."""
     levels = levels_of(problem)
-    direct = problem.width is None and problem.nodes <= _DIRECT
+    direct = problem.width is None and problem.nodes <= DIRECT
     tolerance = problem.tolerance if finer == 0 else max(problem.tolerance, NESTED_TOLERANCE)
     return Course(problem, levels[:1] if direct else levels, tolerance, finer, progress)
 
