@@ -108,8 +108,9 @@ def test_oil_that_keeps_its_temperature_has_the_isothermal_film():
     ("ratio", "film", "kelvin"),
     [
         (1.0, 1e-5, 0.02),
-        # Rounding at a surface at rest must not count as reverse flow; 0.2 K are at the end of the inlet.
-        (2.0, 1e-5, 0.2),
+        # Rounding at a surface at rest must not count as reverse flow; 0.2 K are at the end of the inlet. The
+        # loops end where the film changes by less than 5e-5.
+        (2.0, 3e-5, 0.2),
     ],
 )
 def test_reversed_slip_mirrors_the_temperature_across(ratio, film, kelvin):

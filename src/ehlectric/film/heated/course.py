@@ -34,10 +34,6 @@ _MOST_CHANGE = 40.0
 # as far as this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 
-# Number of loops that are accelerated. On fine grids the spike of a very hot film may keep the acceleration
-# from settling; loops that go half of the way do settle then.
-_ACCELERATED = 15
-
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
 # the next coarser one, which gives the estimates of the errors, and of all others.
@@ -91,6 +87,9 @@ class Course:
         Number of finer grids that follow.
     progress : callable or None
         Function that is called before every Newton step.
+    careful : bool
+        Whether properties are evaluated again at the pressure of each film, and changes count as they are and
+        not as parts of a geometric sequence: slower, and it converges for hotter films.
     """
 
     problem: FilmProblem
@@ -98,6 +97,7 @@ class Course:
     tolerance: float
     finer: int
     progress: Progress | None
+    careful: bool = False
 
     @property
     def physics(self) -> Physics:
@@ -220,7 +220,29 @@ class Course:
             stands = ends and solution.status == "converged" and films[-1] < allowed
             if stands or solution.status == "diverged":
                 break
-            stream = self.stream(solution, heat, *self.columns(solution, flow))
+            if self.careful:
+                flow = self.flow(solution.state, heat)
+            new = self._heated(solution, heat, flow, surfaces)
+            if new is None:
+                solution = replace(solution, status="diverged")
+                break
+            rises.append(_change(weight, heat, new, thermal))
+            # Film and temperature that are close enough end with a film at the last temperature.
+            ends = max(self._distance(rises), self._distance(films)) < allowed
+            state = solution.state
+            heat = _mixed(mixing, heat, new)
+        else:
+            solution = replace(solution, status="stalled")
+        return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
+
+    def _heated(
+        self, solution: GridSolution, heat: Heat, flow: ShearedFlow, surfaces: tuple[Surface, Surface]
+    ) -> Heat | None:
+        """Temperature by the energy equation of a film; None if it has no finite solution."""
+        thermal = self.physics.thermal
+        assert thermal is not None
+        stream = self.stream(solution, heat, *self.columns(solution, flow))
+        try:
             new = solve_energy(
                 HeatColumns.of(stream, heat.temperature),
                 surfaces,
@@ -228,25 +250,16 @@ class Course:
                 inlet_temperature=thermal.inlet_temperature,
                 symmetric=stream.symmetric,
             )
-            if not np.all(np.isfinite(new.temperature)):
-                solution = replace(solution, status="diverged")
-                break
-            rises.append(_change(weight, heat, new, thermal))
-            # Film and temperature that are close enough end with a film at the last temperature.
-            ends = max(_distance(rises), _distance(films)) < allowed
-            state = solution.state
-            heat = _mixed(mixing, heat, new) if loop < _ACCELERATED else _halfway(heat, new)
-        else:
-            solution = replace(solution, status="stalled")
-        return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
+        except np.linalg.LinAlgError:
+            return None
+        return new if np.all(np.isfinite(new.temperature)) else None
 
-
-def _distance(changes: list[float]) -> float:
-    """Distance from the limit after changes that fall in a geometric sequence, or the only change."""
-    if len(changes) < 2 or not np.isfinite(changes[-2]):
-        return changes[-1]
-    ratio = min(_SLOWEST, changes[-1] / max(changes[-2], 1e-300))
-    return changes[-1] * ratio / (1.0 - ratio)
+    def _distance(self, changes: list[float]) -> float:
+        """Distance from the limit after changes that fall in a geometric sequence, or the last change."""
+        if self.careful or len(changes) < 2 or not np.isfinite(changes[-2]):
+            return changes[-1]
+        ratio = min(_SLOWEST, changes[-1] / max(changes[-2], 1e-300))
+        return changes[-1] * ratio / (1.0 - ratio)
 
 
 def _change(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
@@ -273,12 +286,6 @@ def _mixing(weight: Array, heat: Heat) -> Mixing:
     """Acceleration of the outer iteration, in the weighted norm of the temperature."""
     of_film = np.broadcast_to(weight, heat.temperature.shape).ravel()
     return Mixing(weights=np.concatenate([of_film, np.zeros(heat.flux.size)]))
-
-
-def _halfway(heat: Heat, new: Heat) -> Heat:
-    """Mean of two temperatures and of their fluxes."""
-    temperature = 0.5 * (heat.temperature + new.temperature)
-    return replace(new, temperature=temperature, flux=0.5 * (heat.flux + new.flux))
 
 
 def _mixed(mixing: Mixing, heat: Heat, new: Heat) -> Heat:

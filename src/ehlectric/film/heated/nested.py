@@ -23,6 +23,9 @@ from ehlectric.runtime.threads import quiet_solution
 # Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
 _FIRST, _FIRST_POINT = 151, 33
 
+# The same for the careful way.
+_FIRST_CAREFUL = 101
+
 # Parts of the slip of a film that does not converge at once.
 _SLIPS = (0.0, 0.03, 0.1, 0.3, 1.0)
 
@@ -113,21 +116,35 @@ def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
     """Both films, with heat on all grids from coarse to fine."""
     assert problem.physics is not None
     simple = refined_solution(replace(problem, physics=None), progress)
-    whole = simple.whole
-    grids = [_on(simple.problem if simple.patch is None else problem, whole, problem)]
-    least = _FIRST if problem.width is None else _FIRST_POINT
+    finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem)
+    found = _on_grids(finest, simple, progress, careful=False)
+    if not all(grid.converged for _, grid in found):
+        # Very hot films take more grids and more exact loops.
+        found = _on_grids(finest, simple, progress, careful=True)
+    return _solution(simple, found)
+
+
+def _on_grids(
+    finest: FilmProblem, simple: RefinedSolution, progress: Progress | None, *, careful: bool
+) -> list[tuple[Course, HeatedGrid]]:
+    """Film with heat on all grids; the quick way ends with the first grid that it does not solve."""
+    grids, least = [finest], _FIRST_CAREFUL if careful else _FIRST
+    if finest.width is not None:
+        least = _FIRST_POINT
     while len(grids) < 2 or grids[-1].nodes // 2 + 1 >= least:
         width = None if grids[-1].width is None else grids[-1].width.coarser()
         grids.append(replace(grids[-1], nodes=grids[-1].nodes // 2 + 1, width=width))
     found: list[tuple[Course, HeatedGrid]] = []
     for finer, posed in reversed(list(enumerate(grids))):
-        course = _course(posed, finer=finer, progress=progress)
+        course = replace(_course(posed, finer=finer, progress=progress), careful=careful)
         state, heat = _start(course, simple, found)
         grid = course(state, heat, spike=True)
-        if not grid.converged and course.physics.slide_to_roll_ratio != 0.0:
+        if careful and not grid.converged and course.physics.slide_to_roll_ratio != 0.0:
             grid = min(grid, _by_slip(course, simple), key=lambda each: not each.converged)
         found.append((course, grid))
-    return _solution(simple, found)
+        if not careful and not grid.converged:
+            break
+    return found
 
 
 def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmProblem:

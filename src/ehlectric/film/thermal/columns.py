@@ -116,13 +116,15 @@ class HeatColumns:
         diagonal = sum(neighbours) - volume * (stream.heating_slope + cooling)
         source = volume * (stream.heating - stream.heating_slope * temperature + warming * temperature)
         upward = specific * np.tensordot(across.cumulative, flow.divergence, axes=1)
-        # No oil passes surface b; the discrete balance of mass at a node is another one than here.
-        upward -= across.zeta[:, np.newaxis, np.newaxis] * upward[-1]
         # In the wide gap far upstream the nodes do not resolve the layers between forward and reverse flow.
         # Conduction that brings the Peclet number of a cell down to two keeps the temperature there bounded.
+        # The flow in it is the larger one of the sums from both surfaces.
         cell = np.gradient(across.zeta)[:, np.newaxis, np.newaxis]
         conducted = stream.filling / stream.thickness * stream.conductivity
-        matrix = conduction(across, np.maximum(conducted, 0.5 * np.abs(upward) * cell))
+        larger = np.maximum(np.abs(upward), np.abs(upward - upward[-1]))
+        matrix = conduction(across, np.maximum(conducted, 0.5 * larger * cell))
+        # No oil passes surface b; the discrete balance of mass at a node is another one than here.
+        upward -= across.zeta[:, np.newaxis, np.newaxis] * upward[-1]
         upward *= across.weights[:, np.newaxis, np.newaxis]
         matrix -= _last(upward)[..., np.newaxis] * derivative(across.zeta.size - 1)
         index = np.arange(across.zeta.size)
