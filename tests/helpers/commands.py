@@ -41,7 +41,7 @@ def _command(arguments, folder, output, errors):
     main()
 
 
-def run_command(*words, cwd, timeout=120):
+def run_command(*words, cwd, timeout=300):
     """Run the command in a folder.
 
     Parameters
@@ -51,7 +51,7 @@ def run_command(*words, cwd, timeout=120):
     cwd : Path
         Folder to run in.
     timeout : float
-        Time limit [s], after which the command is killed.
+        Time limit [s], after which a command that hangs is killed.
 
     Returns
     -------
