@@ -9,14 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ehlectric.asperities.flattening import flattened, point_amplitude_ratio
-from ehlectric.asperities.integrals import greenwood_integral
-from ehlectric.asperities.intermittency import contact_time_share, expected_spots
-from ehlectric.asperities.load_sharing import film_under_share, load_sharing
-from ehlectric.asperities.shares import LOAD_SHARE, load_shares
-from ehlectric.asperities.spectrum import SpectralMoments, profile_moments
-from ehlectric.asperities.statistical import greenwood_williamson, summit_separation
 from ehlectric.cases.roughness import Roughness
+from ehlectric.formulas.asperities.flattening import flattened, point_amplitude_ratio
+from ehlectric.formulas.asperities.integrals import greenwood_integral
+from ehlectric.formulas.asperities.intermittency import contact_time_share, expected_spots
+from ehlectric.formulas.asperities.load_sharing import film_under_share, load_sharing
+from ehlectric.formulas.asperities.shares import LOAD_SHARE, load_shares
+from ehlectric.formulas.asperities.spectrum import SpectralMoments, profile_moments
+from ehlectric.formulas.asperities.statistical import greenwood_williamson, summit_separation
 from ehlectric.surfaces.profiles import rms
 from ehlectric.surfaces.rough_profiles import measured
 

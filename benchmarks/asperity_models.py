@@ -21,21 +21,21 @@ from numpy.typing import ArrayLike
 
 from benchmarks.moving_asperities import POSED, Posed, Solved, solved, store, stored
 from ehlectric.arrays import Array
-from ehlectric.asperities.flattening import flattened, point_amplitude_ratio
-from ehlectric.asperities.integrals import separation_of_gap
-from ehlectric.asperities.intermittency import contact_time_share, expected_spots
-from ehlectric.asperities.shares import LOAD_SHARE
-from ehlectric.asperities.spectrum import SpectralMoments
-from ehlectric.asperities.statistical import (
+from ehlectric.contact.check import check_case
+from ehlectric.contact.conditions import PointConditions
+from ehlectric.contact.spots.mechanics import load_of
+from ehlectric.formulas.asperities.flattening import flattened, point_amplitude_ratio
+from ehlectric.formulas.asperities.integrals import separation_of_gap
+from ehlectric.formulas.asperities.intermittency import contact_time_share, expected_spots
+from ehlectric.formulas.asperities.shares import LOAD_SHARE
+from ehlectric.formulas.asperities.spectrum import SpectralMoments
+from ehlectric.formulas.asperities.statistical import (
     AsperityContact,
     Summits,
     greenwood_tripp,
     greenwood_williamson,
     summit_separation,
 )
-from ehlectric.contact.check import check_case
-from ehlectric.contact.conditions import PointConditions
-from ehlectric.contact.spots.mechanics import load_of
 from ehlectric.formulas.film_mixed import RoughBodies, masjedi_khonsari_point
 from ehlectric.motion.contact import TransientContact
 from ehlectric.surfaces.maps import Map

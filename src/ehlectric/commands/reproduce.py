@@ -54,7 +54,7 @@ def reproduce(
         for name, text in made.verdicts.items():
             typer.echo(f"{name.replace('_', ' ').capitalize()}: {text}")
         if not made.verdicts and "table_3" in made.tables:
-            from ehlectric.tables.paper import films_tables
+            from ehlectric.paper.films_tables import films_tables
 
             for films in films_tables(made.tables["table_3"]):
                 print_table(films)

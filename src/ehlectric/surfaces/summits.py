@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ehlectric.asperities.spectrum import (
+from ehlectric.formulas.asperities.spectrum import (
     LEAST_BANDWIDTH,
     SpectralMoments,
     map_moments,

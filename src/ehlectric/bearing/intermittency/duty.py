@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.asperities.integrals import LOWEST_SEPARATION, separation_of_gap
-from ehlectric.asperities.intermittency import bearing_time_share, contact_time_share, expected_spots
-from ehlectric.asperities.shares import LOAD_SHARE, contact_probability, johnson_end, load_shares
-from ehlectric.asperities.spectrum import SpectralMoments
-from ehlectric.asperities.statistical import Summits, greenwood_williamson, summit_separation
 from ehlectric.bearing.solution import BearingSolution, RingState, lubrication
 from ehlectric.cases.bearings.bearing import ROLLERS
+from ehlectric.formulas.asperities.integrals import LOWEST_SEPARATION, separation_of_gap
+from ehlectric.formulas.asperities.intermittency import bearing_time_share, contact_time_share, expected_spots
+from ehlectric.formulas.asperities.shares import LOAD_SHARE, contact_probability, johnson_end, load_shares
+from ehlectric.formulas.asperities.spectrum import SpectralMoments
+from ehlectric.formulas.asperities.statistical import Summits, greenwood_williamson, summit_separation
 
 # Law of ``LOAD_SHARE`` whose asperity load share is given; the others are its spread. It is one of the two
 # that are models of a load share at any lambda: Clarke's is a share of time, Johnson's ends near lambda 2.

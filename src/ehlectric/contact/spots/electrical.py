@@ -10,7 +10,6 @@ from scipy.constants import epsilon_0
 from scipy.special import ellipk
 
 from ehlectric.arrays import Array
-from ehlectric.asperities.resistance import cluster_resistance, film_resistance, greenwood_cluster
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.grid import Electric
 from ehlectric.contact.spots.mechanics import hertz_weights
@@ -20,6 +19,7 @@ from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.field.zones import areas
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.formulas.asperities.resistance import cluster_resistance, film_resistance, greenwood_cluster
 from ehlectric.lubricant.oil import Oil
 
 # Answer of a contact in one word.

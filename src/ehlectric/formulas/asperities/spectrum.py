@@ -16,7 +16,7 @@ from typing import Self
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.asperities.statistical import Summits
+from ehlectric.formulas.asperities.statistical import Summits
 
 # The variance of the summit heights is (1 - 0.8968/alpha) m0, with the printed constant.
 _SUMMIT_VARIANCE = 0.8968

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.asperities.flattening import flattened, line_amplitude_ratio, point_amplitude_ratio
-from ehlectric.asperities.spectrum import map_moments, profile_moments
+from ehlectric.formulas.asperities.flattening import flattened, line_amplitude_ratio, point_amplitude_ratio
+from ehlectric.formulas.asperities.spectrum import map_moments, profile_moments
 from ehlectric.surfaces import made_maps, made_profiles
 from tests.helpers.places import ROOT
 

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate, ndimage, stats
 
-from ehlectric.asperities.spectrum import map_moments
-from ehlectric.asperities.statistical import (
+from ehlectric.formulas.asperities.spectrum import map_moments
+from ehlectric.formulas.asperities.statistical import (
     MODELS,
     Summits,
     greenwood_tripp,

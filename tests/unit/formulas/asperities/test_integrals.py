@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate, special
 
-from ehlectric.asperities.integrals import greenwood_integral, mean_gap, separation_of_gap
+from ehlectric.formulas.asperities.integrals import greenwood_integral, mean_gap, separation_of_gap
 
 # Separations and values to the digits printed by an independent program.
 LEVELS = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5]

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate
 
-from ehlectric.asperities.spectrum import (
+from ehlectric.formulas.asperities.spectrum import (
     SpectralMoments,
     map_moments,
     periodic_moments,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.asperities.integrals import greenwood_integral
+from ehlectric.formulas.asperities.integrals import greenwood_integral
 
 
 @dataclass(frozen=True, kw_only=True)

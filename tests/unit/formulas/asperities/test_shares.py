@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.asperities.shares import (
+from ehlectric.formulas.asperities.shares import (
     LOAD_SHARE,
     ShareLaw,
     contact_probability,

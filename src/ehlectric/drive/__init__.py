@@ -1,0 +1,1 @@
+"""The drive around bearings: common-mode voltage, circuit of the motor, and discharges over time."""
