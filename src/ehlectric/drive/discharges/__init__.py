@@ -1,0 +1,1 @@
+"""Discharges of bearings over time: events, their statistics, and the voltage between them."""

@@ -1,0 +1,95 @@
+"""What is measured while time goes on: histograms of voltage, time above limits, and a trace; compiled."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.drive.discharges.compiled import inner
+
+
+class Meters(NamedTuple):
+    """Measured values; they are changed in place.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (2,)
+        Lowest and highest voltage of the histograms [V].
+    histogram : ndarray, shape (2, bins)
+        Time at the voltages of each bin [s]; voltages beyond the edges count in the outer bins.
+    limits : ndarray, shape (l,)
+        Limits of the voltage [V].
+    above : ndarray, shape (2, l)
+        Time at which the absolute voltage is above each limit [s].
+    peak : ndarray, shape (2,)
+        Largest absolute voltage [V].
+    square : ndarray, shape (2,)
+        Integral of the squared voltage over time [V^2 s].
+    trace : ndarray, shape (m, 4)
+        Time [s], voltage of the source without its ringing, and both voltages [V], until the table is full.
+    traced : ndarray of int, shape (1,)
+        Rows of the trace that are filled.
+    until : ndarray, shape (2,)
+        Time interval of the trace [s].
+    rough : ndarray, shape (2,)
+        Tolerances of the voltage: within which it is taken as straight between two times, and below which
+        the ringing of the source is over [V].
+    """
+
+    edges: Array
+    histogram: Array
+    limits: Array
+    above: Array
+    peak: Array
+    square: Array
+    trace: Array
+    traced: Array
+    until: Array
+    rough: Array
+
+
+@inner
+def measure(
+    meters: Meters, now: float, duration: float, source: float,
+    first: tuple[float, float], last: tuple[float, float],
+) -> None:  # fmt: skip
+    """Measure voltages that go straight from first to last values in a duration [s]."""
+    for b in range(2):
+        v, w = first[b], last[b]
+        meters.peak[b] = max(meters.peak[b], abs(v), abs(w))
+        meters.square[b] += duration * (v * v + v * w + w * w) / 3.0
+        _fill(meters, b, v, w, duration)
+        for k in range(meters.limits.size):
+            meters.above[b, k] += duration * _share_above(v, w, meters.limits[k])
+    row = meters.traced[0]
+    if row < meters.trace.shape[0] and meters.until[0] <= now < meters.until[1]:
+        meters.trace[row, 0], meters.trace[row, 1] = now, source
+        meters.trace[row, 2], meters.trace[row, 3] = first[0], first[1]
+        meters.traced[0] = row + 1
+
+
+@inner
+def _share_above(v: float, w: float, limit: float) -> float:
+    """Share of a straight way from v to w on which its absolute value is above a limit."""
+    low, high = min(v, w), max(v, w)
+    if high == low:
+        return 1.0 if abs(v) > limit else 0.0
+    over = max(high - max(limit, low), 0.0) + max(min(-limit, high) - low, 0.0)
+    return over / (high - low)
+
+
+@inner
+def _fill(meters: Meters, b: int, v: float, w: float, duration: float) -> None:
+    """Share a duration among the bins between two voltages."""
+    bins = meters.histogram.shape[1]
+    width = (meters.edges[1] - meters.edges[0]) / bins
+    low, high = (min(v, w) - meters.edges[0]) / width, (max(v, w) - meters.edges[0]) / width
+    start, end = min(max(int(np.floor(low)), 0), bins - 1), min(max(int(np.floor(high)), 0), bins - 1)
+    if start == end:
+        meters.histogram[b, start] += duration
+        return
+    for k in range(start, end + 1):
+        from_, to = (low if k == start else float(k)), (high if k == end else k + 1.0)
+        meters.histogram[b, k] += duration * (to - from_) / (high - low)

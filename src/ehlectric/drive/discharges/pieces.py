@@ -1,0 +1,207 @@
+"""Voltage across the films of a circuit while nothing switches, exact in time; compiled. SI units.
+
+The source is u0 + s t + Re(r exp(mu t)). Each mode has the amplitude
+exp(z) y0 + t phi1(z) f0 + t^2 phi2(z) f1 with z = lambda t, and the rates f0 = b u0 and f1 = b s.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlectric.arrays import Array
+from ehlectric.drive.discharges.compiled import inner
+
+Complex = NDArray[np.complex128]
+
+# Size of lambda t below which phi2 is summed from its series.
+_SERIES = 0.1
+_TERMS = 9
+RECIPROCALS = tuple(1.0 / (k + 2.0) for k in range(_TERMS, 0, -1))
+
+# Exponents below which exp is taken as zero.
+_LOWEST = -700.0
+
+# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, second derivatives at its start,
+# amplitudes at a time, and the voltage across each film per amplitude. Its columns are the modes of the circuit, the
+# source without its ringing, and the ringing, which are modes of their own.
+RATE, START, FORCE, SLOPE, CURVATURE, NOW, FILMS = range(7)
+ROWS, FURTHER = 8, 2
+
+# Steps of the search for a crossing, and the part of the level within which it is found.
+_STEPS, _CLOSE = 200, 1e-13
+
+
+class Circuits(NamedTuple):
+    """Modes of all states of a circuit, as in ``circuit.modes.Modes``, and the rate of the ringing."""
+
+    rates: Complex
+    shapes: Complex
+    inverse: Complex
+    force: Complex
+    films: Complex
+    films_source: Array
+    ring_state: Complex
+    ring_films: Complex
+    jump: Array
+    charge: Array
+    uncharge: Array
+    ring: Complex
+
+
+class Source(NamedTuple):
+    """Source from the start of a piece on: u0 [V], its slope [V/s], and the amplitude of the ringing [V]."""
+
+    level: float
+    slope: float
+    ring: complex
+
+
+@inner
+def phi(z: complex) -> tuple[complex, complex, complex]:
+    """exp(z), (exp(z) - 1)/z and (exp(z) - 1 - z)/z^2, without cancellation at small z."""
+    if z.imag == 0.0:
+        grown, first, second = _phi_of_real(z.real)
+        return complex(grown), complex(first), complex(second)
+    if abs(z.real) + abs(z.imag) < _SERIES:
+        last = 0j
+        for k in range(_TERMS):
+            last = 1.0 + z * last * RECIPROCALS[k]
+        last *= 0.5
+        return 1.0 + z * (1.0 + z * last), 1.0 + z * last, last
+    full = cmath.exp(z) if z.real > _LOWEST else 0j
+    once = (full - 1.0) / z
+    return full, once, (once - 1.0) / z
+
+
+@inner
+def _phi_of_real(z: float) -> tuple[float, float, float]:
+    """Same as ``phi`` for a real number, in half of the time."""
+    if abs(z) < _SERIES:
+        last = 0.0
+        for k in range(_TERMS):
+            last = 1.0 + z * last * RECIPROCALS[k]
+        last *= 0.5
+        return 1.0 + z * (1.0 + z * last), 1.0 + z * last, last
+    grown = math.exp(z) if z > _LOWEST else 0.0
+    first = (grown - 1.0) / z
+    return grown, first, (first - 1.0) / z
+
+
+@inner
+def begin(circuits: Circuits, c: int, x: Array, source: Source, piece: Complex) -> None:
+    """Fill a piece in state c of the circuit, from its states x; shape of the piece (ROWS, n + FURTHER)."""
+    n = x.size
+    for m in range(n):
+        y = 0j
+        for j in range(n):
+            y += circuits.inverse[c, m, j] * (x[j] - (circuits.ring_state[c, j] * source.ring).real)
+        piece[RATE, m], piece[START, m] = circuits.rates[c, m], y
+        piece[FORCE, m] = circuits.force[c, m] * source.level
+        piece[SLOPE, m] = circuits.force[c, m] * source.slope
+        for film in range(2):
+            piece[FILMS + film, m] = circuits.films[c, film, m]
+    piece[RATE, n], piece[START, n], piece[FORCE, n], piece[SLOPE, n] = 0.0, source.level, source.slope, 0.0
+    piece[RATE, n + 1], piece[START, n + 1] = circuits.ring[0], source.ring
+    piece[FORCE, n + 1], piece[SLOPE, n + 1] = 0.0, 0.0
+    for film in range(2):
+        piece[FILMS + film, n] = circuits.films_source[c, film]
+        piece[FILMS + film, n + 1] = circuits.ring_films[c, film]
+    for m in range(n + FURTHER):
+        rate = piece[RATE, m]
+        piece[CURVATURE, m] = rate * (rate * piece[START, m] + piece[FORCE, m]) + piece[SLOPE, m]
+
+
+@inner
+def move(piece: Complex, t: float) -> None:
+    """Move the amplitudes of all modes to a time t of the piece [s]."""
+    for m in range(piece.shape[1]):
+        rate, start, force = piece[RATE, m], piece[START, m], piece[FORCE, m]
+        if rate == 0.0:
+            piece[NOW, m] = start + t * (force + 0.5 * t * piece[SLOPE, m])
+        elif start != 0.0 or force != 0.0 or piece[SLOPE, m] != 0.0:
+            grown, first, second = phi(rate * t)
+            piece[NOW, m] = grown * start + t * (first * force + t * second * piece[SLOPE, m])
+        else:
+            piece[NOW, m] = 0.0
+
+
+@inner
+def voltage(piece: Complex, film: int) -> float:
+    """Voltage across a film at the time to which the piece was moved [V]."""
+    value = 0.0
+    for m in range(piece.shape[1]):
+        weight, y = piece[FILMS + film, m], piece[NOW, m]
+        value += weight.real * y.real - weight.imag * y.imag
+    return value
+
+
+@inner
+def voltage_rate(piece: Complex, film: int, t: float) -> float:
+    """Rate of the voltage across a film at the time t to which the piece was moved [V/s]."""
+    value = 0.0
+    for m in range(piece.shape[1]):
+        rate = piece[RATE, m] * piece[NOW, m] + piece[FORCE, m] + t * piece[SLOPE, m]
+        value += (piece[FILMS + film, m] * rate).real
+    return value
+
+
+@inner
+def curvature_bound(piece: Complex, film: int, t: float) -> float:
+    """Bound of the second derivative of the voltage across a film from the time t on [V/s^2]."""
+    bound = 0.0
+    for m in range(piece.shape[1]):
+        size = abs(piece[FILMS + film, m] * piece[CURVATURE, m])
+        if size > 0.0:
+            bound += size * math.exp(max(piece[RATE, m].real * t, _LOWEST))
+    return bound
+
+
+@inner
+def states_at(circuits: Circuits, c: int, piece: Complex, x: Array) -> None:
+    """States x of the circuit at the time to which the piece was moved."""
+    n = x.size
+    for j in range(n):
+        value = (circuits.ring_state[c, j] * piece[NOW, n + 1]).real
+        for m in range(n):
+            value += (circuits.shapes[c, j, m] * piece[NOW, m]).real
+        x[j] = value
+
+
+@inner
+def _safe_step(distance: float, rate: float, bound: float) -> float:
+    """Longest time in which a distance that changes at a rate, and curves within a bound, stays above 0."""
+    root = math.sqrt(rate * rate + 2.0 * bound * distance)
+    if rate <= 0.0:
+        return math.inf if root == rate else 2.0 * distance / (root - rate)
+    return math.inf if bound == 0.0 else (rate + root) / bound
+
+
+@inner
+def crossing(piece: Complex, film: int, start: float, end: float, level: float, rising: bool) -> float:
+    """First time in (start, end) at which abs(voltage) rises to a level, or falls to it; -1 if at none.
+
+    No crossing is stepped over: each step is one in which the bound of the second derivative allows none.
+    Where the voltage is not turned away from the level, the steps converge as those of Newton's method do.
+    """
+    t = start
+    for _ in range(_STEPS):
+        move(piece, t)
+        v, rate = voltage(piece, film), voltage_rate(piece, film, t)
+        bound = curvature_bound(piece, film, t)
+        if rising:
+            if level - abs(v) <= _CLOSE * level:
+                return t
+            step = min(_safe_step(level - v, -rate, bound), _safe_step(level + v, rate, bound))
+        else:
+            if abs(v) - level <= _CLOSE * level:
+                return t
+            step = _safe_step(abs(v) - level, math.copysign(1.0, v) * rate, bound)
+        t += max(step, 1e-15 * end)
+        if t >= end:
+            return -1.0
+    return t

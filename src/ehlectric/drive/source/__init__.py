@@ -1,0 +1,1 @@
+"""Common-mode voltage of an inverter over time: computed from its modulation, or measured."""
