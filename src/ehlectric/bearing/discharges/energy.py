@@ -96,7 +96,7 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     discharged, at_break = _energy(total, across), None
     if breakdown is not None:
         at_break = _energy(total, breakdown.first_break)
-    areas = _areas(solution)
+    areas = conducting_areas(solution)
     whole, largest = float(np.sum(areas)), float(np.max(areas))
     current = case.discharge.peak_current
     volume = _melted(pit, discharged)
@@ -140,7 +140,7 @@ def _melted(pit: Pit | None, energy: float | None) -> float | None:
     return melted_volume(energy, pit.efficiency, pit.melting_energy)
 
 
-def _areas(solution: BearingSolution) -> Array:
+def conducting_areas(solution: BearingSolution) -> Array:
     """Area of the smaller dry contact of each element, shape (n,) [m^2]; 0 where a ring does not load it."""
     factor = 4.0 if solution.case.bearing.kind == ROLLERS else np.pi
 

@@ -159,7 +159,7 @@ def shaft_leakage(solution: BearingSolution) -> ShaftLeakage | None:
 def _decay(solution: BearingSolution, motor: Motor, tau: float) -> Decay:
     """Circuit of the shaft of a motor whose oil has a relaxation time [s]."""
     own, path = capacitance(solution), shaft_path(solution)
-    conductance, second = _conductance(solution, tau), motor.second_bearing_capacitance
+    conductance, second = oil_conductance(solution, tau), motor.second_bearing_capacitance
     beside = motor.winding_rotor_capacitance + motor.rotor_frame_capacitance
     if second is None:
         # Two equal bearings share what is beside them: half of it belongs to each.
@@ -169,8 +169,8 @@ def _decay(solution: BearingSolution, motor: Motor, tau: float) -> Decay:
     return Decay(own, conductance, 1.0 / path.coating, share, leak)
 
 
-def _conductance(solution: BearingSolution, tau: float) -> float:
-    """Conductance of the oil of a bearing, mean over the positions of the cage [S]."""
+def oil_conductance(solution: BearingSolution, tau: float) -> float:
+    """Conductance of the oil of a bearing whose oil has a relaxation time [s], mean over the positions [S]."""
     fill = solution.case.bearing.fill
     values = []
     for position in solution.positions:

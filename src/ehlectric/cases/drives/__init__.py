@@ -1,0 +1,1 @@
+"""What a drive file may say: source, circuit, bearings and breakdown."""

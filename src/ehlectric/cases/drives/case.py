@@ -1,0 +1,230 @@
+"""Case of a drive, read from TOML, written back, and changed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.ways import Contacts
+from ehlectric.cases.changes import flattened, set_keys
+from ehlectric.cases.depth import refuse_deep
+from ehlectric.cases.drives.breakdown import Breakdown
+from ehlectric.cases.drives.circuit import Circuit
+from ehlectric.cases.drives.source import Source
+from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.table import Table, read_toml
+from ehlectric.cases.title import Title
+from ehlectric.cases.units import ROTATION, rpm
+from ehlectric.errors import InputError
+from ehlectric.runtime.display import Tabled, headline
+
+# Tables of both bearings, and the name under which a change applies to both of them.
+ENDS = ("drive_end", "non_drive_end")
+BOTH = "bearings"
+
+# Groups of keys of which a new one replaces the others.
+_ALTERNATIVES = {
+    "breakdown.extinction_current": "breakdown.extinction_voltage",
+    "breakdown.extinction_voltage": "breakdown.extinction_current",
+}
+
+
+class Operation(Table):
+    """Operating point of the drive, and how long it is looked at."""
+
+    speed: Annotated[float, Quantity("rad/s", above=0.0, most=1e5, reason="of the rotor")] | None = None
+    temperature: (
+        Annotated[float, Quantity("K", least=150.0, most=600.0, reason="of the oil of both bearings")] | None
+    ) = None
+    contacts: Contacts | None = None
+    duration: Annotated[float, Quantity("s", above=0.0, most=1e4, reason="of simulated time")] | None = None
+    seed: Annotated[int, Count(least=0, most=2**53, reason="of the random numbers")] = 0
+
+
+class Remedy(Table):
+    """Changed copy of the drive that is computed beside it."""
+
+    title: Title
+    changes: dict[str, Any]
+
+
+class DriveCase(Tabled, Table):
+    """Drive: inverter, motor and both bearings; all inputs on which discharges over time depend.
+
+    A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. It is frozen;
+    ``replace`` returns a changed copy. Numbers are in SI units.
+
+    Parameters
+    ----------
+    source, circuit, breakdown : mapping
+        Common-mode voltage; circuit of the motor; arc and threshold of the films.
+    drive_end : BearingCase or mapping
+        Bearing at the drive end.
+    non_drive_end : BearingCase or mapping, optional
+        Bearing at the other end; the same as at the drive end if not given.
+    drive : mapping, optional
+        Speed and temperature of both bearings, duration and seed.
+    title : str, optional
+        Title of tables and figures.
+    remedies : sequence of mapping, optional
+        Changes that are computed beside the drive, each with its title.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or a value is not allowed.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(self, **tables: Any) -> None: ...
+
+    title: Title = ""
+    drive: Operation = Operation()
+    source: Source
+    circuit: Circuit
+    breakdown: Breakdown
+    drive_end: BearingCase
+    non_drive_end: BearingCase
+    remedies: tuple[Remedy, ...] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete(cls, tables: Any) -> Any:
+        """Take the bearing of the drive end for both, where only one is given."""
+        if isinstance(tables, Mapping) and "drive_end" in tables and "non_drive_end" not in tables:
+            return {**tables, "non_drive_end": tables["drive_end"]}
+        return tables
+
+    @property
+    def bearings(self) -> tuple[BearingCase, BearingCase]:
+        """Bearings at the drive end and the non-drive end, at the speed and temperature of the drive."""
+        changes: dict[str, Any] = {}
+        if self.drive.speed is not None:
+            changes["bearing.inner_speed"] = self.drive.speed
+        if self.drive.temperature is not None:
+            changes["bearing.temperature"] = self.drive.temperature
+        if self.drive.contacts is not None:
+            changes["contacts"] = self.drive.contacts
+        first, second = (one.replace(changes) if changes else one for one in (self.drive_end, self.non_drive_end))
+        return first, second
+
+    def _headline(self) -> str:
+        bearing = self.bearings[0].bearing
+        return headline(
+            self.title,
+            self.source.modulation or self.source.file or "",
+            f"{rpm(bearing.inner_speed):.4g} rpm",
+            f"{bearing.oil_temperature - 273.15:.4g} degC",
+        )
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a drive case from a TOML file; files that it names are looked for beside it.
+
+        Parameters
+        ----------
+        path : str or Path
+            TOML file.
+
+        Returns
+        -------
+        DriveCase
+            Case with the values of the file, in SI units.
+
+        Raises
+        ------
+        InputError
+            If a file cannot be read, is not TOML, or is not valid.
+        """
+        table, folder = read_toml(path), Path(path).parent
+        for end in ENDS:
+            if isinstance(table.get(end), Mapping) and "file" in table[end]:
+                table[end] = _bearing_of(table[end], folder, end)
+        source = table.get("source")
+        if isinstance(source, dict) and isinstance(source.get("file"), str):
+            source["file"] = str(folder / source["file"])
+        return cls.from_written(table)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all values that are set as nested tables, in SI units."""
+        return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        table = self.to_dict()
+        # A rotational speed without a unit is refused in a file.
+        for end in ENDS:
+            bearing = table[end]["bearing"]
+            bearing["inner_speed"] = f"{bearing['inner_speed']!r} {ROTATION}"
+        if self.drive.speed is not None:
+            table["drive"]["speed"] = f"{self.drive.speed!r} {ROTATION}"
+        return tomli_w.dumps(table)
+
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """Return a changed copy of the case.
+
+        Parameters
+        ----------
+        changes : mapping, optional
+            New values by dotted key, as in ``{"drive.speed": "1500 rpm"}``. Keys that begin with
+            ``drive_end`` or ``non_drive_end`` are those of a bearing file; ``bearings`` stands for both ends.
+        **tables
+            New values by table, as in ``drive={"seed": 2}``.
+
+        Returns
+        -------
+        DriveCase
+            Case with the new values.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown, or the changed case is not valid.
+        """
+        refuse_deep({**tables, "changes": changes})
+        flat = flattened(tables) | dict(changes or {})
+        ends = {end: _of_end(flat, end) for end in ENDS}
+        own = {key: value for key, value in flat.items() if key.partition(".")[0] not in (*ENDS, BOTH)}
+        table = self.to_dict()
+        for key in own:
+            name, _, leaf = _ALTERNATIVES.get(key, "").partition(".")
+            table.get(name, {}).pop(leaf, None)
+        set_keys(table, own)
+        for end, change in ends.items():
+            try:
+                table[end] = getattr(self, end).replace(change)
+            except InputError as error:
+                raise error.under(end) from None
+        return self.from_dict(table)
+
+
+def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:
+    """Changes of the bearing at one end, by the keys of a bearing file."""
+    found = {}
+    for key, value in flat.items():
+        first, _, rest = key.partition(".")
+        if first in (end, BOTH):
+            if not rest:
+                raise InputError(key, got="a table", takes="dotted keys, as in 'bearings.bearing.temperature'")
+            found[rest] = value
+    return found
+
+
+def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase:
+    """Bearing of the file that a table names, with the other keys of the table in place of those of the file."""
+    name = table["file"]
+    if not isinstance(name, str):
+        raise InputError(f"{end}.file", got=str(name), takes="the path of a bearing file")
+    try:
+        case = BearingCase.from_toml(folder / name)
+        changes = flattened({key: value for key, value in table.items() if key != "file"})
+        return case.replace(changes) if changes else case
+    except InputError as error:
+        raise error.under(end) from None

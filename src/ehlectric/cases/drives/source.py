@@ -1,0 +1,104 @@
+"""Table ``source`` of a drive file: the common-mode voltage, described or measured."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
+
+_Hertz = Quantity("Hz", least=1e-3, most=1e9, reason="of an inverter")
+_Time = Quantity("s", least=1e-12, most=1.0, reason="of an edge of an inverter")
+
+# Keys of a described and of a measured source.
+DESCRIBED = (
+    "dc_link",
+    "modulation",
+    "switching_frequency",
+    "fundamental_frequency",
+    "modulation_index",
+    "rise_time",
+    "ringing_frequency",
+    "overshoot",
+    "ringing_time",
+)
+MEASURED = ("file", "column", "time_column", "step", "time_unit", "value_unit", "scale", "resample")
+
+# What a described source needs; six-step operation switches at the fundamental frequency and has no index.
+_NEEDED = ("dc_link", "modulation", "fundamental_frequency", "rise_time")
+_NEEDED_BY_CARRIER = ("switching_frequency", "modulation_index")
+_RINGING = ("ringing_frequency", "overshoot", "ringing_time")
+
+
+class Source(Table):
+    """Common-mode voltage of the inverter: from its modulation, or a measured waveform."""
+
+    dc_link: (
+        Annotated[float, Quantity("V", above=0.0, most=1e6, reason="voltage of the DC link")] | None
+    ) = None
+    modulation: Literal["sinusoidal", "space-vector", "six-step"] | None = None
+    switching_frequency: Annotated[float, _Hertz] | None = None
+    fundamental_frequency: Annotated[float, _Hertz] | None = None
+    modulation_index: (
+        Annotated[float, Quantity("", least=0.0, most=1.5, reason="1 without overmodulation")] | None
+    ) = None
+    rise_time: Annotated[float, Quantity("s", least=0.0, most=1.0, reason="of an edge")] | None = None
+    ringing_frequency: Annotated[float, _Hertz] | None = None
+    overshoot: (
+        Annotated[float, Quantity("", least=0.0, most=1.0, reason="part of the step", fraction=True)] | None
+    ) = None
+    ringing_time: Annotated[float, _Time] | None = None
+    file: str | None = None
+    column: str | int | None = None
+    time_column: str | int | None = None
+    step: Annotated[float, _Time] | None = None
+    time_unit: str | None = None
+    value_unit: str | None = None
+    scale: Annotated[float, Quantity("", reason="such as that of a probe")] = 1.0
+    resample: Annotated[float, _Time] | None = None
+
+    @property
+    def measured(self) -> bool:
+        """Whether the source is a file."""
+        return self.file is not None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        given = [key for key in DESCRIBED if getattr(self, key) is not None]
+        if self.measured:
+            if given:
+                raise InputError(given[0], got="it beside file", takes="a described source, or a measured one")
+            return self
+        other = [key for key in MEASURED if key != "scale" and getattr(self, key) is not None]
+        if other:
+            raise InputError.worded("file", f"missing; {other[0]} belongs to a measured source")
+        carrier = () if self.modulation == "six-step" else _NEEDED_BY_CARRIER
+        for key in (*_NEEDED, *carrier):
+            if getattr(self, key) is None:
+                raise InputError.worded(key, "missing", takes="a value; or file, a measured waveform")
+        if self.modulation == "six-step":
+            for key in _NEEDED_BY_CARRIER:
+                if getattr(self, key) is not None:
+                    raise InputError.worded(key, "is not used by six-step modulation")
+        self._check_edges()
+        return self
+
+    def _check_edges(self) -> None:
+        """Check the ringing, and times against the period of the carrier."""
+        ringing = [key for key in _RINGING if getattr(self, key) is not None]
+        if ringing and len(ringing) < len(_RINGING):
+            missing = next(key for key in _RINGING if key not in ringing)
+            raise InputError.worded(missing, f"missing; {ringing[0]} needs it")
+        fundamental, carrier, rise = self.fundamental_frequency, self.switching_frequency, self.rise_time
+        if fundamental is not None and carrier is not None and carrier < 6.0 * fundamental:
+            raise InputError(
+                "switching_frequency",
+                got=f"{carrier:g} Hz",
+                takes=f"at least six times the fundamental frequency of {fundamental:g} Hz",
+            )
+        period = 1.0 / (carrier or 6.0 * (fundamental or 1.0))
+        if rise is not None and rise >= 0.5 * period:
+            raise InputError("rise_time", got=f"{rise:g} s", takes=f"less than half of the period {period:.3g} s")

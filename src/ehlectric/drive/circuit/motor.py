@@ -1,0 +1,132 @@
+"""Circuit of a motor with both of its bearings. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import product
+
+from ehlectric.cases.drives.breakdown import Breakdown
+from ehlectric.cases.drives.case import ENDS
+from ehlectric.cases.drives.circuit import Circuit
+from ehlectric.drive.bearings import BearingElement
+from ehlectric.drive.circuit.state_space import FRAME, Element, StateSpace, state_space
+
+# Nodes. The frame is the node of reference; earth is another one where the frame has an inductance to it.
+SOURCE, WINDING, ROTOR, EARTH = "source", "winding", "rotor", "earth"
+
+
+def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
+    """Nodes between which the films of each bearing lie: a coating lies between them and the frame."""
+    return [
+        (ROTOR, f"ring_{end}" if one.path.coated else FRAME)
+        for end, one in zip(ENDS, elements, strict=True)
+    ]
+
+
+def source_nodes(circuit: Circuit) -> tuple[str, str]:
+    """Positive and negative node of the inverter's common-mode voltage."""
+    return SOURCE if _reactor(circuit) else WINDING, EARTH if _parted(circuit) else FRAME
+
+
+def _parted(circuit: Circuit) -> bool:
+    """Whether earth and frame are two nodes: something is parallel to the inductance between them."""
+    beside = circuit.cable_capacitance or circuit.frame_earth_capacitance
+    return circuit.ground_inductance is not None and beside is not None
+
+
+def _reactor(circuit: Circuit) -> bool:
+    """Whether an inductance lies between inverter and winding; that to earth is in series without cable."""
+    alone = circuit.ground_inductance is not None and not _parted(circuit)
+    return circuit.common_mode_inductance is not None or alone
+
+
+def motor_elements(circuit: Circuit) -> Iterator[Element]:
+    """Elements of the motor and of its connection to the inverter, without bearings."""
+    yield Element("capacitor", WINDING, ROTOR, circuit.winding_rotor_capacitance)
+    yield Element("capacitor", ROTOR, FRAME, circuit.rotor_frame_capacitance)
+    if circuit.winding_frame_capacitance is not None:
+        yield Element("capacitor", WINDING, FRAME, circuit.winding_frame_capacitance)
+    if circuit.grounding_ring_resistance is not None:
+        yield Element("conductor", ROTOR, FRAME, 1.0 / circuit.grounding_ring_resistance)
+    own, ground = circuit.common_mode_inductance or 0.0, circuit.ground_inductance or 0.0
+    if _parted(circuit):
+        if own:
+            yield Element("inductor", SOURCE, WINDING, own, circuit.common_mode_resistance)
+        yield Element("inductor", FRAME, EARTH, ground, circuit.ground_resistance)
+        if circuit.cable_capacitance is not None:
+            yield Element("capacitor", WINDING, EARTH, circuit.cable_capacitance)
+        if circuit.frame_earth_capacitance is not None:
+            yield Element("capacitor", FRAME, EARTH, circuit.frame_earth_capacitance)
+        return
+    if own or ground:
+        resistance = circuit.common_mode_resistance + circuit.ground_resistance
+        yield Element("inductor", SOURCE, WINDING, own + ground, resistance)
+    if circuit.cable_capacitance is not None:
+        yield Element("capacitor", WINDING, FRAME, circuit.cable_capacitance)
+
+
+def bearing_elements(
+    one: BearingElement, nodes: tuple[str, str], place: int, conductance: float
+) -> Iterator[Element]:
+    """Elements of a bearing with its elements at a place, and a conductance of its films beside that of oil.
+
+    Parameters
+    ----------
+    one : BearingElement
+        Bearing.
+    nodes : tuple of str
+        Nodes between which its films lie.
+    place : int
+        Number of the position of its elements.
+    conductance : float
+        Conductance of an arc or of touching asperities [S].
+    """
+    yield Element("capacitor", *nodes, float(one.capacitance[place]))
+    if one.conductance + conductance > 0.0:
+        yield Element("conductor", *nodes, one.conductance + conductance)
+    if one.path.coated:
+        yield Element("capacitor", nodes[1], FRAME, one.path.coating)
+        if math.isfinite(one.path.resistance):
+            yield Element("conductor", nodes[1], FRAME, 1.0 / one.path.resistance)
+    if one.path.parallel:
+        yield Element("capacitor", ROTOR, FRAME, one.path.parallel)
+
+
+def states_of(
+    circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, touches: bool
+) -> list[StateSpace]:
+    """State equations of the circuit in all of its states, in the order in which a march numbers them.
+
+    Parameters
+    ----------
+    circuit : Circuit
+        Table ``circuit`` of the drive.
+    bearings : sequence of BearingElement
+        Bearings at both ends.
+    breakdown : Breakdown
+        Table ``breakdown`` of the drive.
+    touches : bool
+        Whether films of a bearing touch, which is a third state of each.
+
+    Returns
+    -------
+    list of StateSpace
+        For each state of the first and the second film, and each position of the first and the second
+        bearing's elements.
+    """
+    arc = 1.0 / breakdown.arc_resistance
+    doing = [[0.0, arc, 1.0 / one.touch_resistance][: 3 if touches else 2] for one in bearings]
+    places = [range(one.capacitance.size) for one in bearings]
+    motor, nodes = list(motor_elements(circuit)), film_nodes(bearings)
+    return [
+        state_space(
+            [
+                *motor,
+                *bearing_elements(bearings[0], nodes[0], first, one),
+                *bearing_elements(bearings[1], nodes[1], second, other),
+            ],
+            source_nodes(circuit),
+        )
+        for one, other, first, second in product(doing[0], doing[1], places[0], places[1])
+    ]

@@ -1,0 +1,279 @@
+"""Simulation of a drive over time: chunks of the source, random numbers, and the record of what happened."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.drives.breakdown import Breakdown
+from ehlectric.drive.bearings import BearingElement
+from ehlectric.drive.circuit.modes import Modes
+from ehlectric.drive.discharges.march import (
+    COLUMNS,
+    FILM,
+    OFF,
+    ON,
+    Films,
+    Segments,
+    State,
+    advance,
+    start_clocks,
+)
+from ehlectric.drive.discharges.meters import Meters
+from ehlectric.drive.discharges.pieces import Circuits
+
+# Events and random numbers that are held at once.
+_EVENTS, _RANDOM = 4096, 16384
+
+# Events that are kept one by one; of all others only counts and sums are.
+KEPT = 200_000
+
+# Bins of the histograms, rows of the trace, and parts of the highest voltage: within which the voltage is
+# straight between two times, and below which the ringing of the source is over.
+BINS, TRACE = 400, 20_000
+_ROUGH, _SILENT = 2e-3, 1e-4
+
+# Number of blocks of time in which events are counted, from which their scatter follows.
+BLOCKS = 40
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """What happened in a simulated time.
+
+    Attributes
+    ----------
+    duration : float
+        Time that was measured [s].
+    events : ndarray, shape (m, 8)
+        The first events of both films, a row for each with the columns of ``march``; times from the begin of
+        the measured time.
+    counts : ndarray of int, shape (2, blocks)
+        Number of events of each film in equal blocks of time.
+    sums, largest : ndarray, shape (2, 8)
+        Sums, and largest absolute values, of the columns of the events of each film.
+    edges : ndarray, shape (bins + 1,)
+        Edges of the bins of the histogram [V].
+    histogram : ndarray, shape (2, bins)
+        Time at the voltages of each bin [s].
+    limits : ndarray, shape (l,)
+        Limits of the voltage [V].
+    above : ndarray, shape (2, l)
+        Time above each limit [s].
+    peak, rms : ndarray, shape (2,)
+        Largest and root mean square voltage across each film [V].
+    trace : ndarray, shape (m, 4)
+        Time [s], voltage of the source [V], and voltage across both films [V], at the begin.
+    """
+
+    duration: float
+    events: Array
+    counts: np.ndarray
+    sums: Array
+    largest: Array
+    edges: Array
+    histogram: Array
+    limits: Array
+    above: Array
+    peak: Array
+    rms: Array
+    trace: Array
+
+
+@dataclass(frozen=True)
+class Measuring:
+    """What is measured: from which time on [s], how long [s], limits [V], and the time of the trace [s]."""
+
+    start: float
+    duration: float
+    highest: float
+    limits: tuple[float, ...]
+    trace: float
+
+
+def circuits_of(modes: Modes, ring: complex | None) -> Circuits:
+    """Modes as the compiled march reads them."""
+    rate = np.array([-1.0 + 0.0j if ring is None else ring])
+    return Circuits(*(getattr(modes, name) for name in Circuits._fields[:-1]), rate)
+
+
+def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
+    """Films of both bearings as the compiled march reads them.
+
+    Films are replaced in the time that the oil takes through the most loaded contact, unless the case gives
+    another time. Asperities touch for that time, and part for as long as their share of time asks for.
+    """
+    count = max(one.breakdown.size for one in bearings)
+    scale = np.full((2, count), math.inf)
+    touch = np.full((2, 2), math.inf)
+    renewal = np.array([breakdown.renewal_time or one.transit for one in bearings])
+    for b, one in enumerate(bearings):
+        scale[b, : one.breakdown.size] = one.breakdown
+        if 0.0 < one.touching:
+            closed = breakdown.touch_time or one.transit
+            # A film that never insulates opens for a part of the time that is not noticed.
+            touch[b] = closed * max(1.0 - one.touching, 1e-9) / one.touching, closed
+    still = [one.breakdown.size == 1 for one in bearings]
+    return Films(
+        scale=scale,
+        positions=np.array([one.breakdown.size for one in bearings]),
+        step=np.array([math.inf if alone else one.step for alone, one in zip(still, bearings, strict=True)]),
+        shape=np.array([one.shape for one in bearings]),
+        renewal=np.where([math.isfinite(one.shape) for one in bearings], renewal, math.inf),
+        arc=np.full(2, breakdown.arc_resistance),
+        extinction=np.full(2, breakdown.lowest_voltage),
+        recovery=np.full(2, breakdown.recovery_time),
+        touch=touch,
+        states=np.array([3 if np.any(np.isfinite(touch)) else 2]),
+    )
+
+
+class _Random:
+    """Random numbers of both films, for thresholds and for times, from four streams of one seed."""
+
+    def __init__(self, seed: int) -> None:
+        streams = np.random.SeedSequence(seed).spawn(4)
+        self.streams = [np.random.Generator(np.random.PCG64(stream)) for stream in streams]
+
+    def fill(self, state: State) -> None:
+        """Replace used numbers by new ones; those that are left come first."""
+        for b in range(2):
+            for stream in range(2):
+                used = int(state.used[b, stream])
+                left = state.random[b, stream, used:].copy()
+                state.random[b, stream, : left.size] = left
+                state.random[b, stream, left.size :] = self.streams[2 * b + stream].standard_exponential(used)
+                state.used[b, stream] = 0
+
+
+class _Log:
+    """Events of a measured time: counts, sums, and the first of them one by one."""
+
+    def __init__(self, duration: float) -> None:
+        self.duration = duration
+        self.kept: list[Array] = []
+        self.number = 0
+        self.counts = np.zeros((2, BLOCKS), dtype=np.int64)
+        self.sums, self.largest = np.zeros((2, COLUMNS)), np.zeros((2, COLUMNS))
+
+    def add(self, events: Array, start: float) -> None:
+        """Add events that began after a time [s]."""
+        events = events[events[:, ON] >= start].copy()
+        events[:, [ON, OFF]] -= start
+        block = np.minimum((events[:, ON] / self.duration * BLOCKS).astype(int), BLOCKS - 1)
+        for b in range(2):
+            own = events[:, FILM] == b
+            self.counts[b] += np.bincount(block[own], minlength=BLOCKS)
+            self.sums[b] += np.sum(np.abs(events[own]), axis=0)
+            self.largest[b] = np.max(np.abs(events[own]), axis=0, initial=0.0, keepdims=False).clip(
+                self.largest[b]
+            )
+        if self.number < KEPT:
+            self.kept.append(events[: KEPT - self.number])
+            self.number += self.kept[-1].shape[0]
+
+
+def simulate(
+    circuits: Circuits,
+    films: Films,
+    chunks: Iterator[Segments],
+    measuring: Measuring,
+    seed: int,
+    progress: Callable[[float], None] = lambda _: None,
+) -> Record:
+    """March through a source, and record what happens.
+
+    Parameters
+    ----------
+    circuits : Circuits
+        Modes of the circuit in all of its states.
+    films : Films
+        Films of both bearings.
+    chunks : iterator of Segments
+        Source; a chunk ends where measuring begins.
+    measuring : Measuring
+        What is measured.
+    seed : int
+        Seed of the random numbers.
+    progress : callable
+        Called with the simulated time [s].
+
+    Returns
+    -------
+    Record
+        Events, histograms and a trace.
+    """
+    state = _state(circuits.jump.shape[1])
+    random = _Random(seed)
+    random.fill(state)
+    for b in range(2):
+        start_clocks(films, state, b)
+    meters, log = _meters(measuring), _Log(measuring.duration)
+    events, begun = np.zeros((_EVENTS, COLUMNS)), measuring.start == 0.0
+    for chunk in chunks:
+        if not begun and state.time[0] >= measuring.start * (1.0 - 1e-9):
+            meters, begun = _meters(measuring), True
+        state.cursor[:] = 0.0
+        while state.cursor[0] >= 0.0:
+            count = advance(circuits, films, chunk, state, meters, events)
+            random.fill(state)
+            if begun:
+                log.add(events[:count], measuring.start)
+        progress(float(state.time[0]))
+    return _record(measuring, meters, log)
+
+
+def _state(size: int) -> State:
+    """State at the start: nothing is charged but by the source."""
+    return State(
+        x=np.zeros(size),
+        ring=np.zeros(1, dtype=complex),
+        clocks=np.full((2, 4), math.inf),
+        place=np.zeros(2, dtype=np.int64),
+        phase=np.zeros(2, dtype=np.int64),
+        draw=np.ones(2),
+        event=np.zeros((2, COLUMNS)),
+        time=np.zeros(2),
+        cursor=np.zeros(3),
+        random=np.zeros((2, 2, _RANDOM)),
+        used=np.full((2, 2), _RANDOM),
+    )
+
+
+def _meters(measuring: Measuring) -> Meters:
+    highest, limits = measuring.highest, np.array(measuring.limits)
+    return Meters(
+        edges=np.array([-highest, highest]),
+        histogram=np.zeros((2, BINS)),
+        limits=limits,
+        above=np.zeros((2, limits.size)),
+        peak=np.zeros(2),
+        square=np.zeros(2),
+        trace=np.zeros((TRACE, 4)),
+        traced=np.zeros(1, dtype=np.int64),
+        until=np.array([measuring.start, measuring.start + measuring.trace]),
+        rough=np.array([_ROUGH * highest, _SILENT * highest]),
+    )
+
+
+def _record(measuring: Measuring, meters: Meters, log: _Log) -> Record:
+    trace = meters.trace[: int(meters.traced[0])].copy()
+    trace[:, 0] -= measuring.start
+    return Record(
+        duration=measuring.duration,
+        events=np.vstack(log.kept) if log.kept else np.zeros((0, COLUMNS)),
+        counts=log.counts,
+        sums=log.sums,
+        largest=log.largest,
+        edges=np.linspace(-measuring.highest, measuring.highest, BINS + 1),
+        histogram=meters.histogram,
+        limits=meters.limits,
+        above=meters.above,
+        peak=meters.peak,
+        rms=np.sqrt(meters.square / measuring.duration),
+        trace=trace,
+    )

@@ -1,0 +1,104 @@
+"""Keys of the summary.json of a drive."""
+
+from __future__ import annotations
+
+from ehlectric.cases.result_key import Keys, ResultKey, under
+
+_ABOUT: Keys = {
+    "schema": ResultKey("name of the format"),
+    "version": ResultKey("version of the program"),
+    "title": ResultKey("title of the drive file"),
+    "converged": ResultKey("whether the films of both bearings are converged"),
+    "warnings": ResultKey("warnings, to be read before the numbers are used"),
+    "warning_codes": ResultKey("code of each warning, in the same order"),
+    "verdict": ResultKey("answer in a sentence: how often which bearing discharges, and with which energy"),
+    "inputs": ResultKey("the drive file, with both bearings"),
+}
+_SOURCE: Keys = {
+    "peak": ResultKey("largest absolute common-mode voltage, without ringing", "V", "common-mode voltage"),
+    "edges_per_second": ResultKey("steps of the common-mode voltage", "1/s", "edges of the source"),
+}
+_DRIVE: Keys = {
+    "speed": ResultKey("speed of the rotor", "rad/s", "speed"),
+    "temperature": ResultKey("temperature of the oil of the drive-end bearing", "K", "temperature of the oil"),
+    "duration": ResultKey("simulated time, after the circuit has settled", "s", "simulated time"),
+    "periods": ResultKey("periods of the fundamental in this time; null for a measured source", "", "periods"),
+    "seed": ResultKey("seed of the random numbers"),
+    "events": ResultKey("discharges of both bearings", "", "discharges"),
+    "events_per_second": ResultKey("discharges of both bearings in a second", "1/s", "discharges per second"),
+    "power": ResultKey("energy of the discharges of both bearings in a second", "W", "power of the discharges"),
+}
+_SPREADS = {
+    "voltage": ("voltage across the films at which they break down", "V", "voltage of a discharge"),
+    "charge": ("charge through the arc", "C", "charge of a discharge"),
+    "energy": ("energy in the arc", "J", "energy of a discharge"),
+    "peak_current": ("largest current through the arc", "A", "peak current of a discharge"),
+    "time": ("time from breakdown until the film insulates again", "s", "duration of a discharge"),
+}
+_STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "largest"}
+_END: Keys = {
+    "capacitance": ResultKey("capacitance of the films, mean over the positions", "F", "bearing capacitance"),
+    "conductance": ResultKey("conductance of the oil of the films", "S", "conductance of the films"),
+    "breakdown_voltage": ResultKey(
+        "voltage across the films at which an element breaks down from ring to ring, at the weakest position; "
+        "null for ceramic elements",
+        "V",
+        "breakdown voltage",
+    ),
+    "weibull_shape": ResultKey("shape of Weibull's law of that voltage; null without scatter"),
+    "renewal_time": ResultKey(
+        "mean time after which other oil, with another threshold, is in the contacts", "s", "renewal time"
+    ),
+    "touching_time_share": ResultKey("share of time in which asperities close the films", "", "share of contact"),
+    "voltage_ratio": ResultKey(
+        "voltage across the films per volt of the source right after an edge, by the capacitive divider",
+        "",
+        "bearing voltage ratio",
+    ),
+    "waveform_ratio": ResultKey(
+        "largest voltage across the films over the largest voltage of the source, as simulated",
+        "",
+        "voltage ratio by the waveform",
+    ),
+    "peak_voltage": ResultKey("largest voltage across the films", "V", "largest bearing voltage"),
+    "rms_voltage": ResultKey("root mean square of the voltage across the films", "V", "rms bearing voltage"),
+    "time_above": ResultKey("share of time above each of the voltages, by the voltage in volts"),
+    "time_above.*": ResultKey("share of time above this voltage", "", "share of time above a voltage"),
+    "events": ResultKey("number of discharges", "", "discharges"),
+    "events_per_second": ResultKey("discharges in a second", "1/s", "discharges per second"),
+    "events_per_second_low": ResultKey("lower bound of that rate, at 95 %", "1/s"),
+    "events_per_second_high": ResultKey("upper bound of that rate, at 95 %", "1/s"),
+    "events_per_edge": ResultKey("discharges over edges of the source", "", "discharges per edge"),
+    "power": ResultKey("energy of the discharges in a second", "W", "power of the discharges"),
+    **{
+        f"{name}_{short}": ResultKey(f"{meaning}: {statistic}", unit, f"{label}, {statistic}")
+        for name, (meaning, unit, label) in _SPREADS.items()
+        for short, statistic in _STATISTICS.items()
+    },
+    "hertz_area": ResultKey("dry contact areas through which a current can flow, together", "m**2", "Hertz area"),
+    "current_density": ResultKey(
+        "largest current over all Hertz areas; null without discharges", "A/m**2", "current density"
+    ),
+    "element_current_density": ResultKey(
+        "largest current over the Hertz area of the most loaded element, through which an arc flows alone",
+        "A/m**2",
+        "current density of an element",
+    ),
+    "current_density_limits": ResultKey("published limits of the current density", "A/m**2"),
+}
+_REMEDY: Keys = {
+    "title": ResultKey("title of the remedy"),
+    "changes": ResultKey("what it changes, by dotted key"),
+    "changes.*": ResultKey("new value of a key of the drive file"),
+    **{f"{end}.{name}": key for end in ("drive_end", "non_drive_end") for name, key in _END.items()},
+}
+
+DRIVE_KEYS: Keys = {
+    **_ABOUT,
+    **under("source", _SOURCE),
+    **under("drive", _DRIVE),
+    **under("drive_end", _END),
+    **under("non_drive_end", _END),
+    **under("remedies", _REMEDY),
+    "seconds": ResultKey("computing time", "s", "computing time"),
+}

@@ -1,0 +1,140 @@
+"""Result of a drive, as ``solve_drive`` returns it."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.drive.discharges.march import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
+from ehlectric.drive.solver import DriveSolution, solve
+from ehlectric.drive.summary import converged, drive_summary, whole_summary
+from ehlectric.drive.warnings import drive_warnings
+from ehlectric.errors import ResultWarning
+from ehlectric.runtime.display import Shown, headline
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+# Columns of the table of events: name, unit, and column of the record.
+EVENT_COLUMNS = {
+    "time": ("s", ON),
+    "duration": ("s", OFF),
+    "voltage": ("V", VOLTAGE),
+    "charge": ("C", CHARGE),
+    "energy": ("J", ENERGY),
+    "peak_current": ("A", PEAK),
+}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DriveResult(Shown):
+    """Result of a drive: what happened over time, its summary, and its remedies.
+
+    Attributes
+    ----------
+    solution : DriveSolution
+        Bearings and record.
+    remedies : tuple of (str, dict, DriveSolution)
+        Title, changes and solution of each remedy.
+    seconds : float
+        Computing time [s].
+    """
+
+    solution: DriveSolution
+    remedies: tuple[tuple[str, dict[str, Any], DriveSolution], ...] = ()
+    seconds: float = 0.0
+
+    @property
+    def case(self) -> DriveCase:
+        """Case of the drive that was solved."""
+        return self.solution.case
+
+    @property
+    def converged(self) -> bool:
+        """Whether the films of both bearings are converged."""
+        return converged(self.solution.bearings)
+
+    @cached_property
+    def warnings(self) -> tuple[ResultWarning, ...]:
+        """Warnings that tell where the result is unreliable, each once."""
+        return tuple(drive_warnings(self.solution))
+
+    def summary(self) -> dict[str, Any]:
+        """Results nested as in summary.json, SI units; None in place of NaN."""
+        told = [(one.code, str(one)) for one in self.warnings]
+        remedies = [(title, changes, drive_summary(found)) for title, changes, found in self.remedies]
+        return whole_summary(self.solution, remedies, told, self.seconds, __version__)
+
+    def events(self) -> list[dict[str, Any]]:
+        """Table of discharges in the order of time, SI units; the first 200 000 of them.
+
+        ``voltage`` and ``charge`` have the sign of the shaft against the housing.
+        """
+        rows = self.solution.record.events
+        found = []
+        for row in rows[np.argsort(rows[:, ON], kind="stable")]:
+            values = {name: float(row[column]) for name, (_, column) in EVENT_COLUMNS.items()}
+            values["duration"] -= values["time"]
+            found.append({"bearing": ENDS[int(row[FILM])], **values})
+        return found
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Discharges as a table of pandas; ``attrs["units"]`` has the unit of each column of numbers."""
+        import pandas as pd
+
+        frame = pd.DataFrame(self.events(), columns=["bearing", *EVENT_COLUMNS])
+        frame.attrs["units"] = {name: unit for name, (unit, _) in EVENT_COLUMNS.items()}
+        return frame
+
+    def _headline(self) -> str:
+        found = drive_summary(self.solution)
+        return headline(
+            self.case.title,
+            *(
+                f"{end.replace('_', ' ')} {found[end]['events_per_second']:.3g} discharges/s"
+                for end in ENDS
+            ),
+            "converged" if self.converged else "NOT CONVERGED",
+        )
+
+
+def solve_drive(
+    case: DriveCase, *, progress: Progress | None = None, workers: int | None = None
+) -> DriveResult:
+    """Solve a drive: its bearings, the voltage across their films over time, and their discharges.
+
+    The remedies of the case are solved beside it, with the same random numbers.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Drive file.
+    progress : callable, optional
+        Called with the part that is done in percent, 100, and a text.
+    workers : int, optional
+        Number of processes that solve the contacts of the bearings; the number of cores if not given.
+
+    Returns
+    -------
+    DriveResult
+        Result with its summary, its table of events and its warnings.
+
+    Raises
+    ------
+    InputError
+        Where a bearing cannot be solved, or lacks a value that discharges need.
+    """
+    start, report = time.perf_counter(), progress or silent
+    solution = solve(case, report, workers=workers)
+    remedies = tuple(
+        (one.title, dict(one.changes), solve(case.replace(one.changes), report, workers=workers))
+        for one in case.remedies
+    )
+    return replace(DriveResult(solution, remedies), seconds=time.perf_counter() - start)

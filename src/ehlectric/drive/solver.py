@@ -1,0 +1,165 @@
+"""Solution of a drive: its bearings, its circuit, and what happens over time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.drive.bearings import BearingElement, bearing_element
+from ehlectric.drive.circuit.modes import Modes, modes_of
+from ehlectric.drive.circuit.motor import film_nodes, states_of
+from ehlectric.drive.discharges.march import Films, Segments
+from ehlectric.drive.discharges.simulation import Measuring, Record, circuits_of, films_of, simulate
+from ehlectric.drive.source.modulation import steps_of
+from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
+from ehlectric.drive.source.waveform import Waveform
+from ehlectric.errors import InputError
+from ehlectric.runtime.progress import Progress, silent
+
+# Fundamental periods that are simulated where the case gives no duration, and periods before them in which
+# the circuit settles.
+_PERIODS, _SETTLING = 50.0, 1.0
+
+# Voltages whose share of time is told [V]: field experience has discharges from a few volts on.
+LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
+
+# Periods of the carrier that a trace covers.
+_TRACED = 10.0
+
+
+@dataclass(frozen=True, eq=False)
+class DriveSolution:
+    """Solved drive.
+
+    Attributes
+    ----------
+    case : DriveCase
+        Case that was solved.
+    bearings : tuple of BearingResult
+        Solved bearings at the drive end and at the other end.
+    elements : tuple of BearingElement
+        The same as elements of the circuit.
+    record : Record
+        What happened over time.
+    divider : tuple of float
+        Voltage across the films of each bearing per volt of the source, right after an edge.
+    highest_source : float
+        Largest absolute voltage of the source [V].
+    """
+
+    case: DriveCase
+    bearings: tuple[BearingResult, BearingResult]
+    elements: tuple[BearingElement, BearingElement]
+    record: Record
+    divider: tuple[float, float]
+    highest_source: float
+
+
+def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:
+    """Solve the bearings of a drive, and simulate it over time.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Drive.
+    progress : callable, optional
+        Called with the simulated part in percent, 100, and a text.
+    workers : int, optional
+        Number of processes that solve the contacts of the bearings.
+
+    Returns
+    -------
+    DriveSolution
+        Bearings, and the record of what happened.
+
+    Raises
+    ------
+    InputError
+        Where a bearing cannot be solved, or lacks a value that discharges need.
+    """
+    first, second = case.bearings
+    drive_end = solve_bearing(first, workers=workers)
+    results = drive_end, drive_end if second == first else solve_bearing(second, workers=workers)
+    elements = tuple(
+        bearing_element(result, case.breakdown, end) for result, end in zip(results, ENDS, strict=True)
+    )
+    _check_extinction(case, elements)
+    films, ringing = films_of(elements, case.breakdown), ringing_of(case.source)
+    systems = states_of(case.circuit, elements, case.breakdown, bool(films.states[0] == 3))
+    modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
+    waveform = None
+    highest, settling, duration = _times(case, waveform)
+    divider = _divider(modes)
+    measuring = Measuring(settling, duration, _highest(films, divider, highest, ringing), LIMITS, _trace(case))
+    record = simulate(
+        circuits_of(modes, None if ringing is None else ringing.rate),
+        films,
+        _chunks(case, waveform, settling, duration, ringing),
+        measuring,
+        case.drive.seed,
+        lambda time: progress(round(100.0 * min(time / (settling + duration), 1.0)), 100, "simulating"),
+    )
+    return DriveSolution(case, results, elements, record, divider, highest)
+
+
+def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> None:
+    """Refuse arcs that go out at a voltage at which films break down."""
+    lowest = case.breakdown.lowest_voltage
+    for end, one in zip(ENDS, elements, strict=True):
+        least = float(np.min(one.breakdown))
+        if lowest >= least:
+            raise InputError(
+                "breakdown.extinction_voltage",
+                got=f"{lowest:.3g} V (extinction_current times arc_resistance, where it is given)",
+                takes=f"less than {least:.3g} V, at which the films of {end} break down",
+            )
+
+
+def _times(case: DriveCase, waveform: Waveform | None) -> tuple[float, float, float]:
+    """Largest voltage of the source [V], time in which the circuit settles, and duration [s]."""
+    source = case.source
+    if waveform is not None:
+        return float(np.max(np.abs(waveform.values))), 0.0, case.drive.duration or waveform.duration
+    assert source.dc_link is not None and source.fundamental_frequency is not None
+    settling = _SETTLING / source.fundamental_frequency
+    peak = source.dc_link * (1.0 / 6.0 if source.modulation == "six-step" else 0.5)
+    return peak, settling, case.drive.duration or _PERIODS / source.fundamental_frequency
+
+
+def _trace(case: DriveCase) -> float:
+    """Time that the trace covers [s]."""
+    source = case.source
+    carrier = source.switching_frequency or source.fundamental_frequency
+    return math.inf if carrier is None else _TRACED / carrier
+
+
+def _divider(modes: Modes) -> tuple[float, float]:
+    """Voltage across each film per volt of the source with all elements at their first position."""
+    first, second = modes.films_source[0]
+    return abs(float(first)), abs(float(second))
+
+
+def _highest(films: Films, divider: tuple[float, float], highest: float, ringing: Ringing | None) -> float:
+    """Voltage up to which histograms reach [V]: twice that of the divider, or where films break down."""
+    over = 1.0 if ringing is None else 1.0 + ringing.overshoot
+    finite = films.scale[np.isfinite(films.scale)]
+    return 2.0 * over * max(max(divider) * highest, 1e-3 * highest) if finite.size == 0 else max(
+        2.0 * over * max(divider) * highest, 1e-3
+    )
+
+
+def _chunks(
+    case: DriveCase, waveform: Waveform | None, settling: float, duration: float, ringing: Ringing | None
+) -> Iterator[Segments]:
+    """Pieces of the source."""
+    if waveform is not None:
+        return sampled(waveform, duration)
+    assert case.source.rise_time is not None
+    start, intervals = steps_of(case.source, settling + duration, settling)
+    return edges(start, intervals, case.source.rise_time, ringing)

@@ -1,0 +1,185 @@
+"""Summary of a drive, as in summary.json."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
+from ehlectric.drive.bearings import BearingElement
+from ehlectric.drive.discharges.march import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
+from ehlectric.drive.discharges.simulation import Record
+from ehlectric.drive.solver import DriveSolution
+from ehlectric.drive.statistics import event_rate, spread
+from ehlectric.runtime.files import plain
+
+SCHEMA = "ehlectric.drive/1"
+
+# Values of an event by their names in the summary, and the columns whose difference or size they are.
+_COLUMNS = {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "peak_current": PEAK}
+
+
+def drive_summary(solution: DriveSolution) -> dict[str, Any]:
+    """Tables ``source``, ``drive``, ``drive_end`` and ``non_drive_end`` of the summary of a drive."""
+    case, record = solution.case, solution.record
+    ends = {end: end_summary(solution, b) for b, end in enumerate(ENDS)}
+    fundamental, bearing = case.source.fundamental_frequency, solution.bearings[0].case.bearing
+    return plain(
+        {
+            "source": {"peak": solution.highest_source, "edges_per_second": edges_per_second(case)},
+            "drive": {
+                "speed": bearing.inner_speed,
+                "temperature": bearing.oil_temperature,
+                "duration": record.duration,
+                "periods": None if fundamental is None else record.duration * fundamental,
+                "seed": case.drive.seed,
+                **{
+                    key: sum(one[key] for one in ends.values())
+                    for key in ("events", "events_per_second", "power")
+                },
+            },
+            **ends,
+        }
+    )
+
+
+def edges_per_second(case: DriveCase) -> float | None:
+    """Steps of the common-mode voltage in a second [1/s]; None for a measured source."""
+    source = case.source
+    if source.measured or source.fundamental_frequency is None:
+        return None
+    return 6.0 * (source.switching_frequency or source.fundamental_frequency)
+
+
+def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
+    """Summary of the bearing at one end: its film, its voltage, and its events."""
+    case, record, one = solution.case, solution.record, solution.elements[b]
+    breakdown, peak = float(np.min(one.breakdown)), float(record.peak[b])
+    finite = math.isfinite(one.shape)
+    return {
+        "capacitance": one.mean_capacitance,
+        "conductance": one.conductance,
+        "breakdown_voltage": breakdown if math.isfinite(breakdown) else None,
+        "weibull_shape": one.shape if finite else None,
+        "renewal_time": (case.breakdown.renewal_time or one.transit) if finite else None,
+        "touching_time_share": one.touching,
+        "voltage_ratio": solution.divider[b],
+        "waveform_ratio": peak / solution.highest_source,
+        "peak_voltage": peak,
+        "rms_voltage": float(record.rms[b]),
+        "time_above": {
+            f"{limit:g}": float(time) / record.duration
+            for limit, time in zip(record.limits, record.above[b], strict=True)
+        },
+        **_events(record, b, edges_per_second(case)),
+        **_densities(record, one, b),
+    }
+
+
+def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
+    """Rate and distributions of the events of a film."""
+    rate, count = event_rate(record.counts[b], record.duration), int(np.sum(record.counts[b]))
+    own = record.events[record.events[:, FILM] == b]
+    found: dict[str, Any] = {
+        "events": count,
+        "events_per_second": rate.mean,
+        "events_per_second_low": rate.low,
+        "events_per_second_high": rate.high,
+        "events_per_edge": None if edges is None else rate.mean / edges,
+        "power": float(record.sums[b, ENERGY]) / record.duration,
+    }
+    for name, column in _COLUMNS.items():
+        mean = float(record.sums[b, column]) / max(count, 1)
+        found |= _spread(name, np.abs(own[:, column]), mean, float(record.largest[b, column]))
+    lasting = own[:, OFF] - own[:, ON]
+    mean = float(record.sums[b, OFF] - record.sums[b, ON]) / max(count, 1)
+    return found | _spread("time", lasting, mean, float(np.max(lasting, initial=0.0)))
+
+
+def _spread(name: str, values: np.ndarray, mean: float, largest: float) -> dict[str, Any]:
+    one = spread(values, mean, largest)
+    return {f"{name}_{key}": getattr(one, key) for key in ("mean", "median", "high", "largest")}
+
+
+def _densities(record: Record, one: BearingElement, b: int) -> dict[str, Any]:
+    """Current densities of the largest current of a film."""
+    peak = float(record.largest[b, PEAK])
+    return {
+        "hertz_area": one.hertz_area,
+        "current_density": peak / one.hertz_area if peak and one.hertz_area else None,
+        "element_current_density": peak / one.largest_area if peak and one.largest_area else None,
+        "current_density_limits": list(CURRENT_DENSITY_LIMITS),
+    }
+
+
+def verdict(summary: dict[str, Any]) -> str:
+    """Answer in a sentence, from a summary of both bearings."""
+    told = [
+        _told(name, summary[end])
+        for name, end in (("drive end", "drive_end"), ("non-drive end", "non_drive_end"))
+    ]
+    return "; ".join(told) + "."
+
+
+def _told(name: str, end: dict[str, Any]) -> str:
+    """What happens at one end, in words."""
+    largest = f"largest voltage {end['peak_voltage']:.3g} V"
+    if not end["events"]:
+        return f"{name}: no discharge, at most {end['events_per_second_high']:.3g} a second; {largest}"
+    low, high = end["events_per_second_low"], end["events_per_second_high"]
+    energy = 1e9 * end["energy_mean"]
+    return (
+        f"{name}: {end['events_per_second']:.3g} discharges a second ({low:.3g} to {high:.3g} at 95 %) of "
+        f"{end['voltage_mean']:.3g} V and {energy:.3g} nJ on average; {largest}"
+    )
+
+
+def whole_summary(
+    solution: DriveSolution,
+    remedies: Sequence[tuple[str, dict[str, Any], dict[str, Any]]],
+    warnings: Sequence[tuple[str, str]],
+    seconds: float,
+    version: str,
+) -> dict[str, Any]:
+    """Whole summary: what is said of the result, its tables, and those of its remedies.
+
+    Parameters
+    ----------
+    solution : DriveSolution
+        Solved drive.
+    remedies : sequence of tuple
+        Title, changes and tables of each remedy.
+    warnings : sequence of tuple
+        Code and text of each warning.
+    seconds : float
+        Computing time [s].
+    version : str
+        Version of ehlectric.
+    """
+    tables = drive_summary(solution)
+    return {
+        "schema": SCHEMA,
+        "version": version,
+        "title": solution.case.title,
+        "converged": converged(solution.bearings),
+        "warnings": [text for _, text in warnings],
+        "warning_codes": [code for code, _ in warnings],
+        "verdict": verdict(tables),
+        "inputs": solution.case.to_dict(),
+        **tables,
+        "remedies": [
+            {"title": title, "changes": changes, **{end: found[end] for end in ENDS}}
+            for title, changes, found in remedies
+        ],
+        "seconds": seconds,
+    }
+
+
+def converged(bearings: Sequence[BearingResult]) -> bool:
+    """Whether the films of both bearings are converged."""
+    return all(one.converged for one in bearings)

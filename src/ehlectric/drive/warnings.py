@@ -1,0 +1,68 @@
+"""Warnings about the result of a drive."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ehlectric.cases.drives.case import ENDS
+from ehlectric.cases.row import amount
+from ehlectric.drive.solver import DriveSolution
+from ehlectric.errors import ResultWarning
+
+# Events below which a rate is called uncertain.
+_FEW = 20
+
+
+def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Warnings of both bearings, each with its end, and those of the simulation.
+
+    Parameters
+    ----------
+    solution : DriveSolution
+        Solved drive.
+
+    Yields
+    ------
+    ResultWarning
+        Warning with its code.
+    """
+    yield from _of_bearings(solution)
+    yield from _of_threshold(solution)
+    yield from _of_time(solution)
+
+
+def _of_bearings(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Warnings of the bearings; those of two equal bearings are told once."""
+    first, second = solution.bearings
+    if second is first:
+        yield from first.warnings
+        return
+    for end, result in zip(ENDS, solution.bearings, strict=True):
+        for one in result.warnings:
+            yield ResultWarning(one.code, f"{end}: {one}")
+
+
+def _of_threshold(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Warning of thresholds without scatter, which hold for one film for ever."""
+    for end, one in zip(ENDS, solution.elements, strict=True):
+        if math.isinf(one.shape) and math.isfinite(float(np.min(one.breakdown))):
+            yield ResultWarning(
+                "threshold-constant",
+                f"the films of {end} break down at the same voltage each time; give breakdown.weibull_shape, "
+                "or discharge.weibull in the bearing file, for thresholds that scatter as those of oils do",
+            )
+
+
+def _of_time(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Warning of a simulated time that is too short for a rate."""
+    for end, counts in zip(ENDS, solution.record.counts, strict=True):
+        number = int(np.sum(counts))
+        if 0 < number < _FEW:
+            yield ResultWarning(
+                "few-discharges",
+                f"{end} discharges {number} times in {amount(solution.record.duration, 's')}: its rate is "
+                "uncertain; give a longer drive.duration",
+            )
