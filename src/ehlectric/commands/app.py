@@ -12,6 +12,7 @@ import typer
 from ehlectric.commands.bearing import bearing, bearings
 from ehlectric.commands.check import check
 from ehlectric.commands.contact import plot, run
+from ehlectric.commands.drive import drive
 from ehlectric.commands.film import film
 from ehlectric.commands.library.oils import oil, oils
 from ehlectric.commands.maps import draw_maps, sensitivity
@@ -49,6 +50,12 @@ _COMMANDS = (
     ("check", check, "Check a file without solving it.", ("check bearing.toml", "check sweep.toml --json")),
     ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
     ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts atlas",)),
+    (
+        "drive",
+        drive,
+        "Simulate the discharges of both bearings of a motor.",
+        ("drive drive.toml -o results", "drive drive.toml --contacts atlas --json"),
+    ),
     ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
     (
         "film",

@@ -60,7 +60,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     """Summary of the bearing at one end: its film, its voltage, and its events."""
     case, record, one = solution.case, solution.record, solution.elements[b]
     breakdown, peak = float(np.min(one.breakdown)), float(record.peak[b])
-    finite = math.isfinite(one.shape)
+    finite = math.isfinite(one.shape) and math.isfinite(breakdown)
     return {
         "capacitance": one.mean_capacitance,
         "conductance": one.conductance,

@@ -24,8 +24,10 @@ if TYPE_CHECKING:
     from ehlectric.bearing.result import BearingResult
     from ehlectric.cases.bearings.case import BearingCase
     from ehlectric.cases.case import Case
+    from ehlectric.cases.drives.case import DriveCase
     from ehlectric.cases.measurements.factors import FilmFactors
     from ehlectric.contact.results import PointResult, Result
+    from ehlectric.drive.result import DriveResult
     from ehlectric.runs.film_factors import MeasuredFile
     from ehlectric.sweep.inputs import Sweep
     from ehlectric.sweep.results import SweepResults
@@ -58,13 +60,14 @@ def run(path: str | Path, folder: str | Path, progress: Progress = silent, **opt
     Parameters
     ----------
     path : str or Path
-        A case file, bearing file or sweep file, TOML.
+        A case file, bearing file, drive file or sweep file, TOML.
     folder : str or Path
         Folder of the results; it is made if it does not exist.
     progress : callable, optional
         Called with the number of parts done, the number of all parts (0 where it is not known), and a text.
     **options
-        Options of the kind of file: ``solver`` of a contact; ``contacts`` and ``workers`` of a bearing;
+        Options of the kind of file: ``solver`` of a contact; ``contacts`` and ``workers`` of a bearing and
+        of a drive;
         ``measured`` of both; ``workers`` and ``scheduler`` of a sweep.
 
     Returns
@@ -101,8 +104,8 @@ def run_and_draw(
     Parameters
     ----------
     kind : str
-        "contact", "motion", "bearing" or "sweep". The figures of a sweep are not drawn here.
-    case : Case, BearingCase or Sweep
+        "contact", "motion", "bearing", "drive" or "sweep". The figures of a sweep are not drawn here.
+    case : Case, BearingCase, DriveCase or Sweep
         Case of this kind.
     folder : str or Path
         Folder of the results; it is made if it does not exist.
@@ -156,6 +159,13 @@ def read_bearing(path: str | Path) -> BearingCase:
     from ehlectric.cases.bearings.case import BearingCase
 
     return BearingCase.from_toml(path)
+
+
+def read_drive(path: str | Path) -> DriveCase:
+    """Case of a drive."""
+    from ehlectric.cases.drives.case import DriveCase
+
+    return DriveCase.from_toml(path)
 
 
 def read_sweep_file(path: str | Path) -> Sweep:
@@ -243,6 +253,23 @@ def run_bearing(
     return with_factors(outcome, factors)
 
 
+def run_drive(
+    case: DriveCase,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    contacts: str = "",
+    workers: int | None = None,
+) -> RunOutcome[DriveResult]:
+    """Solve a drive, and write its results; ``contacts`` replaces the key of both bearings."""
+    from ehlectric.drive.files import run
+
+    case = case.replace({"drive.contacts": contacts}) if contacts else case
+    with alone_in(folder, locks=[RESULT_LOCK]) as folder:
+        protect(folder)
+        return run(case, folder, progress, workers=workers, others=files_of_results(folder))
+
+
 def with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:
     """Outcome of a run with the film factors of a measurement beside its result; unchanged without them."""
     if factors is None:
@@ -281,6 +308,7 @@ RUNS: Mapping[FileKind, Kind] = MappingProxyType(
         "contact": Kind(read_case, run_contact),
         "motion": Kind(read_case, run_motion),
         "bearing": Kind(read_bearing, run_bearing),
+        "drive": Kind(read_drive, run_drive),
         "sweep": Kind(read_sweep_file, run_sweep),
     }
 )

@@ -67,6 +67,7 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
     from ehlectric.bearing.files import FILES as OF_BEARINGS
     from ehlectric.cases.measurements.factors import FILES as OF_MEASUREMENTS
     from ehlectric.contact.files import FILES as OF_CONTACTS
+    from ehlectric.drive.files import FILES as OF_DRIVES
     from ehlectric.motion.stored_run import MOTION_FILES
     from ehlectric.sweep.tables import FILES as OF_SWEEPS
 
@@ -74,6 +75,7 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
         *OF_CONTACTS,
         *MOTION_FILES,
         *OF_BEARINGS,
+        *OF_DRIVES,
         *OF_SWEEPS,
         *OF_MEASUREMENTS,
         SENSITIVITY,

@@ -1,6 +1,6 @@
 """Kinds of files: how each is recognised, and what a file given to the wrong command is told.
 
-The kinds are the cases of a contact, with or without motion, bearing files and sweep files. Results are
+The kinds are the cases of a contact, with or without motion, bearing files, drive files and sweep files. Results are
 recognised by the first bytes of their files, so that their names do not matter.
 """
 
@@ -16,10 +16,13 @@ from ehlectric.cases.table import read_toml
 from ehlectric.errors import InputError
 from ehlectric.runtime.reading import regular
 
-FileKind = Literal["contact", "motion", "bearing", "sweep"]
+FileKind = Literal["contact", "motion", "bearing", "drive", "sweep"]
 
 # Tables and keys that only sweep files have.
 _OF_SWEEPS = ("case", "vary", "design")
+
+# Tables that only drive files have.
+_OF_DRIVES = ("source", "circuit", "breakdown", "drive_end")
 
 # Name of a file of each kind, and the command that solves it.
 _NAMES: Mapping[FileKind, tuple[str, str]] = MappingProxyType(
@@ -27,6 +30,7 @@ _NAMES: Mapping[FileKind, tuple[str, str]] = MappingProxyType(
         "contact": ("a case of a contact", "run"),
         "motion": ("a case of a contact", "run"),
         "bearing": ("a bearing file", "bearing"),
+        "drive": ("a drive file", "drive"),
         "sweep": ("a sweep file", "sweep"),
     }
 )
@@ -41,12 +45,12 @@ _SUMMARY = "summary.json"
 
 
 def kind_of_file(path: str | Path) -> FileKind:
-    """Kind of a TOML file: "contact", "motion", "bearing" or "sweep", recognised by its tables.
+    """Kind of a TOML file: "contact", "motion", "bearing", "drive" or "sweep", by its tables.
 
     Parameters
     ----------
     path : str or Path
-        A case file, bearing file or sweep file.
+        A case file, bearing file, drive file or sweep file.
 
     Raises
     ------
@@ -105,6 +109,8 @@ def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
     """Kind of the tables of a file; None if none of them tells it."""
     if any(key in table for key in _OF_SWEEPS):
         return "sweep"
+    if any(key in table for key in _OF_DRIVES):
+        return "drive"
     if "bearing" in table:
         return "bearing"
     if "motion" in table:

@@ -50,6 +50,9 @@ COLUMNS = 8
 _THRESHOLDS, _TIMES = range(2)
 _RESERVE = 16
 
+# Part of the voltage of extinction above which an arc is taken as fed again, and not as just gone out.
+_FED = 1.0 + 1e-9
+
 # What ended a piece.
 _NOTHING, _BROKEN, _OUT = range(3)
 
@@ -336,7 +339,7 @@ def _scheduled(circuits: Circuits, films: Films, state: State, b: int, now: floa
             _next_film(films, state, b)
         state.clocks[b, RENEWAL] = _waits(state, b, films.renewal[b])
     if state.clocks[b, RECOVERY] <= 0.0:
-        if abs(volts) > films.extinction[b]:
+        if abs(volts) > _FED * films.extinction[b]:
             # The source has fed the arc again.
             state.phase[b], state.clocks[b, RECOVERY] = ARC, math.inf
         else:

@@ -35,7 +35,7 @@ KEPT = 200_000
 # Bins of the histograms, rows of the trace, and parts of the highest voltage: within which the voltage is
 # straight between two times, and below which the ringing of the source is over.
 BINS, TRACE = 400, 20_000
-_ROUGH, _SILENT = 2e-3, 1e-4
+_ROUGH, _SILENT = 5e-4, 1e-4
 
 # Number of blocks of time in which events are counted, from which their scatter follows.
 BLOCKS = 40

@@ -1,0 +1,114 @@
+"""Tables of a drive: both bearings side by side, and its remedies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ehlectric.cases.row import UNITS
+from ehlectric.errors import printable
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+_ENDS = ("drive_end", "non_drive_end")
+
+# Rows of the table of both ends: name, key, and unit in which it is shown.
+_ROWS = (
+    ("bearing capacitance", "capacitance", "pF"),
+    ("breakdown voltage, weakest position", "breakdown_voltage", "V"),
+    ("share of time with metallic contact", "touching_time_share", "%"),
+    ("bearing voltage ratio, divider", "voltage_ratio", "%"),
+    ("bearing voltage ratio, waveform", "waveform_ratio", "%"),
+    ("largest bearing voltage", "peak_voltage", "V"),
+    ("rms bearing voltage", "rms_voltage", "V"),
+    ("discharges per second", "events_per_second", "1/s"),
+    ("  lower bound, 95 %", "events_per_second_low", "1/s"),
+    ("  upper bound, 95 %", "events_per_second_high", "1/s"),
+    ("discharges per edge", "events_per_edge", "%"),
+    ("voltage of a discharge, mean", "voltage_mean", "V"),
+    ("  95th percentile", "voltage_high", "V"),
+    ("energy of a discharge, mean", "energy_mean", "nJ"),
+    ("  largest", "energy_largest", "nJ"),
+    ("charge of a discharge, mean", "charge_mean", "nC"),
+    ("peak current of a discharge, mean", "peak_current_mean", "mA"),
+    ("  largest", "peak_current_largest", "mA"),
+    ("power of the discharges", "power", "µW"),
+    ("current density, one element", "element_current_density", "A/mm²"),
+)
+
+# Columns of the table of remedies, of the bearing with more discharges.
+_COLUMNS = (
+    ("discharges [1/s]", "events_per_second", "1/s"),
+    ("voltage [V]", "voltage_mean", "V"),
+    ("energy [nJ]", "energy_mean", "nJ"),
+    ("power [µW]", "power", "µW"),
+    ("largest voltage [V]", "peak_voltage", "V"),
+)
+
+
+def ends_table(summary: Mapping[str, Any]) -> Table:
+    """Table of both bearings of a drive, for the terminal.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a drive.
+
+    Returns
+    -------
+    rich.table.Table
+        A row for each quantity, a column for each end, and one for the unit.
+    """
+    head = [printable(summary["title"]), "drive end", "non-drive end", ""]
+    rows = (
+        [name, *(_shown(summary[end][key], unit) for end in _ENDS), unit]
+        for name, key, unit in _ROWS
+    )
+    return _table(head, rows)
+
+
+def remedies_table(summary: Mapping[str, Any]) -> Table:
+    """Table of the drive and its remedies side by side, for the terminal; of the worse bearing of each.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a drive.
+
+    Returns
+    -------
+    rich.table.Table
+        A row for the drive as it is and for each remedy.
+    """
+    head = ["remedy, bearing with more discharges", *(name for name, _, _ in _COLUMNS)]
+    return _table(head, (_remedy(title, ends) for title, ends in _drives(summary)))
+
+
+def _drives(summary: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    yield "as it is", summary
+    for one in summary["remedies"]:
+        yield printable(one["title"]), one
+
+
+def _remedy(title: str, ends: Mapping[str, Any]) -> list[str]:
+    worse = max((ends[end] for end in _ENDS), key=lambda end: (end["power"], end["peak_voltage"]))
+    return [title, *(_shown(worse[key], unit) for _, key, unit in _COLUMNS)]
+
+
+def _table(head: Sequence[str], rows: Iterator[list[str]]) -> Table:
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for k, name in enumerate(head):
+        table.add_column(Text(name), justify="left" if k == 0 or not name else "right", no_wrap=bool(k))
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row))
+    return table
+
+
+def _shown(value: float | None, unit: str) -> str:
+    """Value in its shown unit with three digits; a dash where there is none."""
+    return "–" if value is None else f"{value * UNITS[unit][1]:.3g}"
+

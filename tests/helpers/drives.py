@@ -1,0 +1,84 @@
+"""Drives for tests: bearings as plain elements of a circuit, a source, and a march through it."""
+
+import math
+
+import numpy as np
+
+from ehlectric.bearing.meter.path import Path
+from ehlectric.cases.drives.breakdown import Breakdown
+from ehlectric.cases.drives.circuit import Circuit
+from ehlectric.drive.bearings import BearingElement
+from ehlectric.drive.circuit.modes import modes_of
+from ehlectric.drive.circuit.motor import film_nodes, states_of
+from ehlectric.drive.discharges.march import Segments
+from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
+
+MOTOR = {
+    "winding_rotor_capacitance": "50 pF",
+    "rotor_frame_capacitance": "500 pF",
+    "winding_frame_capacitance": "5 nF",
+}
+ARC = {"arc_resistance": 10.0, "extinction_voltage": 0.5, "recovery_time": 0.0}
+
+
+def element(capacitance=300e-12, *, breakdown=math.inf, conductance=0.0, shape=math.inf, step=math.inf,
+            path=None, touching=0.0, touch_resistance=math.inf, transit=1e-4):  # fmt: skip
+    """Bearing of given capacitance and breakdown voltage at its positions."""
+    places = np.atleast_1d(np.array(capacitance, dtype=float))
+    return BearingElement(
+        capacitance=places,
+        conductance=conductance,
+        breakdown=np.broadcast_to(np.array(breakdown, dtype=float), places.shape).copy(),
+        shape=shape,
+        step=step,
+        path=path or Path(),
+        touching=touching,
+        touch_resistance=touch_resistance,
+        hertz_area=1e-6,
+        largest_area=1e-7,
+        transit=transit,
+    )
+
+
+def motor(**keys):
+    """Table ``circuit``."""
+    return Circuit.from_dict(MOTOR | keys)
+
+
+def arc(**keys):
+    """Table ``breakdown``."""
+    return Breakdown.from_dict(ARC | keys)
+
+
+def square(voltage, period, rise, count):
+    """Square wave that begins low: ``count`` periods, each with an edge up and an edge down."""
+    flat = 0.5 * period - rise
+    return Segments(
+        np.tile([rise, flat, rise, flat], count),
+        np.tile([-voltage, voltage, voltage, -voltage], count),
+        np.tile([2 * voltage / rise, 0.0, -2 * voltage / rise, 0.0], count),
+        np.zeros(4 * count, dtype=complex),
+    )
+
+
+def from_rest(segments, rise):
+    """The same source after an edge from zero, so that no film has a voltage at the start."""
+    first = float(segments.level[0])
+    begin = (np.array([rise]), np.zeros(1), np.array([first / rise]), np.zeros(1, dtype=complex))
+    return Segments(*(np.concatenate(pair) for pair in zip(begin, segments, strict=True)))
+
+
+def systems(circuit, bearings, breakdown):
+    """State equations of all states of a circuit, and whether films touch."""
+    films = films_of(bearings, breakdown)
+    return states_of(circuit, bearings, breakdown, bool(films.states[0] == 3))
+
+
+def march(circuit, bearings, breakdown, segments, *, seed=0, ring=None, highest=20.0, trace=0.0, limits=(1.0,)):
+    """Record of a march through segments of a source, from its begin on."""
+    modes = modes_of(systems(circuit, bearings, breakdown), film_nodes(bearings), ring)
+    chunks = segments if isinstance(segments, list) else [segments]
+    duration = float(sum(np.sum(one.duration) for one in chunks))
+    measuring = Measuring(0.0, duration, highest, limits, trace)
+    films = films_of(bearings, breakdown)
+    return simulate(circuits_of(modes, ring), films, iter(chunks), measuring, seed)
