@@ -10,8 +10,8 @@ from ehlectric.cases.drives.circuit import Circuit
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.modes import modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
-from ehlectric.drive.discharges.march import Segments
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
+from ehlectric.drive.discharges.states import Segments
 
 MOTOR = {
     "winding_rotor_capacitance": "50 pF",
@@ -71,10 +71,12 @@ def from_rest(segments, rise):
 def systems(circuit, bearings, breakdown):
     """State equations of all states of a circuit, and whether films touch."""
     films = films_of(bearings, breakdown)
-    return states_of(circuit, bearings, breakdown, bool(films.states[0] == 3))
+    return states_of(circuit, bearings, breakdown, touches=bool(films.states[0] == 3))
 
 
-def march(circuit, bearings, breakdown, segments, *, seed=0, ring=None, highest=20.0, trace=0.0, limits=(1.0,)):
+def march(
+    circuit, bearings, breakdown, segments, *, seed=0, ring=None, highest=20.0, trace=0.0, limits=(1.0,)
+):
     """Record of a march through segments of a source, from its begin on."""
     modes = modes_of(systems(circuit, bearings, breakdown), film_nodes(bearings), ring)
     chunks = segments if isinstance(segments, list) else [segments]

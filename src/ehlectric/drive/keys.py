@@ -20,13 +20,19 @@ _SOURCE: Keys = {
 }
 _DRIVE: Keys = {
     "speed": ResultKey("speed of the rotor", "rad/s", "speed"),
-    "temperature": ResultKey("temperature of the oil of the drive-end bearing", "K", "temperature of the oil"),
+    "temperature": ResultKey(
+        "temperature of the oil of the drive-end bearing", "K", "temperature of the oil"
+    ),
     "duration": ResultKey("simulated time, after the circuit has settled", "s", "simulated time"),
-    "periods": ResultKey("periods of the fundamental in this time; null for a measured source", "", "periods"),
+    "periods": ResultKey(
+        "periods of the fundamental in this time; null for a measured source", "", "periods"
+    ),
     "seed": ResultKey("seed of the random numbers"),
     "events": ResultKey("discharges of both bearings", "", "discharges"),
     "events_per_second": ResultKey("discharges of both bearings in a second", "1/s", "discharges per second"),
-    "power": ResultKey("energy of the discharges of both bearings in a second", "W", "power of the discharges"),
+    "power": ResultKey(
+        "energy of the discharges of both bearings in a second", "W", "power of the discharges"
+    ),
 }
 _SPREADS = {
     "voltage": ("voltage across the films at which they break down", "V", "voltage of a discharge"),
@@ -40,16 +46,18 @@ _END: Keys = {
     "capacitance": ResultKey("capacitance of the films, mean over the positions", "F", "bearing capacitance"),
     "conductance": ResultKey("conductance of the oil of the films", "S", "conductance of the films"),
     "breakdown_voltage": ResultKey(
-        "voltage across the films at which an element breaks down from ring to ring, at the weakest position; "
+        "voltage across the films at which an element breaks down from ring to ring, weakest position; "
         "null for ceramic elements",
         "V",
         "breakdown voltage",
     ),
     "weibull_shape": ResultKey("shape of Weibull's law of that voltage; null without scatter"),
     "renewal_time": ResultKey(
-        "mean time after which other oil, with another threshold, is in the contacts", "s", "renewal time"
+        "mean time after which other oil, with another threshold, is in them", "s", "renewal time"
     ),
-    "touching_time_share": ResultKey("share of time in which asperities close the films", "", "share of contact"),
+    "touching_time_share": ResultKey(
+        "share of time in which asperities close the films", "", "share of contact"
+    ),
     "voltage_ratio": ResultKey(
         "voltage across the films per volt of the source right after an edge, by the capacitive divider",
         "",
@@ -75,7 +83,9 @@ _END: Keys = {
         for name, (meaning, unit, label) in _SPREADS.items()
         for short, statistic in _STATISTICS.items()
     },
-    "hertz_area": ResultKey("dry contact areas through which a current can flow, together", "m**2", "Hertz area"),
+    "hertz_area": ResultKey(
+        "dry contact areas through which a current can flow, together", "m**2", "Hertz area"
+    ),
     "current_density": ResultKey(
         "largest current over all Hertz areas; null without discharges", "A/m**2", "current density"
     ),

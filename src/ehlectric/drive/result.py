@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.drive.discharges.march import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
+from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from ehlectric.drive.solver import DriveSolution, solve
 from ehlectric.drive.summary import converged, drive_summary, whole_summary
 from ehlectric.drive.warnings import drive_warnings
@@ -97,10 +97,7 @@ class DriveResult(Shown):
         found = drive_summary(self.solution)
         return headline(
             self.case.title,
-            *(
-                f"{end.replace('_', ' ')} {found[end]['events_per_second']:.3g} discharges/s"
-                for end in ENDS
-            ),
+            *(f"{end.replace('_', ' ')} {found[end]['events_per_second']:.3g} discharges/s" for end in ENDS),
             "converged" if self.converged else "NOT CONVERGED",
         )
 

@@ -14,8 +14,8 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.bearings import BearingElement, bearing_element
 from ehlectric.drive.circuit.modes import Modes, modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
-from ehlectric.drive.discharges.march import Films, Segments
 from ehlectric.drive.discharges.simulation import Measuring, Record, circuits_of, films_of, simulate
+from ehlectric.drive.discharges.states import Segments
 from ehlectric.drive.source.modulation import steps_of
 from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.source.waveform import Waveform
@@ -86,17 +86,19 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     first, second = case.bearings
     drive_end = solve_bearing(first, workers=workers)
     results = drive_end, drive_end if second == first else solve_bearing(second, workers=workers)
-    elements = tuple(
-        bearing_element(result, case.breakdown, end) for result, end in zip(results, ENDS, strict=True)
+    elements = (
+        bearing_element(results[0], case.breakdown, ENDS[0]),
+        bearing_element(results[1], case.breakdown, ENDS[1]),
     )
     _check_extinction(case, elements)
     films, ringing = films_of(elements, case.breakdown), ringing_of(case.source)
-    systems = states_of(case.circuit, elements, case.breakdown, bool(films.states[0] == 3))
+    systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
     modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
     waveform = None
     highest, settling, duration = _times(case, waveform)
     divider = _divider(modes)
-    measuring = Measuring(settling, duration, _highest(films, divider, highest, ringing), LIMITS, _trace(case))
+    reach = _highest(divider, highest, ringing)
+    measuring = Measuring(settling, duration, reach, LIMITS, _trace(case))
     record = simulate(
         circuits_of(modes, None if ringing is None else ringing.rate),
         films,
@@ -145,13 +147,10 @@ def _divider(modes: Modes) -> tuple[float, float]:
     return abs(float(first)), abs(float(second))
 
 
-def _highest(films: Films, divider: tuple[float, float], highest: float, ringing: Ringing | None) -> float:
-    """Voltage up to which histograms reach [V]: twice that of the divider, or where films break down."""
+def _highest(divider: tuple[float, float], highest: float, ringing: Ringing | None) -> float:
+    """Voltage up to which histograms reach [V]: twice the divider's, as discharges shift it by itself."""
     over = 1.0 if ringing is None else 1.0 + ringing.overshoot
-    finite = films.scale[np.isfinite(films.scale)]
-    return 2.0 * over * max(max(divider) * highest, 1e-3 * highest) if finite.size == 0 else max(
-        2.0 * over * max(divider) * highest, 1e-3
-    )
+    return 2.0 * over * max(divider) * highest
 
 
 def _chunks(

@@ -12,8 +12,8 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.discharges.march import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from ehlectric.drive.discharges.simulation import Record
+from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from ehlectric.drive.solver import DriveSolution
 from ehlectric.drive.statistics import event_rate, spread
 from ehlectric.runtime.files import plain
@@ -29,7 +29,7 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
     case, record = solution.case, solution.record
     ends = {end: end_summary(solution, b) for b, end in enumerate(ENDS)}
     fundamental, bearing = case.source.fundamental_frequency, solution.bearings[0].case.bearing
-    return plain(
+    summary: dict[str, Any] = plain(
         {
             "source": {"peak": solution.highest_source, "edges_per_second": edges_per_second(case)},
             "drive": {
@@ -46,6 +46,7 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
             **ends,
         }
     )
+    return summary
 
 
 def edges_per_second(case: DriveCase) -> float | None:

@@ -1,7 +1,7 @@
 """Kinds of files: how each is recognised, and what a file given to the wrong command is told.
 
-The kinds are the cases of a contact, with or without motion, bearing files, drive files and sweep files. Results are
-recognised by the first bytes of their files, so that their names do not matter.
+The kinds are the cases of a contact, with or without motion, bearing files, drive files and sweep files.
+Results are recognised by the first bytes of their files, so that their names do not matter.
 """
 
 from __future__ import annotations

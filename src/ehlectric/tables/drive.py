@@ -61,10 +61,7 @@ def ends_table(summary: Mapping[str, Any]) -> Table:
         A row for each quantity, a column for each end, and one for the unit.
     """
     head = [printable(summary["title"]), "drive end", "non-drive end", ""]
-    rows = (
-        [name, *(_shown(summary[end][key], unit) for end in _ENDS), unit]
-        for name, key, unit in _ROWS
-    )
+    rows = ([name, *(_shown(summary[end][key], unit) for end in _ENDS), unit] for name, key, unit in _ROWS)
     return _table(head, rows)
 
 
@@ -111,4 +108,3 @@ def _table(head: Sequence[str], rows: Iterator[list[str]]) -> Table:
 def _shown(value: float | None, unit: str) -> str:
     """Value in its shown unit with three digits; a dash where there is none."""
     return "–" if value is None else f"{value * UNITS[unit][1]:.3g}"
-

@@ -170,7 +170,7 @@ def _decay(solution: BearingSolution, motor: Motor, tau: float) -> Decay:
 
 
 def oil_conductance(solution: BearingSolution, tau: float) -> float:
-    """Conductance of the oil of a bearing whose oil has a relaxation time [s], mean over the positions [S]."""
+    """Conductance of the oil of a bearing with its relaxation time [s], mean over the positions [S]."""
     fill = solution.case.bearing.fill
     values = []
     for position in solution.positions:

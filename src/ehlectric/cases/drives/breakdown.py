@@ -23,7 +23,8 @@ class Breakdown(Table):
     ) = None
     recovery_time: Annotated[float, Quantity("s", least=0.0, most=1.0, reason="until the film insulates")]
     weibull_shape: (
-        Annotated[float, Quantity("", least=0.5, most=200.0, reason="the larger, the less it scatters")] | None
+        Annotated[float, Quantity("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
+        | None
     ) = None
     renewal_time: (
         Annotated[float, Quantity("s", above=0.0, most=1e6, reason="after which other oil is in the contact")]

@@ -110,7 +110,9 @@ class DriveCase(Tabled, Table):
             changes["bearing.temperature"] = self.drive.temperature
         if self.drive.contacts is not None:
             changes["contacts"] = self.drive.contacts
-        first, second = (one.replace(changes) if changes else one for one in (self.drive_end, self.non_drive_end))
+        first, second = (
+            one.replace(changes) if changes else one for one in (self.drive_end, self.non_drive_end)
+        )
         return first, second
 
     def _headline(self) -> str:
@@ -212,13 +214,15 @@ def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:
         first, _, rest = key.partition(".")
         if first in (end, BOTH):
             if not rest:
-                raise InputError(key, got="a table", takes="dotted keys, as in 'bearings.bearing.temperature'")
+                raise InputError(
+                    key, got="a table", takes="dotted keys, as in 'bearings.bearing.temperature'"
+                )
             found[rest] = value
     return found
 
 
 def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase:
-    """Bearing of the file that a table names, with the other keys of the table in place of those of the file."""
+    """Bearing of the file that a table names, with the other keys of the table in place of its own."""
     name = table["file"]
     if not isinstance(name, str):
         raise InputError(f"{end}.file", got=str(name), takes="the path of a bearing file")

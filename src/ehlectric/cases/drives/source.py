@@ -36,9 +36,9 @@ _RINGING = ("ringing_frequency", "overshoot", "ringing_time")
 class Source(Table):
     """Common-mode voltage of the inverter: from its modulation, or a measured waveform."""
 
-    dc_link: (
-        Annotated[float, Quantity("V", above=0.0, most=1e6, reason="voltage of the DC link")] | None
-    ) = None
+    dc_link: Annotated[float, Quantity("V", above=0.0, most=1e6, reason="voltage of the DC link")] | None = (
+        None
+    )
     modulation: Literal["sinusoidal", "space-vector", "six-step"] | None = None
     switching_frequency: Annotated[float, _Hertz] | None = None
     fundamental_frequency: Annotated[float, _Hertz] | None = None
@@ -70,7 +70,9 @@ class Source(Table):
         given = [key for key in DESCRIBED if getattr(self, key) is not None]
         if self.measured:
             if given:
-                raise InputError(given[0], got="it beside file", takes="a described source, or a measured one")
+                raise InputError(
+                    given[0], got="it beside file", takes="a described source, or a measured one"
+                )
             return self
         other = [key for key in MEASURED if key != "scale" and getattr(self, key) is not None]
         if other:
@@ -101,4 +103,6 @@ class Source(Table):
             )
         period = 1.0 / (carrier or 6.0 * (fundamental or 1.0))
         if rise is not None and rise >= 0.5 * period:
-            raise InputError("rise_time", got=f"{rise:g} s", takes=f"less than half of the period {period:.3g} s")
+            raise InputError(
+                "rise_time", got=f"{rise:g} s", takes=f"less than half of the period {period:.3g} s"
+            )

@@ -19,8 +19,7 @@ SOURCE, WINDING, ROTOR, EARTH = "source", "winding", "rotor", "earth"
 def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
     """Nodes between which the films of each bearing lie: a coating lies between them and the frame."""
     return [
-        (ROTOR, f"ring_{end}" if one.path.coated else FRAME)
-        for end, one in zip(ENDS, elements, strict=True)
+        (ROTOR, f"ring_{end}" if one.path.coated else FRAME) for end, one in zip(ENDS, elements, strict=True)
     ]
 
 
@@ -94,7 +93,7 @@ def bearing_elements(
 
 
 def states_of(
-    circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, touches: bool
+    circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, *, touches: bool
 ) -> list[StateSpace]:
     """State equations of the circuit in all of its states, in the order in which a march numbers them.
 

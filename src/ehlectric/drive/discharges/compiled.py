@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+# A division by zero gives what it gives in numpy; compiled functions stay on the disk for the next run.
+_OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy"}
+
 
 def compiled(function: F) -> F:
-    """Compile a function of numbers and arrays at its first call, and keep it on the disk for the next run."""
-    fast: F = numba.njit(cache=True, error_model="numpy")(function)
-    return fast
+    """Compile a function of numbers and arrays at its first call."""
+    return cast(F, numba.njit(**_OPTIONS)(function))
 
 
 def inner(function: F) -> F:
     """Compile a function that only other compiled functions call, which takes less time."""
-    fast: F = numba.njit(cache=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(
-        function
-    )
-    return fast
+    alone: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return cast(F, numba.njit(**_OPTIONS, **alone)(function))

@@ -9,20 +9,19 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import NamedTuple
 
 import numpy as np
-
-from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import compiled, inner
 from ehlectric.drive.discharges.meters import Meters, measure
 from ehlectric.drive.discharges.pieces import (
+    FALLS,
     FURTHER,
     RATE,
-    START,
+    RISES,
     ROWS,
+    START,
     Circuits,
     Complex,
     Source,
@@ -33,206 +32,107 @@ from ehlectric.drive.discharges.pieces import (
     states_at,
     voltage,
 )
-
-Integers = NDArray[np.int64]
-
-# Phases of a film.
-INSULATING, ARC, RECOVERING, TOUCHING = range(4)
-
-# Clocks of a film: time left to the next position, to the next film, to its insulation, and to the next touch.
-POSITION, RENEWAL, RECOVERY, TOUCH = range(4)
-
-# Columns of an event.
-ON, OFF, FILM, VOLTAGE, CHARGE, ENERGY, PEAK, PLACE = range(8)
-COLUMNS = 8
-
-# Streams of random numbers of a film; the march stops where one has fewer than the reserve left.
-_THRESHOLDS, _TIMES = range(2)
-_RESERVE = 16
-
-# Part of the voltage of extinction above which an arc is taken as fed again, and not as just gone out.
-_FED = 1.0 + 1e-9
+from ehlectric.drive.discharges.states import (
+    ARC,
+    CHARGE,
+    COLUMNS,
+    ENERGY,
+    FILM,
+    INSULATING,
+    OFF,
+    ON,
+    PEAK,
+    PLACE,
+    POSITION,
+    RECOVERING,
+    RECOVERY,
+    RENEWAL,
+    RESERVE,
+    TOUCH,
+    TOUCHING,
+    VOLTAGE,
+    Films,
+    Segments,
+    State,
+    burns_in,
+    next_film,
+    state_of,
+    threshold,
+    waits,
+)
 
 # What ended a piece.
 _NOTHING, _BROKEN, _OUT = range(3)
 
-# Abscissae and weights of Gauss and Legendre on (0, 1) for charge and energy of an arc; rate times duration of
-# the panels, for which they are exact to 1e-14; and the exponent at which a mode is over.
+# Abscissae and weights of Gauss and Legendre on (0, 1) for charge and energy of an arc; rate times duration
+# of the panels, for which they are exact to 1e-14; and the exponent at which a mode is over.
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _RESOLVED, _GONE = 3.0, -40.0
 POINTS, WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
 
 
-class Films(NamedTuple):
-    """Films of both bearings.
-
-    Attributes
-    ----------
-    scale : ndarray, shape (2, positions)
-        Breakdown voltage at which a draw is 1 [V]; infinite for films that do not break down.
-    positions : ndarray of int, shape (2,)
-        Number of positions of the elements.
-    step : ndarray, shape (2,)
-        Time from one position to the next [s].
-    shape : ndarray, shape (2,)
-        Shape of Weibull's law; infinite without scatter.
-    renewal : ndarray, shape (2,)
-        Mean time after which a new film with a new threshold is in the contacts [s].
-    arc : ndarray, shape (2,)
-        Arc resistance [Ohm].
-    extinction : ndarray, shape (2,)
-        Voltage across the arc below which it goes out [V].
-    recovery : ndarray, shape (2,)
-        Time from there until the film insulates again [s].
-    touch : ndarray, shape (2, 2)
-        Mean times without and with touching asperities [s].
-    states : ndarray of int, shape (1,)
-        States of one film: 2, or 3 where films touch.
-    """
-
-    scale: Array
-    positions: Integers
-    step: Array
-    shape: Array
-    renewal: Array
-    arc: Array
-    extinction: Array
-    recovery: Array
-    touch: Array
-    states: Integers
-
-
-class State(NamedTuple):
-    """Where a march stands; it is changed in place.
-
-    Attributes
-    ----------
-    x : ndarray, shape (n,)
-        States of the circuit.
-    ring : ndarray of complex, shape (1,)
-        Amplitude of the ringing [V].
-    clocks : ndarray, shape (2, 4)
-        Times left [s].
-    place : ndarray of int, shape (2,)
-        Position of the elements.
-    phase : ndarray of int, shape (2,)
-        Phase of each film.
-    draw : ndarray, shape (2,)
-        Threshold of each film over its scale.
-    event : ndarray, shape (2, 8)
-        Event of each film so far.
-    time : ndarray, shape (2,)
-        Time [s], as a sum of whole chunks and of what has passed since.
-    cursor : ndarray, shape (3,)
-        Next segment, what has passed of it [s], and whether it has begun (1) or not (0).
-    random : ndarray, shape (2, 2, m)
-        Random numbers of an exponential distribution of mean 1, of each film for thresholds and for times.
-    used : ndarray of int, shape (2, 2)
-        How many of them are used.
-    """
-
-    x: Array
-    ring: Complex
-    clocks: Array
-    place: Integers
-    phase: Integers
-    draw: Array
-    event: Array
-    time: Array
-    cursor: Array
-    random: Array
-    used: Integers
-
-
-class Segments(NamedTuple):
-    """Pieces of the source: duration [s], value at the start [V], slope [V/s], and what rings from there on."""
-
-    duration: Array
-    level: Array
-    slope: Array
-    ring: Complex
+# Part of the voltage of extinction above which an arc is taken as fed again, and not as just gone out.
+_FED = 1.0 + 1e-9
 
 
 @inner
-def _state_of(films: Films, state: State) -> int:
-    """Number of the circuit's state: what both films do, and where their elements are."""
-    number = 0
-    for b in range(2):
-        doing = 0
-        if state.phase[b] == TOUCHING:
-            doing = 2
-        elif state.phase[b] != INSULATING:
-            doing = 1
-        number = number * films.states[0] + doing
-    return int((number * films.positions[0] + state.place[0]) * films.positions[1] + state.place[1])
-
-
-@inner
-def _level(films: Films, state: State, b: int) -> float:
-    """Voltage at which a film breaks down now [V]; below the voltage of extinction there is no arc."""
-    return max(films.scale[b, state.place[b]] * state.draw[b], films.extinction[b])
-
-
-@inner
-def _random(state: State, b: int, stream: int) -> float:
-    """Next random number of a film."""
-    k = state.used[b, stream]
-    state.used[b, stream] = k + 1
-    return float(state.random[b, stream, k])
-
-
-@inner
-def _next_film(films: Films, state: State, b: int) -> None:
-    """Draw the threshold of a new film from Weibull's law of scale 1; 1 without scatter."""
-    if math.isfinite(films.shape[b]):
-        state.draw[b] = _random(state, b, _THRESHOLDS) ** (1.0 / films.shape[b])
-    else:
-        state.draw[b] = 1.0
-
-
-@inner
-def _waits(state: State, b: int, mean: float) -> float:
-    """Waiting time of a Poisson process of a mean interval [s]."""
-    return mean * _random(state, b, _TIMES) if math.isfinite(mean) else math.inf
-
-
-@inner
-def _burns(state: State, b: int) -> bool:
-    """Whether an arc burns in a film, or has gone out while the film does not insulate yet."""
-    return bool(state.phase[b] == ARC or state.phase[b] == RECOVERING)
-
-
-@inner
-def _panel(piece: Complex, burns: bool, t: float, left: float, rough: float) -> float:
-    """Time from t on over which both voltages are straight within a tolerance ``rough`` [V].
-
-    While an arc burns it is the time over which charge and energy, which are integrals of exponentials, are
-    resolved.
-    """
-    h = left
-    if burns:
-        for m in range(piece.shape[1]):
-            rate = abs(piece[RATE, m])
-            if rate * h > _RESOLVED and piece[START, m] != 0.0 and piece[RATE, m].real * t > _GONE:
-                h = _RESOLVED / rate
-        return h
+def _panel(piece: Complex, t: float, left: float, rough: float) -> float:
+    """Time from t on over which both voltages are straight within a tolerance ``rough`` [V]."""
     bound = max(curvature_bound(piece, 0, t), curvature_bound(piece, 1, t))
-    return h if bound == 0.0 else min(h, math.sqrt(8.0 * rough / bound))
+    return left if bound == 0.0 else min(left, math.sqrt(8.0 * rough / bound))
 
 
 @inner
-def _burn(piece: Complex, films: Films, state: State, t: float, h: float) -> None:
+def _burning_panel(piece: Complex, t: float, left: float) -> float:
+    """Time from t on over which charge and energy of an arc, integrals of exponentials, are resolved."""
+    h = left
+    for m in range(piece.shape[1]):
+        rate = abs(piece[RATE, m])
+        if rate * h > _RESOLVED and piece[START, m] != 0.0 and piece[RATE, m].real * t > _GONE:
+            h = _RESOLVED / rate
+    return h
+
+
+@inner
+def _burn(piece: Complex, films: Films, state: State, t: float, h: float, first: tuple[float, float]) -> None:
     """Add charge, energy and largest current of the arcs between t and t + h to their events."""
+    for b in range(2):
+        if burns_in(state, b):
+            state.event[b, PEAK] = max(state.event[b, PEAK], abs(first[b]) / films.arc[b])
     for k in range(POINTS.size):
         at = t + h * POINTS[k]
         move(piece, at)
         for b in range(2):
-            if _burns(state, b):
+            if burns_in(state, b):
                 v = voltage(piece, b)
                 current = v / films.arc[b]
                 state.event[b, CHARGE] += h * WEIGHTS[k] * current
                 state.event[b, ENERGY] += h * WEIGHTS[k] * current * v
                 state.event[b, PEAK] = max(state.event[b, PEAK], abs(current))
+
+
+@inner
+def _ended(piece: Complex, films: Films, state: State, t: float, end: float, first: tuple[float, float],
+           last: tuple[float, float]) -> tuple[float, int, int]:  # fmt: skip
+    """First time between t and end at which a film breaks down or an arc goes out, what it is, and where.
+
+    The voltage differs from the straight line between its first and last value by less than its curvature
+    allows, so that most panels need no search.
+    """
+    what, film = _NOTHING, 0
+    for b in range(2):
+        bound = curvature_bound(piece, b, t) * (end - t) ** 2 / 8.0
+        low, high = min(abs(first[b]), abs(last[b])), max(abs(first[b]), abs(last[b]))
+        if first[b] * last[b] < 0.0:
+            low = 0.0
+        found = -1.0
+        if state.phase[b] == INSULATING and high + bound >= threshold(films, state, b):
+            found = crossing(piece, b, t, end, threshold(films, state, b), RISES)
+        elif state.phase[b] == ARC and low - bound <= films.extinction[b]:
+            found = crossing(piece, b, t, end, films.extinction[b], FALLS)
+        if 0.0 <= found <= end:
+            what, film, end = (_BROKEN if state.phase[b] == INSULATING else _OUT), b, found
+    return end, what, film
 
 
 @inner
@@ -247,40 +147,24 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
     tuple
         Time that has passed [s], what ended it, and at which film.
     """
-    c = _state_of(films, state)
+    c = state_of(films, state)
     begin(circuits, c, state.x, source, piece)
     t, what, film = 0.0, _NOTHING, 0
-    burns = _burns(state, 0) or _burns(state, 1)
+    burns = burns_in(state, 0) or burns_in(state, 1)
     move(piece, 0.0)
     first = (voltage(piece, 0), voltage(piece, 1))
     while t < left and what == _NOTHING:
-        h = _panel(piece, burns, t, left - t, meters.rough[0])
+        h = _burning_panel(piece, t, left - t) if burns else _panel(piece, t, left - t, meters.rough[0])
         end = left if t + h >= left else t + h
         move(piece, end)
         last = (voltage(piece, 0), voltage(piece, 1))
-        for b in range(2):
-            bound = curvature_bound(piece, b, t) * (end - t) ** 2 / 8.0
-            low, high = min(abs(first[b]), abs(last[b])), max(abs(first[b]), abs(last[b]))
-            if first[b] * last[b] < 0.0:
-                low = 0.0
-            found = -1.0
-            if state.phase[b] == INSULATING:
-                level = _level(films, state, b)
-                if high + bound >= level:
-                    found = crossing(piece, b, t, end, level, True)
-            elif state.phase[b] == ARC and low - bound <= films.extinction[b]:
-                found = crossing(piece, b, t, end, films.extinction[b], False)
-            if found >= 0.0 and found <= end:
-                what, film, end = (_BROKEN if state.phase[b] == INSULATING else _OUT), b, found
+        end, what, film = _ended(piece, films, state, t, end, first, last)
         if what != _NOTHING:
             move(piece, end)
             last = (voltage(piece, 0), voltage(piece, 1))
-        for b in range(2):
-            if _burns(state, b):
-                state.event[b, PEAK] = max(state.event[b, PEAK], abs(first[b]) / films.arc[b])
         measure(meters, now + t, end - t, source.level + source.slope * t, first, last)
         if burns:
-            _burn(piece, films, state, t, end - t)
+            _burn(piece, films, state, t, end - t, first)
         t, first = end, last
     volts[0], volts[1] = first
     move(piece, t)
@@ -291,9 +175,9 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
 @inner
 def _replace(circuits: Circuits, films: Films, state: State, b: int, volts: float) -> None:
     """Move the elements of a bearing to their next position; the charges of all nodes stay."""
-    before = _state_of(films, state)
+    before = state_of(films, state)
     state.place[b] = (state.place[b] + 1) % films.positions[b]
-    after = _state_of(films, state)
+    after = state_of(films, state)
     n = state.x.size
     charges = np.zeros(n)
     for i in range(n):
@@ -307,7 +191,7 @@ def _replace(circuits: Circuits, films: Films, state: State, b: int, volts: floa
 
 
 @inner
-def _ignite(films: Films, state: State, b: int, now: float, volts: float) -> None:
+def _ignite(state: State, b: int, now: float, volts: float) -> None:
     """Let the film of a bearing break down."""
     state.phase[b] = ARC
     for column in range(COLUMNS):
@@ -324,20 +208,20 @@ def _insulate(films: Films, state: State, b: int, now: float, events: Array, cou
     state.event[b, OFF] = now
     for column in range(COLUMNS):
         events[count, column] = state.event[b, column]
-    _next_film(films, state, b)
+    next_film(films, state, b)
 
 
 @inner
-def _scheduled(circuits: Circuits, films: Films, state: State, b: int, now: float, source: float, volts: float,
-               events: Array, count: int) -> int:  # fmt: skip
+def _scheduled(circuits: Circuits, films: Films, state: State, b: int, now: float, source: float,
+               volts: float, events: Array, count: int) -> int:  # fmt: skip
     """Do what the clocks of a bearing say; return the number of events."""
     if state.clocks[b, POSITION] <= 0.0:
         _replace(circuits, films, state, b, source)
         state.clocks[b, POSITION] = films.step[b]
     if state.clocks[b, RENEWAL] <= 0.0:
         if state.phase[b] == INSULATING or state.phase[b] == TOUCHING:
-            _next_film(films, state, b)
-        state.clocks[b, RENEWAL] = _waits(state, b, films.renewal[b])
+            next_film(films, state, b)
+        state.clocks[b, RENEWAL] = waits(state, b, films.renewal[b])
     if state.clocks[b, RECOVERY] <= 0.0:
         if abs(volts) > _FED * films.extinction[b]:
             # The source has fed the arc again.
@@ -348,7 +232,7 @@ def _scheduled(circuits: Circuits, films: Films, state: State, b: int, now: floa
     if state.clocks[b, TOUCH] <= 0.0:
         count = _touch(films, state, b, now, events, count)
         touching = state.phase[b] == TOUCHING
-        state.clocks[b, TOUCH] = _waits(state, b, films.touch[b, 1 if touching else 0])
+        state.clocks[b, TOUCH] = waits(state, b, films.touch[b, 1 if touching else 0])
     return count
 
 
@@ -357,7 +241,7 @@ def _touch(films: Films, state: State, b: int, now: float, events: Array, count:
     """Let asperities of a bearing touch, or part; an arc ends where they touch."""
     if state.phase[b] == TOUCHING:
         state.phase[b] = INSULATING
-        _next_film(films, state, b)
+        next_film(films, state, b)
         return count
     if state.phase[b] != INSULATING:
         _insulate(films, state, b, now, events, count)
@@ -370,10 +254,10 @@ def _touch(films: Films, state: State, b: int, now: float, events: Array, count:
 def start_clocks(films: Films, state: State, b: int) -> None:
     """Set the clocks of a bearing at the start, and draw its first threshold."""
     state.clocks[b, POSITION] = films.step[b]
-    state.clocks[b, RENEWAL] = _waits(state, b, films.renewal[b])
+    state.clocks[b, RENEWAL] = waits(state, b, films.renewal[b])
     state.clocks[b, RECOVERY] = math.inf
-    state.clocks[b, TOUCH] = _waits(state, b, films.touch[b, 0])
-    _next_film(films, state, b)
+    state.clocks[b, TOUCH] = waits(state, b, films.touch[b, 0])
+    next_film(films, state, b)
 
 
 @inner
@@ -433,7 +317,7 @@ def advance(circuits: Circuits, films: Films, segments: Segments, state: State, 
             state.ring[0] += segments.ring[k]
             state.cursor[2] = 1.0
         while passed < segments.duration[k]:
-            if count + 4 > events.shape[0] or np.max(state.used) > state.random.shape[2] - _RESERVE:
+            if count + 4 > events.shape[0] or np.max(state.used) > state.random.shape[2] - RESERVE:
                 state.cursor[0], state.cursor[1] = k, passed
                 return count
             left, ends = _until_next(state, segments.duration[k] - passed)
@@ -445,7 +329,7 @@ def advance(circuits: Circuits, films: Films, segments: Segments, state: State, 
             passed = segments.duration[k] if ends and what == _NOTHING else passed + t
             now = state.time[0] + state.time[1]
             if what == _BROKEN:
-                _ignite(films, state, film, now, volts[film])
+                _ignite(state, film, now, volts[film])
             elif what == _OUT:
                 state.phase[film] = RECOVERING
                 state.clocks[film, RECOVERY] = films.recovery[film]

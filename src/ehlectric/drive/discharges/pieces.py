@@ -27,10 +27,13 @@ RECIPROCALS = tuple(1.0 / (k + 2.0) for k in range(_TERMS, 0, -1))
 _LOWEST = -700.0
 
 # Rows of a piece: rates, amplitudes at its start, forces f0 and f1, second derivatives at its start,
-# amplitudes at a time, and the voltage across each film per amplitude. Its columns are the modes of the circuit, the
-# source without its ringing, and the ringing, which are modes of their own.
+# amplitudes at a time, and the voltage across each film per amplitude. Its columns are the modes of the
+# circuit, the source without its ringing, and the ringing, which are modes of their own.
 RATE, START, FORCE, SLOPE, CURVATURE, NOW, FILMS = range(7)
 ROWS, FURTHER = 8, 2
+
+# Ways of a crossing.
+RISES, FALLS = range(2)
 
 # Steps of the search for a crossing, and the part of the level within which it is found.
 _STEPS, _CLOSE = 200, 1e-13
@@ -182,8 +185,8 @@ def _safe_step(distance: float, rate: float, bound: float) -> float:
 
 
 @inner
-def crossing(piece: Complex, film: int, start: float, end: float, level: float, rising: bool) -> float:
-    """First time in (start, end) at which abs(voltage) rises to a level, or falls to it; -1 if at none.
+def crossing(piece: Complex, film: int, start: float, end: float, level: float, way: int) -> float:
+    """First time in (start, end) at which abs(voltage) RISES to a level, or FALLS to it; -1 if at none.
 
     No crossing is stepped over: each step is one in which the bound of the second derivative allows none.
     Where the voltage is not turned away from the level, the steps converge as those of Newton's method do.
@@ -193,7 +196,7 @@ def crossing(piece: Complex, film: int, start: float, end: float, level: float, 
         move(piece, t)
         v, rate = voltage(piece, film), voltage_rate(piece, film, t)
         bound = curvature_bound(piece, film, t)
-        if rising:
+        if way == RISES:
             if level - abs(v) <= _CLOSE * level:
                 return t
             step = min(_safe_step(level - v, -rate, bound), _safe_step(level + v, rate, bound))

@@ -12,19 +12,10 @@ from ehlectric.arrays import Array
 from ehlectric.cases.drives.breakdown import Breakdown
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.modes import Modes
-from ehlectric.drive.discharges.march import (
-    COLUMNS,
-    FILM,
-    OFF,
-    ON,
-    Films,
-    Segments,
-    State,
-    advance,
-    start_clocks,
-)
+from ehlectric.drive.discharges.march import advance, start_clocks
 from ehlectric.drive.discharges.meters import Meters
 from ehlectric.drive.discharges.pieces import Circuits
+from ehlectric.drive.discharges.states import COLUMNS, FILM, OFF, ON, Films, Segments, State
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384
@@ -97,8 +88,8 @@ class Measuring:
 
 def circuits_of(modes: Modes, ring: complex | None) -> Circuits:
     """Modes as the compiled march reads them."""
-    rate = np.array([-1.0 + 0.0j if ring is None else ring])
-    return Circuits(*(getattr(modes, name) for name in Circuits._fields[:-1]), rate)
+    own = {name: getattr(modes, name) for name in Circuits._fields if name != "ring"}
+    return Circuits(**own, ring=np.array([-1.0 + 0.0j if ring is None else ring]))
 
 
 def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
@@ -113,7 +104,7 @@ def films_of(bearings: Sequence[BearingElement], breakdown: Breakdown) -> Films:
     renewal = np.array([breakdown.renewal_time or one.transit for one in bearings])
     for b, one in enumerate(bearings):
         scale[b, : one.breakdown.size] = one.breakdown
-        if 0.0 < one.touching:
+        if one.touching > 0.0:
             closed = breakdown.touch_time or one.transit
             # A film that never insulates opens for a part of the time that is not noticed.
             touch[b] = closed * max(1.0 - one.touching, 1e-9) / one.touching, closed

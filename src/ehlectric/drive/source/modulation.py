@@ -129,9 +129,9 @@ def _six_steps(link: float, fundamental: float, duration: float, first: float) -
     sixth, count = 1.0 / (6.0 * fundamental), int(np.ceil(6.0 * fundamental * duration))
     for start, end in _intervals(count, round(6.0 * fundamental * first)):
         number = np.arange(start, end)
-        inside = number[number > 0]
+        inside = number[number > 0].astype(float)
         step = np.where(inside % 2 == 1, -1.0, 1.0) * link / 3.0
-        yield Steps(min((number[-1] + 1) * sixth, duration), inside * sixth, step)
+        yield Steps(min((number[-1] + 1) * sixth, duration), np.asarray(inside * sixth, dtype=float), step)
 
 
 def _carrier_steps(source: Source, duration: float, first: float) -> Iterator[Steps]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drives.source import Source
-from ehlectric.drive.discharges.march import Segments
+from ehlectric.drive.discharges.states import Segments
 from ehlectric.drive.source.modulation import Steps
 from ehlectric.drive.source.waveform import Waveform
 
@@ -120,7 +120,7 @@ def sampled(waveform: Waveform, duration: float) -> Iterator[Segments]:
     Segments
         Pieces of one chunk of samples.
     """
-    left = int(round(duration / waveform.step))
+    left = round(duration / waveform.step)
     while left > 0:
         for first in range(0, min(left, waveform.values.size - 1), _SAMPLES):
             count = min(_SAMPLES, waveform.values.size - 1 - first, left - first)

@@ -12,17 +12,21 @@ from ehlectric.drive.circuit.state_space import Element, state_space
 
 def test_capacitive_divider():
     """A jump of the source is shared by the reciprocal capacitances: C1/(C1 + C2)."""
-    system = state_space([Element("capacitor", "a", "b", 1e-10), Element("capacitor", "b", "frame", 3e-10)], ("a", "frame"))
+    own = [Element("capacitor", "a", "b", 1e-10), Element("capacitor", "b", "frame", 3e-10)]
+    system = state_space(own, ("a", "frame"))
     # The states p + k u do not jump, so that p jumps by -k u.
     assert -system.jump == pytest.approx([0.25], rel=1e-14)
     assert system.rates == pytest.approx(np.zeros((1, 1)))
 
 
 def test_series_resonance():
-    """L i' = u - v, C v' = i: the eigenvalues are those of an oscillator of 1/(2 pi sqrt(L C)), damped by R/(2 L)."""
+    """L i' = u - v, C v' = i: an oscillator of 1/sqrt(L C), damped by R/(2 L)."""
     inductance, capacitance, resistance = 1e-3, 1e-9, 100.0
     system = state_space(
-        [Element("inductor", "a", "b", inductance, resistance), Element("capacitor", "b", "frame", capacitance)],
+        [
+            Element("inductor", "a", "b", inductance, resistance),
+            Element("capacitor", "b", "frame", capacitance),
+        ],
         ("a", "frame"),
     )
     damping = resistance / (2.0 * inductance)

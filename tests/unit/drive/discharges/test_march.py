@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from ehlectric.drive.discharges.march import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Segments
+from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Segments
 from tests.helpers.drives import arc, element, march, motor, square
 
 
@@ -105,7 +105,7 @@ def test_charge_and_energy_with_leak_and_inductance_balance():
     breakdown = arc(extinction_voltage=0.1, recovery_time=2e-8)
     record = march(circuit, bearings, breakdown, ramp(0.0, 1e8, 2e-6, 5))
     event = record.events[0]
-    systems = states_of(circuit, bearings, breakdown, False)
+    systems = states_of(circuit, bearings, breakdown, touches=False)
     rotor = systems[0].potential("rotor")
 
     def rates(system):
@@ -115,7 +115,9 @@ def test_charge_and_energy_with_leak_and_inductance_balance():
         return rotor @ (x - system.jump * 1e8 * t)
 
     before, burning = systems[0], systems[2]
-    first = solve_ivp(rates(before), (0.0, event[ON]), np.zeros(before.force.size), method="Radau", rtol=1e-10, atol=1e-13)
+    first = solve_ivp(
+        rates(before), (0.0, event[ON]), np.zeros(before.force.size), method="Radau", rtol=1e-10, atol=1e-13
+    )
     assert film(before, event[ON], first.y[:, -1]) == pytest.approx(4.0, rel=1e-6)
 
     def with_integrals(t, y):
@@ -187,7 +189,9 @@ def test_events_do_not_depend_on_the_time_step():
     inside = np.tile(np.arange(10), whole.duration.size) * steps
     fine = Segments(steps, np.repeat(whole.level, 10) + np.repeat(whole.slope, 10) * inside,
                     np.repeat(whole.slope, 10), np.zeros(steps.size, dtype=complex))  # fmt: skip
-    coarse_events, fine_events = (march(circuit, bearings, breakdown, s, seed=5).events for s in (whole, fine))
+    coarse_events, fine_events = (
+        march(circuit, bearings, breakdown, s, seed=5).events for s in (whole, fine)
+    )
     assert len(coarse_events) == len(fine_events) > 100
     np.testing.assert_allclose(coarse_events, fine_events, rtol=1e-6, atol=1e-12)
 
