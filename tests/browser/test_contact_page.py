@@ -199,6 +199,25 @@ def test_a_measured_surface_has_the_statistics_of_the_command(open_page, app_ser
 
 
 @pytest.mark.slow
+def test_an_answer_that_arrives_while_a_value_is_typed_leaves_it(open_page, app_server):
+    page = open_page(app_server, smooth())
+    page.get_by_test_id("upload-surface").wait_for(state="attached")
+    upload(page, SURFACES / "hfm-1.hfm")
+    statistics(page)
+    box = page.get_by_test_id("field-roughness-rescale_rq")
+    box.fill("20 nm")
+    # The form is chosen while the focus stays in the box; its answer draws the page again.
+    page.get_by_test_id("field-roughness-form").evaluate(
+        "box => { box.value = 'parabola'; box.dispatchEvent(new Event('change')); }"
+    )
+    table = page.locator("[data-testid=surface-statistics]")
+    table.filter(has_text="form: parabola").wait_for()
+    assert box.input_value() == "20 nm"
+    box.press("Tab")
+    table.filter(has_text="20.0").wait_for()
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "content"),
     [
