@@ -26,6 +26,9 @@ _BESIDE_FILMS = (
     "bearing.coating",
 )
 
+# Tables and keys that no solution uses.
+_UNUSED = ("title", "ranges")
+
 # Inputs of strength laws that contacts without a solved field replace by a constant strength.
 _NOT_QUICK = ("discharge.weibull.shape", "discharge.weibull.reference_area")
 
@@ -128,7 +131,7 @@ def _solved(case: BearingCase) -> BearingSolution:
     if quick is None:
         assert refused is not None
         raise refused
-    return quick_solution(quick)
+    return quick_solution(quick, beside=(*_BESIDE_FILMS, *_UNUSED))
 
 
 def _point(solution: BearingSolution) -> MarginPoint:

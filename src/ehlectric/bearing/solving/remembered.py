@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.changes import flattened
 
 # Positions of the cage: fewer than in a solution, because only ratios to a quick solution are used.
 POSITIONS = 2
@@ -24,25 +25,30 @@ class _Key:
     case: BearingCase = field(compare=False)
 
 
-def quick_solution(case: BearingCase) -> BearingSolution:
+def quick_solution(case: BearingCase, *, beside: tuple[str, ...] = ()) -> BearingSolution:
     """Solution of a bearing with contacts that are not solved, at two positions of the cage.
 
     Parameters
     ----------
     case : BearingCase
         Case of the bearing, with ``contacts`` "atlas" or "formula".
+    beside : tuple of str
+        Beginnings of the dotted keys on which nothing depends that is taken from the contacts of the solution.
+        Cases that differ in them alone share the contacts.
 
     Returns
     -------
     BearingSolution
-        Solution, which is computed once for equal cases.
+        Solution of the case, whose contacts are computed once for equal cases.
 
     Raises
     ------
     InputError
         As ``solution_of`` does.
     """
-    return _once(_Key(repr(case.to_dict()), case))
+    inputs = flattened(case.to_dict())
+    text = repr({key: value for key, value in inputs.items() if not key.startswith(beside)})
+    return replace(_once(_Key(text, case)), case=case)
 
 
 @lru_cache(maxsize=_KEPT)
