@@ -33,8 +33,8 @@ def quick_solution(case: BearingCase, *, beside: tuple[str, ...] = ()) -> Bearin
     case : BearingCase
         Case of the bearing, with ``contacts`` "atlas" or "formula".
     beside : tuple of str
-        Beginnings of the dotted keys on which nothing depends that is taken from the contacts of the solution.
-        Cases that differ in them alone share the contacts.
+        Beginnings of the dotted keys on which no contact depends. Cases that differ in them alone share their
+        contacts; the conditions of the solution may have other values of these keys.
 
     Returns
     -------
