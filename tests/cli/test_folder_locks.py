@@ -119,7 +119,8 @@ def test_a_map_is_drawn_while_a_sweep_runs_and_two_maps_wait(stored, tmp_path, m
 @pytest.mark.slow
 def test_a_second_moving_run_does_not_touch_the_first(tmp_path):
     """Neither its motion.nc nor its steps; a kill releases the folder, and the run is resumed."""
-    process = begun(tmp_path)
+    # Long enough for a second command to start meanwhile, on a busy machine too.
+    process = begun(tmp_path, text=LONG.replace("passes = 20.0\nrecord = 400", "passes = 8.0\nrecord = 100"))
     second = [COMMAND, "run", "case.toml", "-o", "out", "--no-plots"]
     done = subprocess.run(second, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")

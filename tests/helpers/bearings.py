@@ -6,6 +6,7 @@ import dataclasses
 from ehlectric.bearing.contacts import ContactSolution, ContactValues
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
+from ehlectric.bearing.quick.dry import quick_solutions
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
@@ -160,7 +161,8 @@ def with_values(one, **values):
 
 def quick_contact(ring, load, way):
     """Contact with a ring at a load [N] without solving it: "atlas" or "formula"."""
-    return kind_of(ring).quick[way](contact_of(ring, load))
+    (found,) = quick_solutions([kind_of(ring).quick[way](contact_of(ring, load))])
+    return found
 
 
 def numbers_of(result):

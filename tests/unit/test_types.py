@@ -55,23 +55,29 @@ solve(case, workers=2)
 """
 
 
-def checked(tmp_path, script):
-    """Lines of mypy about a script of a user, which has its own strict settings and no plugin."""
-    (tmp_path / "script.py").write_text(script, encoding="utf-8")
-    (tmp_path / "mypy.ini").write_text("[mypy]\nstrict = True\n", encoding="utf-8")
+@pytest.fixture(scope="module")
+def told(tmp_path_factory):
+    """Lines of mypy about scripts of a user, which have their own strict settings and no plugin.
+
+    Both scripts are checked at once, as most of the time goes into the package.
+    """
+    folder = tmp_path_factory.mktemp("user")
+    (folder / "script.py").write_text(SCRIPT, encoding="utf-8")
+    (folder / "wrong.py").write_text(WRONG, encoding="utf-8")
+    (folder / "mypy.ini").write_text("[mypy]\nstrict = True\n", encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "script.py"],
-        cwd=tmp_path,
+        [sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "script.py", "wrong.py"],
+        cwd=folder,
         env={"MYPYPATH": str(Path(ehlectric.__file__).parents[1]), "PATH": ""},
         capture_output=True,
         text=True,
     )
-    return [line for line in done.stdout.splitlines() if line.startswith("script.py")]
+    return done.stdout.splitlines()
 
 
 @pytest.mark.slow
-def test_a_type_checker_knows_the_results(tmp_path):
-    lines = checked(tmp_path, SCRIPT)
+def test_a_type_checker_knows_the_results(told):
+    lines = [line for line in told if line.startswith("script.py")]
     assert not [line for line in lines if ": error" in line], lines
     shown = [line.partition("Revealed type is ")[2].strip('"') for line in lines]
     assert shown == [
@@ -88,6 +94,7 @@ def test_a_type_checker_knows_the_results(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_type_checker_finds_mistakes(tmp_path):
-    wrong = [line.split(":")[1] for line in checked(tmp_path, WRONG) if ": error" in line]
+def test_a_type_checker_finds_mistakes(told):
+    lines = [line for line in told if line.startswith("wrong.py")]
+    wrong = [line.split(":")[1] for line in lines if ": error" in line]
     assert {int(number) for number in wrong} == {4, 5, 6, 7, 9, 10}

@@ -15,6 +15,7 @@ from ehlectric.bearing.loads.rollers import roller_equilibrium
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.quick.by_atlas import ball_by_atlas, roller_by_atlas
 from ehlectric.bearing.quick.by_formula import ball_by_formula, roller_by_formula
+from ehlectric.bearing.quick.dry import QuickContact
 from ehlectric.bearing.ring_contacts import (
     BallContact,
     RingContacts,
@@ -47,7 +48,8 @@ class Kind(Generic[G, C]):
     solve : callable
         Contact and table ``[solver]`` -> contact with its film and field solved.
     quick : mapping of str to callable
-        Contact -> contact without solving it, by ``contacts`` of a bearing file: "atlas" or "formula".
+        Contact -> contact without solving it, by ``contacts`` of a bearing file: "atlas" or "formula". The
+        numbers of all contacts with a ring follow by ``quick_solutions``.
     fits : callable
         Contact -> whether the domain holds the length over which the film builds up.
     rigid_capacitance : callable
@@ -65,7 +67,7 @@ class Kind(Generic[G, C]):
     contact: Callable[[RingContacts[G], float], C]
     grid: Callable[[C], Grid]
     solve: Callable[[C, Solver], ContactSolution]
-    quick: Mapping[str, Callable[[C], ContactSolution]]
+    quick: Mapping[str, Callable[[C], QuickContact]]
     fits: Callable[[C], bool]
     rigid_capacitance: Callable[[RingContacts[G], float], float]
     loads: int

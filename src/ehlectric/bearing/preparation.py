@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -250,10 +251,10 @@ def least_load(ring: RingContacts[Any]) -> float:
     theirs.
     """
     kind = kind_of(ring)
-    for load in np.geomspace(1e-6, 1e6, 121):
-        if kind.fits(kind.contact(ring, float(load))):
-            return float(load)
-    return math.inf
+    loads = np.geomspace(1e-6, 1e6, 121)
+    # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
+    first = bisect_left(loads, 1, key=lambda load: int(kind.fits(kind.contact(ring, float(load)))))
+    return float(loads[first]) if first < loads.size else math.inf
 
 
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:
@@ -269,8 +270,7 @@ def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick:
     loads = np.geomspace(least, largest, number) if largest / least > _ALIKE else np.array([largest])
     # Elements that are pressed outward only by their centrifugal force carry far less than the others.
     light = all_loads[(all_loads > 0.0) & (all_loads < _LEAST * largest)]
-    lightest = least_load(ring)
-    own = max(float(np.min(light)), _LIGHTEST * largest, lightest) if light.size else math.inf
+    own = max(float(np.min(light)), _LIGHTEST * largest, least_load(ring)) if light.size else math.inf
     return [*_lighter(own, float(loads[0])), *(float(load) for load in loads)]
 
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.conditions import BearingConditions, G_co, RingConditions
-from ehlectric.bearing.gaps.groove import Raceway, groove_capacitance, match_film, outside_capacitance
+from ehlectric.bearing.gaps.groove import groove_capacitance, match_film, outside_capacitance
+from ehlectric.bearing.gaps.raceway import Raceway
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.loads.geometry import BallBearing, ContactRadii, RollerBearing
 from ehlectric.cases.discharge import Discharge
@@ -304,13 +305,48 @@ def around_ball(contact: BallContact, nodes: tuple[Array, Array], thickness: Arr
         Largest relative difference, at the edge of the domain, between the film thickness and the gap
         outside.
     """
-    raceway, modulus = raceway_of(contact.ring), contact.ring.conditions.modulus
     x, y = np.meshgrid(*nodes, indexing="ij")
     rim = np.ones_like(thickness, dtype=bool)
     rim[1:-1, 1:-1] = False
-    matched = match_film(raceway, contact.dry, modulus, x=x[rim], y=y[rim], thickness=thickness[rim])
     domain = float(nodes[0][0]), float(nodes[0][-1]), float(nodes[1][-1])
-    return outside_capacitance(raceway, matched, domain), matched.mismatch
+    found = around_balls(contact.ring, contact.dry, domain, (x[rim], y[rim]), thickness[rim])
+    return float(found[0]), float(found[1])
+
+
+def around_balls(
+    ring: RingContacts[BallBearing],
+    dry: DryContact,
+    domain: tuple[float | Array, float | Array, float | Array],
+    rim: tuple[Array, Array],
+    thickness: Array,
+    opened: Array | None = None,
+) -> tuple[Array, Array]:
+    """Capacitances as of ``around_ball``, for balls under several loads at once.
+
+    Parameters
+    ----------
+    ring : RingContacts
+        Contacts of the balls with one ring.
+    dry : DryContact
+        Dry contacts, values of shape (...).
+    domain : tuple of float or ndarray, shape (...)
+        Inlet, outlet and side of the domains [m].
+    rim : tuple of ndarray, shape (..., n)
+        Points on the edges of the domains, along and across entrainment [m].
+    thickness : ndarray, shape (..., n)
+        Film thickness at the points [m].
+    opened : ndarray, shape (..., n), optional
+        Deflection at the points, where it is known [m].
+
+    Returns
+    -------
+    capacitance, mismatch : ndarray, shape (...)
+        Values as of ``around_ball``.
+    """
+    raceway, (x, y) = raceway_of(ring), rim
+    modulus = ring.conditions.modulus
+    matched = match_film(raceway, dry, modulus, x=x, y=y, thickness=thickness, opened=opened)
+    return outside_capacitance(raceway, matched, domain), np.asarray(matched.mismatch)
 
 
 def around_roller(ring: RingContacts[RollerBearing], half_width: float, x: Array, thickness: Array) -> float:

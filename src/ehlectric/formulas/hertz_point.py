@@ -34,6 +34,8 @@ _CIRCLE = 1e-6
 class DryContact:
     """Semi-axes, largest pressure and approach of the dry (Hertz) contact of two bodies.
 
+    The values may be arrays that broadcast with positions, for several contacts at once.
+
     Attributes
     ----------
     semi_axis_x, semi_axis_y : float

@@ -105,24 +105,25 @@ def stretched(start: ArrayLike, end: ArrayLike, scale: ArrayLike, nodes: int) ->
     return scale * np.sinh(at), (last - first) * weights * scale * np.cosh(at)
 
 
-def matched_offset(missing: Callable[[float], Array], thickness: Array) -> tuple[float, float]:
+def matched_offset(missing: Callable[[Array], Array], thickness: Array) -> tuple[Array, Array]:
     """Offset of a gap with which it continues a film along the edge of the film's domain.
 
     With this offset the error of 1/h adds up to zero over the edge. The gap need not fit at every point.
+    Several films are matched at once.
 
     Parameters
     ----------
     missing : callable
-        Function that gives, for an offset [m], the film thickness less the gap at each point of the edge [m].
-        The gap grows with the offset, at a small angle to it.
-    thickness : ndarray, shape (n,)
+        Function that gives, for offsets of shape (..., 1) [m], the film thickness less the gap at each point
+        of the edge, shape (..., n) [m]. The gap grows with the offset, at a small angle to it.
+    thickness : ndarray, shape (..., n)
         Film thickness at the points [m].
 
     Returns
     -------
-    offset : float
+    offset : ndarray, shape (...)
         Offset [m].
-    mismatch : float
+    mismatch : ndarray, shape (...)
         Largest difference between film thickness and gap over the film thickness, dimensionless.
 
     Examples
@@ -131,17 +132,21 @@ def matched_offset(missing: Callable[[float], Array], thickness: Array) -> tuple
 
     >>> film, gap = np.array([5e-6, 5e-6]), np.array([4e-6, 2e-6])
     >>> offset, mismatch = matched_offset(lambda offset: film - gap - offset, film)
-    >>> round(offset * 1e6, 3), round(mismatch, 3)
+    >>> round(float(offset) * 1e6, 3), round(float(mismatch), 3)
     (2.0, 0.2)
     """
-    weights = thickness**-2.0 / np.sum(thickness**-2.0)
-    offset = 0.0
-    # Fixed-point iteration. The gap changes with the offset by the cosine of an angle that is small over the
-    # film's domain, so a few rounds suffice.
+    weights = thickness**-2.0 / np.sum(thickness**-2.0, axis=-1, keepdims=True)
+    enough = _SETTLED * np.min(thickness, axis=-1)
+    offset = step = before = np.zeros(thickness.shape[:-1])
     for _ in range(12):
-        left = missing(offset)
-        change = float(weights @ left)
-        if abs(change) <= _SETTLED * float(np.min(thickness)):
+        left = missing(offset[..., np.newaxis])
+        error = np.sum(weights * left, axis=-1)
+        settled = np.abs(error) <= enough
+        if np.all(settled):
             break
-        offset += change
-    return offset, float(np.max(np.abs(left) / thickness))
+        # Secant method. The gap changes with the offset by the cosine of an angle that is small over the
+        # film's domain, so that the first step is nearly right.
+        slope = np.divide(error - before, step, out=np.full(step.shape, -1.0), where=step != 0.0)
+        before, step = error, np.where(settled, 0.0, -error / slope)
+        offset = offset + step
+    return offset, np.max(np.abs(left) / thickness, axis=-1)

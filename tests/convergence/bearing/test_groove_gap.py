@@ -5,7 +5,8 @@ import pytest
 from scipy.constants import epsilon_0
 
 import ehlectric
-from ehlectric.bearing.gaps.groove import Raceway, match_film, outside_capacitance
+from ehlectric.bearing.gaps.groove import match_film, outside_capacitance
+from ehlectric.bearing.gaps.raceway import Raceway
 from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.places import EXAMPLES
 

@@ -7,7 +7,9 @@ from scipy.integrate import quad
 
 from ehlectric.bearing.accuracy import counted, film_error
 from ehlectric.bearing.breakdown import breakdown_of
+from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.quick.by_atlas import _around_ball, _around_roller, _edge, _integral
+from ehlectric.bearing.quick.dry import quick_solutions
 from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solution import capacitance
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
@@ -184,3 +186,22 @@ def test_a_strength_that_needs_the_field_is_refused_by_the_name_of_the_way(way):
     words = {"atlas": "contacts from the atlas", "formula": "contacts by formula"}[way]
     with pytest.raises(InputError, match=words):
         solution_of(case)
+
+
+@pytest.mark.parametrize("tables", [BALLS, ROLLERS], ids=["balls", "rollers"])
+@pytest.mark.parametrize("inner", [True, False])
+def test_contacts_of_several_loads_are_those_of_each_alone(tables, inner):
+    """From loads with a domain and a film of their own to those that share the default domain."""
+    ring, loads = ring_of(bearing_case(tables), inner=inner, speed=SPEED), (2.0, 20.0, 200.0, 900.0)
+    together = quick_solutions([ball_or_roller_by_atlas(ring, load) for load in loads])
+    for load, found in zip(loads, together, strict=True):
+        alone = quick_contact(ring, load, "atlas")
+        assert found.load == load
+        assert found.warnings == alone.warnings
+        assert found.mismatch == pytest.approx(alone.mismatch, rel=1e-9, abs=1e-15)
+        for one, other in zip(found.values.columns(), alone.values.columns(), strict=True):
+            assert one == pytest.approx(other, rel=1e-12, abs=0.0)
+
+
+def ball_or_roller_by_atlas(ring, load):
+    return kind_of(ring).quick["atlas"](contact_of(ring, load))

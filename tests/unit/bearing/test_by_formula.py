@@ -8,7 +8,8 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
-from ehlectric.bearing.gaps.groove import LoadedContact, Raceway, outside_capacitance
+from ehlectric.bearing.gaps.groove import LoadedContact, outside_capacitance
+from ehlectric.bearing.gaps.raceway import Raceway
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_tails
 from ehlectric.bearing.quick.dry import _unit_opening
 from ehlectric.formulas.hertz_point import DryContact, axis_ratio, dry_contact, point_deflection

@@ -7,11 +7,10 @@ import pytest
 
 from ehlectric.bearing.gaps.groove import (
     LoadedContact,
-    Raceway,
     groove_capacitance,
-    groove_gap,
     outside_capacitance,
 )
+from ehlectric.bearing.gaps.raceway import Raceway, groove_gap
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.ring_contacts import (
     BallContact,

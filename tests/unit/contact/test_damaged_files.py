@@ -113,7 +113,7 @@ def test_edited_values_are_refused_or_used(kind, stored):
 def test_edited_values_are_refused_or_drawn(kind, stored, tmp_path):
     counts = edit_and_use(kind, raw(stored[kind]), share(range(1000, 1400), 4))
     assert min(counts.values()) > 12
-    edit_and_use(kind, raw(stored[kind]), share(range(2000, 2030), 3), tmp_path)
+    edit_and_use(kind, raw(stored[kind]), share(range(2000, 2030), 6), tmp_path)
 
 
 def read_damaged(kind, stored, path, seeds, capfd):

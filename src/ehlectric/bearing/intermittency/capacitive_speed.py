@@ -9,15 +9,12 @@ from scipy.optimize import brentq
 from ehlectric.bearing.intermittency.duty import CAPACITIVE, duty_of
 from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solution import CONDUCTING, BearingSolution, lambda_ratio
-from ehlectric.bearing.solving.contacts_and_circuit import solution_of
+from ehlectric.bearing.solving.remembered import quick_solution
 from ehlectric.errors import InputError
 
 # Factor between the speeds that are looked at, their number in each direction from that of the case, and the
 # tolerance of the logarithm of the speed: 0.2 %.
 _STEP, _STEPS, _TOLERANCE = 3.0, 3, 2e-3
-
-# Positions of the cage: fewer than in a solution, as the share of time hardly changes over a pitch.
-_POSITIONS = 2
 
 # Least share of time whose logarithm is taken; far below any speed that is looked for.
 _LEAST = 1e-12
@@ -52,7 +49,7 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     quick, _ = quick_case(case)
     if quick is None:
         return None
-    own, start = math.log(case.bearing.inner_speed), solution_of(quick, positions=_POSITIONS)
+    own, start = math.log(case.bearing.inner_speed), quick_solution(quick)
     scale = lambda_ratio(solution) / lambda_ratio(start)
 
     known: dict[float, float] = {}
@@ -65,7 +62,7 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     def found(log: float) -> float:
         """How far the bearing is beyond both limits, by logarithms; negative where it is not capacitive."""
         changed = quick.replace({"bearing.inner_speed": math.exp(log)})
-        at = start if log == own else solution_of(changed, positions=_POSITIONS)
+        at = start if log == own else quick_solution(changed)
         share = duty_of(at, film_scale=scale).contact_time_share
         room = math.log(scale * lambda_ratio(at) / CONDUCTING)
         return min(math.log(CAPACITIVE / max(share, _LEAST)), room)

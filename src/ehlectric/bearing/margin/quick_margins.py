@@ -10,12 +10,9 @@ from ehlectric.bearing.breakdown import breakdown_of
 from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.shaft_voltage import margin, shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, insulating, lambda_ratio
-from ehlectric.bearing.solving.contacts_and_circuit import solution_of
+from ehlectric.bearing.solving.remembered import quick_solution
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
-
-# Number of positions of the cage: fewer than in a solution, because only ratios of margins are used.
-_POSITIONS = 2
 
 # Tables and keys on which neither films nor breakdown voltages of contacts depend.
 _BESIDE_FILMS = (
@@ -28,6 +25,9 @@ _BESIDE_FILMS = (
     "bearing.parallel_capacitance",
     "bearing.coating",
 )
+
+# Tables and keys that no solution uses.
+_UNUSED = ("title", "ranges")
 
 # Inputs of strength laws that contacts without a solved field replace by a constant strength.
 _NOT_QUICK = ("discharge.weibull.shape", "discharge.weibull.reference_area")
@@ -131,7 +131,7 @@ def _solved(case: BearingCase) -> BearingSolution:
     if quick is None:
         assert refused is not None
         raise refused
-    return solution_of(quick, positions=_POSITIONS)
+    return quick_solution(quick, beside=(*_BESIDE_FILMS, *_UNUSED))
 
 
 def _point(solution: BearingSolution) -> MarginPoint:

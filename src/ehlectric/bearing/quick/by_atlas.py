@@ -11,9 +11,16 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.quick.by_formula import ball_by_formula, roller_by_formula
-from ehlectric.bearing.quick.dry import LINE, POINT, hertz_area, hertz_mean, permittivity, quick_solution
+from ehlectric.bearing.quick.dry import (
+    LINE,
+    POINT,
+    QuickContact,
+    hertz_area,
+    hertz_mean,
+    permittivity,
+    quick_contact,
+)
 from ehlectric.bearing.quick.errors import FORMULA_OF_BALLS, FORMULA_OF_ROLLERS
 from ehlectric.bearing.ring_contacts import BallContact, Contact, RollerContact, check_contact
 from ehlectric.contact.conditions import default_side
@@ -37,14 +44,14 @@ _NODES = _NODES + 0.5
 
 # Kind of a contact, and functions that compute one: from the atlas, and by formula with further options.
 C = TypeVar("C", BallContact, RollerContact)
-Way: TypeAlias = Callable[[C], ContactSolution]
-FormulaWay: TypeAlias = Callable[..., ContactSolution]
+Way: TypeAlias = Callable[[C], QuickContact]
+FormulaWay: TypeAlias = Callable[..., QuickContact]
 
 # Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
 _Part = tuple[Array, Array]
 
 
-def ball_by_atlas(contact: BallContact) -> ContactSolution:
+def ball_by_atlas(contact: BallContact) -> QuickContact:
     """Film, capacitances and voltages of a ball's contact from the atlas of films.
 
     Parameters
@@ -54,7 +61,7 @@ def ball_by_atlas(contact: BallContact) -> ContactSolution:
 
     Returns
     -------
-    ContactSolution
+    QuickContact
         Numbers with the error that the atlas states for the films. Outside the atlas the films at the nearest
         load that it has change with the load as in the formula of Nijenbanning, Venner and Moes (rollers: of
         Moes). Without such a load they are those of ``ball_by_formula``. Both have the error of a formula,
@@ -85,7 +92,7 @@ def ball_by_atlas(contact: BallContact) -> ContactSolution:
     return _solution(contact, film, [radius * _integral(part, middle) for part in parts])
 
 
-def roller_by_atlas(contact: RollerContact) -> ContactSolution:
+def roller_by_atlas(contact: RollerContact) -> QuickContact:
     """Film, capacitances and voltages of a roller's contact from the atlas of films.
 
     Parameters, returned values, errors and notes are those of ``ball_by_atlas``, with the formula of
@@ -112,7 +119,7 @@ def _film(contact: Contact) -> ContactFilm | None:
         return None
 
 
-def _left(contact: C, ways: tuple[Way[C], FormulaWay], error: float) -> ContactSolution:
+def _left(contact: C, ways: tuple[Way[C], FormulaWay], error: float) -> QuickContact:
     """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has.
 
     Parameters
@@ -128,20 +135,17 @@ def _left(contact: C, ways: tuple[Way[C], FormulaWay], error: float) -> ContactS
     text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
     edge = _edge(contact)
     if edge is None:
-        solution: ContactSolution = by_formula(contact)
+        solution: QuickContact = by_formula(contact)
     else:
         # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
         # there the films change as those of a formula that holds for light contacts, too.
-        own, trend = by_atlas(edge).values, contact.film / edge.film
-        least, central = own.minimum_thickness, own.central_thickness
-        joined = by_formula(edge, (least, central)).values
+        own, trend = by_atlas(edge), contact.film / edge.film
+        least, central = own.films
+        joined = by_formula(edge, own.films)
         solution = by_formula(contact, (trend * least, trend * central))
         inside, hertz = own.inside / joined.inside, own.hertz / joined.hertz
-        values = solution.values
-        values = replace(values, inside=inside * values.inside, hertz=hertz * values.hertz)
-        solution = replace(solution, values=values)
-    warning = ResultWarning("atlas-left", text)
-    return replace(solution, error=error, warnings=(warning, *solution.warnings))
+        solution = replace(solution, inside=inside * solution.inside, hertz=hertz * solution.hertz)
+    return replace(solution, error=error, warnings=(ResultWarning("atlas-left", text),))
 
 
 def _edge(contact: C) -> C | None:
@@ -163,7 +167,7 @@ def _edge(contact: C) -> C | None:
     return None
 
 
-def _solution(contact: Contact, film: ContactFilm, around: list[float]) -> ContactSolution:
+def _solution(contact: Contact, film: ContactFilm, around: list[float]) -> QuickContact:
     """Numbers of a contact; ``around`` are the integrals of dA/h of the dry gap before and behind [m]."""
     oil, numbers = contact.ring.oil, film.film
     # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
@@ -175,7 +179,7 @@ def _solution(contact: Contact, film: ContactFilm, around: list[float]) -> Conta
     mean = hertz_mean(contact, lambda pressure: law(share * pressure))
     hertz = numbers.zone * mean * hertz_area(contact) / mass
     outside = oil.relative_permittivity * (numbers.inlet * around[0] + numbers.outlet * around[1])
-    return quick_solution(
+    return quick_contact(
         contact,
         (film.minimum_thickness, film.central_thickness),
         inside=hertz + outside,

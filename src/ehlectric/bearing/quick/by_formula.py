@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ehlectric.bearing.contacts import ContactSolution
 from ehlectric.bearing.quick.dry import (
+    QuickContact,
     ball_gap,
     hertz_area,
     hertz_mean,
     permittivity,
-    quick_solution,
+    quick_contact,
     roller_gap,
 )
 from ehlectric.bearing.ring_contacts import BallContact, RollerContact, check_contact
@@ -23,7 +23,7 @@ from ehlectric.formulas.hertz_point import point_pressure
 
 def ball_by_formula(
     contact: BallContact, films: tuple[float, float] | None = None, *, wide: bool = False
-) -> ContactSolution:
+) -> QuickContact:
     """Film, capacitances and voltages of a ball's contact by film formulas.
 
     Parameters
@@ -37,7 +37,7 @@ def ball_by_formula(
 
     Returns
     -------
-    ContactSolution
+    QuickContact
         Numbers without an error estimate: the formulas may be 30 % off, and more for light loads.
 
     Raises
@@ -59,7 +59,7 @@ def ball_by_formula(
     (x, y), gap = ball_gap(contact, central)
     pressure = dry.max_pressure * point_pressure(x[:, np.newaxis] / b, y / b, a / b)
     mean = hertz_mean(contact, lambda p: permittivity(oil, p))
-    return quick_solution(
+    return quick_contact(
         contact,
         (least, central),
         inside=float(np.vdot(areas((x, y)), permittivity(oil, pressure) / gap)),
@@ -70,7 +70,7 @@ def ball_by_formula(
 
 def roller_by_formula(
     contact: RollerContact, films: tuple[float, float] | None = None, *, wide: bool = False
-) -> ContactSolution:
+) -> QuickContact:
     """Film, capacitances and voltages of a roller's contact by film formulas.
 
     Parameters
@@ -84,7 +84,7 @@ def roller_by_formula(
 
     Returns
     -------
-    ContactSolution
+    QuickContact
         Numbers without an error estimate: the formulas may be 40 % off, and more for light loads.
 
     Raises
@@ -104,7 +104,7 @@ def roller_by_formula(
     x, gap = roller_gap(contact, central)
     pressure = conditions.max_pressure * line_pressure(x / conditions.half_width)
     mean = hertz_mean(contact, lambda p: permittivity(oil, p))
-    return quick_solution(
+    return quick_contact(
         contact,
         (least, central),
         inside=length * float(np.vdot(areas((x,)), permittivity(oil, pressure) / gap)),

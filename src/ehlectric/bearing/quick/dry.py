@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import astuple, dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -16,11 +17,13 @@ from ehlectric.bearing.ring_contacts import (
     BallContact,
     Contact,
     RollerContact,
-    around_ball,
+    around_balls,
     around_roller,
 )
+from ehlectric.cases.grid import Grid
 from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.setup import Setup
+from ehlectric.errors import ResultWarning
 from ehlectric.formulas.hertz_line import line_gap
 from ehlectric.formulas.hertz_point import DryContact, axis_ratio, point_deflection
 from ehlectric.lubricant.oil import Oil
@@ -120,7 +123,44 @@ def _axes(contact: Contact) -> tuple[float, float]:
     return contact.conditions.half_width, 0.5 * contact.length
 
 
-def quick_solution(
+@dataclass(frozen=True)
+class QuickContact:
+    """Contact without a solved film, before the capacitance around its domain is computed.
+
+    Attributes
+    ----------
+    contact : BallContact or RollerContact
+        Contact and load.
+    films : tuple of float
+        Minimum and central film thickness [m].
+    inside, hertz : float
+        Integral of eps_r dA/h over the domain, and over the Hertz area [m].
+    grid : Grid
+        Grid on which the contact would be solved.
+    domain : tuple of float
+        Ends along entrainment and side of the domain in semi-axes.
+    error : float or None
+        Relative error of the films; None where it is unknown.
+    warnings : tuple of ResultWarning
+        Warnings on the way to the films.
+    """
+
+    contact: Contact
+    films: tuple[float, float]
+    inside: float
+    hertz: float
+    grid: Grid
+    domain: tuple[float, float, float]
+    error: float | None = None
+    warnings: tuple[ResultWarning, ...] = ()
+
+    @property
+    def load(self) -> float:
+        """Load of the contact [N]."""
+        return self.contact.load
+
+
+def quick_contact(
     contact: Contact,
     films: tuple[float, float],
     *,
@@ -128,8 +168,8 @@ def quick_solution(
     hertz: float,
     error: float | None = None,
     wide: bool = False,
-) -> ContactSolution:
-    """Numbers of a contact without a solved film.
+) -> QuickContact:
+    """Contact without a solved film.
 
     Parameters
     ----------
@@ -147,32 +187,53 @@ def quick_solution(
 
     Returns
     -------
-    ContactSolution
-        Its largest field strength is the voltage over the minimum film thickness.
+    QuickContact
+        Contact with its domain.
     """
-    ring, groups, oil = contact.ring, contact.conditions.contact, contact.ring.oil
-    eps_r = ring.conditions.oil.relative_permittivity
-    domain = _domain(contact, wide=wide)
-    outside, mismatch = _outside(contact, domain, films[1])
+    grid = ball_grid(contact) if isinstance(contact, BallContact) else roller_grid(contact)
+    domain = _domain(contact, grid if wide else None)
     if wide:
-        inside += oil.relative_permittivity * _further(contact, domain, films[1])
+        inside += contact.ring.oil.relative_permittivity * _further(contact, domain, films[1])
+    return QuickContact(contact, films, inside, hertz, grid, domain, error)
+
+
+def quick_solutions(contacts: Sequence[QuickContact]) -> list[ContactSolution]:
+    """Numbers of contacts with one ring without solved films.
+
+    Parameters
+    ----------
+    contacts : sequence of QuickContact
+        Contacts with the same ring. The capacitance around their domains is computed for all at once.
+
+    Returns
+    -------
+    list of ContactSolution
+        Their largest field strength is the voltage over the minimum film thickness.
+    """
+    around = _around(contacts)
+    return [_solution(contact, *found) for contact, found in zip(contacts, around, strict=True)]
+
+
+def _solution(quick: QuickContact, outside: float, mismatch: float) -> ContactSolution:
+    """Numbers of a contact with the capacitance in vacuum around its domain [F]."""
+    contact, (least, central) = quick.contact, quick.films
+    groups, ring, oil = contact.conditions.contact, contact.ring, contact.ring.oil
     axes = _axes(contact)
     values = ContactValues(
         max_pressure=contact.conditions.max_pressure,
         semi_axis_x=axes[0],
         semi_axis_y=axes[1],
-        minimum_thickness=films[0],
-        central_thickness=films[1],
-        inside=epsilon_0 * inside,
-        outside_oil=outside * eps_r,
+        minimum_thickness=least,
+        central_thickness=central,
+        inside=epsilon_0 * quick.inside,
+        outside_oil=outside * ring.conditions.oil.relative_permittivity,
         outside_air=outside,
-        plate=epsilon_0 * oil.relative_permittivity * hertz_area(contact) / films[1],
-        strength_per_volt=1.0 / films[0],
-        breakdown_voltage=gap_breakdown(ring.discharge, films[0]),
-        hertz=epsilon_0 * hertz,
+        plate=epsilon_0 * oil.relative_permittivity * hertz_area(contact) / central,
+        strength_per_volt=1.0 / least,
+        breakdown_voltage=gap_breakdown(ring.discharge, least),
+        hertz=epsilon_0 * quick.hertz,
     )
-    grid = ball_grid(contact) if isinstance(contact, BallContact) else roller_grid(contact)
-    setup = Setup(oil=oil, grid=grid)
+    setup = Setup(oil=oil, grid=quick.grid)
     if isinstance(contact, BallContact):
         warnings = point_case_warnings(setup, contact.conditions)
     else:
@@ -180,47 +241,71 @@ def quick_solution(
     return ContactSolution(
         load=contact.load,
         values=values,
-        error=error,
+        error=quick.error,
         moes_m=groups.moes_m,
         moes_l=groups.moes_l,
         mismatch=mismatch,
         converged=True,
-        warnings=without_regime(warnings),
+        warnings=(*quick.warnings, *without_regime(warnings)),
     )
 
 
-def _domain(contact: Contact, *, wide: bool) -> tuple[float, float, float]:
-    """Ends along entrainment and side of the domain in semi-axes: default, or that of a solved contact."""
+def _domain(contact: Contact, grid: Grid | None) -> tuple[float, float, float]:
+    """Ends along entrainment and side of the domain in semi-axes: of a grid, or the default ones."""
     if isinstance(contact, RollerContact):
-        grid = roller_grid(contact)
-        return (grid.inlet, grid.outlet, 1.0) if wide else (*LINE, 1.0)
-    grid = ball_grid(contact)
+        return (*LINE, 1.0) if grid is None else (grid.inlet, grid.outlet, 1.0)
+    if grid is None:
+        return (*POINT, contact.conditions.side)
     assert grid.side is not None
-    return (grid.inlet, grid.outlet, grid.side) if wide else (*POINT, contact.conditions.side)
+    return grid.inlet, grid.outlet, grid.side
 
 
-def _outside(contact: Contact, domain: tuple[float, float, float], central: float) -> tuple[float, float]:
-    """Capacitance in vacuum [F] around the domain, and how far its gap is off at the edge, relative."""
-    if isinstance(contact, RollerContact):
-        b = contact.conditions.half_width
-        x = np.array(domain[:2])
-        gap = central + b**2 / contact.conditions.reduced_radius * line_gap(x)
-        return around_roller(contact.ring, b, b * x, gap), 0.0
-    dry, side = contact.dry, domain[2]
-    x = dry.semi_axis_x * np.linspace(*domain[:2], _NODES[0])
-    y = dry.semi_axis_y * np.linspace(-side, side, _NODES[1])
-    # Only the gap at the edge is used.
-    gap = np.full(_NODES, central)
-    for edge in (np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]):
-        gap[edge] = central + _opened(contact, *(axis[edge] for axis in np.meshgrid(x, y, indexing="ij")))
-    return around_ball(contact, (x, y), gap)
+def _around(contacts: Sequence[QuickContact]) -> Iterator[tuple[float, float]]:
+    """Capacitances in vacuum [F] around domains, and how far their gaps are off at the edge, relative."""
+    balls = [(quick, quick.contact) for quick in contacts if isinstance(quick.contact, BallContact)]
+    if balls:
+        yield from _around_balls(balls)
+        return
+    for quick in contacts:
+        contact = quick.contact
+        assert isinstance(contact, RollerContact)
+        b, x = contact.conditions.half_width, np.array(quick.domain[:2])
+        gap = quick.films[1] + b**2 / contact.conditions.reduced_radius * line_gap(x)
+        yield around_roller(contact.ring, b, b * x, gap), 0.0
 
 
-def _opened(contact: BallContact, x: Array, y: Array) -> Array:
-    """Gap of a ball's dry contact [m] at positions [m]."""
-    conditions, dry = contact.conditions, contact.dry
-    rigid = x**2 / (2.0 * conditions.radius_x) + y**2 / (2.0 * conditions.radius_y)
-    return np.maximum(0.0, rigid + point_deflection(x, y, dry, conditions.reduced_modulus) - dry.approach)
+def _around_balls(balls: Sequence[tuple[QuickContact, BallContact]]) -> Iterator[tuple[float, float]]:
+    """Capacitances in vacuum [F] around the domains of balls, and how far their gaps are off, relative."""
+    ring, conditions = balls[0][1].ring, balls[0][1].conditions
+    rx, ry, modulus = conditions.radius_x, conditions.radius_y, conditions.reduced_modulus
+    dry = DryContact(*np.array([astuple(contact.dry) for _, contact in balls]).T)
+    domains = np.array([quick.domain for quick, _ in balls]).T
+    films = np.array([quick.films[1] for quick, _ in balls])[:, np.newaxis]
+    rims = np.stack([_unit_rim(axis_ratio(rx, ry), *quick.domain) for quick, _ in balls], axis=1)
+    b, a, pressure, approach = (values[:, np.newaxis] for values in vars(dry).values())
+    x, y, opened = b * rims[0], a * rims[1], pressure * b / modulus * rims[2]
+    gap = np.maximum(0.0, x**2 / (2.0 * rx) + y**2 / (2.0 * ry) + opened - approach)
+    domain = dry.semi_axis_x * domains[0], dry.semi_axis_x * domains[1], dry.semi_axis_y * domains[2]
+    found = around_balls(ring, dry, domain, (x, y), films + gap, opened)
+    yield from ((float(outside), float(mismatch)) for outside, mismatch in zip(*found, strict=True))
+
+
+@lru_cache(maxsize=128)
+def _unit_rim(ratio: float, inlet: float, outlet: float, side: float) -> Array:
+    """Nodes on the edge of a ball's domain in semi-axes, and deflection over p_h b/E', shape (3, n).
+
+    The deflection is the same on both sides across entrainment.
+    """
+    along, across = np.linspace(inlet, outlet, _NODES[0]), np.linspace(0.0, side, _NODES[1] // 2 + 1)
+    # Both ends from the middle to the side, and the side without its ends.
+    x = np.concatenate([np.full(across.shape, inlet), np.full(across.shape, outlet), along[1:-1]])
+    y = np.concatenate([across, across, np.full(along.size - 2, side)])
+    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
+    half = np.stack([x, y, point_deflection(x, ratio * y, unit, 1.0)])
+    other = half[:, y > 0.0] * np.array([[1.0], [-1.0], [1.0]])
+    rim = np.concatenate([half, other], axis=1)
+    rim.flags.writeable = False
+    return rim
 
 
 def _further(contact: Contact, domain: tuple[float, float, float], central: float) -> float:
@@ -233,18 +318,13 @@ def _further(contact: Contact, domain: tuple[float, float, float], central: floa
             x, weights = _geometric(abs(near), abs(far))
             total += contact.length * b * float(np.sum(weights / (central + scale * line_gap(x))))
         return total
-    dry, side, far = contact.dry, contact.conditions.side, domain[2]
-    across = far * _AT**2, far * 2.0 * _AT * _PART
-    strips = [(_geometric(abs(near), abs(end)), across) for near, end in zip(POINT, domain[:2], strict=True)]
-    for sign in (-1.0, 1.0):
-        end = abs(POINT[0 if sign < 0.0 else 1])
-        strips.append(((end * _AT, end * _PART), _geometric(side, far)))
-    for (x, along), (y, beside) in strips:
-        if along[0] * beside[0] == 0.0:
-            continue
-        at = dry.semi_axis_x * x[:, np.newaxis], dry.semi_axis_y * y
-        inverse = 1.0 / (central + _opened(contact, *np.broadcast_arrays(*at)))
-        total += 2.0 * dry.semi_axis_x * dry.semi_axis_y * float(along @ inverse @ beside)
+    dry, conditions = contact.dry, contact.conditions
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    for x, y, weights, opened in _unit_beyond(a / b, conditions.side, domain):
+        rigid = (b * x) ** 2 / (2.0 * conditions.radius_x) + (a * y) ** 2 / (2.0 * conditions.radius_y)
+        bent = dry.max_pressure * b / conditions.reduced_modulus * opened
+        gap = central + np.maximum(0.0, rigid + bent - dry.approach)
+        total += 2.0 * b * a * float(np.sum(weights / gap))
     return total
 
 
@@ -253,3 +333,29 @@ def _geometric(near: float, far: float) -> tuple[Array, Array]:
     ratio = np.log(far / near)
     nodes = near * np.exp(ratio * _AT)
     return nodes, ratio * nodes * _PART
+
+
+@lru_cache(maxsize=128)
+def _unit_beyond(
+    ratio: float, side: float, domain: tuple[float, float, float]
+) -> list[tuple[Array, Array, Array, Array]]:
+    """Nodes in semi-axes, weights, deflection over p_h b/E' between the default domain and a wider one."""
+    far = domain[2]
+    across = far * _AT**2, far * 2.0 * _AT * _PART
+    strips = [
+        (_geometric(abs(near), abs(end)), across)
+        for near, end in zip(POINT, domain[:2], strict=True)
+        if end != near
+    ]
+    if far > side:
+        strips += [((end * _AT, abs(end) * _PART), _geometric(side, far)) for end in POINT]
+    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
+    return [
+        (
+            x[:, np.newaxis],
+            y,
+            np.outer(along, beside),
+            point_deflection(x[:, np.newaxis], ratio * y, unit, 1.0),
+        )
+        for (x, along), (y, beside) in strips
+    ]

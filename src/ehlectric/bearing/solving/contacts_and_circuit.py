@@ -6,12 +6,15 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
-from ehlectric.bearing.contacts import ContactCurve, ContactSolution
+from ehlectric.bearing.contacts import ContactCurve
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
+from ehlectric.bearing.quick.dry import quick_solutions
 from ehlectric.bearing.quick.ways import is_quick
+from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.runtime.progress import Progress, silent
@@ -90,11 +93,13 @@ def solution_of_prepared(
         As ``solution_of`` raises them.
     """
     started = time.perf_counter()
-    tasks = [_tasks(case, prepared, inner=inner) for inner in (True, False)]
+    tasks = [_tasks(case, prepared, ring) for ring in prepared.rings]
     processes = 1 if is_quick(case) else workers or cores()
-    solutions = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
-    first = len(tasks[0])
-    curves = ContactCurve(tuple(solutions[:first])), ContactCurve(tuple(solutions[first:]))
+    found = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
+    rings = found[: len(tasks[0])], found[len(tasks[0]) :]
+    if is_quick(case):
+        rings = quick_solutions(rings[0]), quick_solutions(rings[1])
+    curves = ContactCurve(tuple(rings[0])), ContactCurve(tuple(rings[1]))
     return BearingSolution(
         case=case,
         conditions=prepared.conditions,
@@ -107,11 +112,8 @@ def solution_of_prepared(
     )
 
 
-def _tasks(
-    case: BearingCase, prepared: PreparedBearing, *, inner: bool
-) -> list[Callable[[], ContactSolution]]:
-    """Functions that solve the contacts with one ring, by increasing load."""
-    ring = prepared.inner if inner else prepared.outer
+def _tasks(case: BearingCase, prepared: PreparedBearing, ring: RingContacts[Any]) -> list[Callable[[], Any]]:
+    """Functions that solve the contacts with one ring, or compute them quickly, by increasing load."""
     kind = kind_of(ring)
     quick = is_quick(case)
     contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring, quick=quick)]
@@ -133,13 +135,11 @@ def _position(
     return Position(at, inner, outer, None if weibull is None else weibull.shape)
 
 
-def _solved(
-    tasks: Sequence[Callable[[], ContactSolution]], progress: Progress, workers: int
-) -> list[ContactSolution]:
+def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int) -> list[Any]:
     """Contacts in the order of their tasks; the heaviest, which take longest, are solved first."""
-    solutions: dict[int, ContactSolution] = {}
+    solutions: dict[int, Any] = {}
 
-    def done(number: int, solution: ContactSolution) -> None:
+    def done(number: int, solution: Any) -> None:
         solutions[len(tasks) - 1 - number] = solution
         progress(len(solutions), len(tasks), f"contact with {solution.load:.4g} N")
 

@@ -113,7 +113,9 @@ def around_point(
     at, edge = np.meshgrid(x, y, indexing="ij"), thickness[rim]
     place = at[0][rim], at[1][rim]
     opened = point_deflection(*place, dry, modulus)
-    offset, mismatch = matched_offset(lambda gap: edge - opened - points(bodies, gap, *place).gap, edge)
+    missing = edge - opened
+    found = matched_offset(lambda gap: missing - points(bodies, float(gap[0]), *place).gap, edge)
+    offset, mismatch = (float(value) for value in found)
     domain = float(x[0]), float(x[-1]), float(max(-y[0], y[-1]))
     s, t, area = (part.ravel() for part in _rays(bodies, offset, domain, width, ring))
     return (

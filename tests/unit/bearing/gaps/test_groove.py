@@ -9,14 +9,14 @@ from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 from scipy.integrate import dblquad
 
-from ehlectric.bearing.gaps import groove as groove_gap
+from ehlectric.bearing.gaps import groove as capacitances
 from ehlectric.bearing.gaps.groove import (
     LoadedContact,
-    Raceway,
     groove_capacitance,
     match_film,
     outside_capacitance,
 )
+from ehlectric.bearing.gaps.raceway import Raceway, groove_gap
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz_point import dry_contact, point_deflection
 
@@ -73,7 +73,7 @@ def test_gap_by_vectors(outer, angle, gap):
     for psi, phi in ((0.0, 0.0), (0.5, 0.0), (-0.6, 0.05), (0.3, 0.2)):
         y = race.groove_radius * (psi - angle)
         distance, _, area, _ = pointwise(race, gap, psi, phi)
-        found = groove_gap.groove_gap(race, gap, np.array(phi * area / race.groove_radius), np.array(y))
+        found = groove_gap(race, gap, np.array(phi * area / race.groove_radius), np.array(y))
         assert found == pytest.approx(distance, rel=1e-9, abs=1e-16)
 
 
@@ -85,7 +85,7 @@ def test_parabolas_at_the_contact(outer, angle):
     r, rg = race.ball_radius, race.groove_radius
     radius = race.pitch_radius + s * r * np.cos(angle)
     at = np.array([0.0, 1e-6])
-    along, across = (groove_gap.groove_gap(race, 0.0, *xy)[1] for xy in ((at, 0.0 * at), (0.0 * at, at)))
+    along, across = (groove_gap(race, 0.0, *xy)[1] for xy in ((at, 0.0 * at), (0.0 * at, at)))
     assert along == pytest.approx(0.5e-12 * (1.0 / r - s * np.cos(angle) / radius), rel=1e-6, abs=0.0)
     assert across == pytest.approx(0.5e-12 * (1.0 / r - 1.0 / rg), rel=1e-6, abs=0.0)
 
@@ -96,7 +96,7 @@ def test_radii_of_a_catalogues_bearing(outer, angle):
     """Harris: 1/Rx = 2/D +- 2 cos a/(d_m -+ D cos a), upper signs inside, and 1/Ry = 2/D - 1/(f D)."""
     race, s = race_of(0.53, outer=outer, angle=angle), -1.0 if outer else 1.0
     at = np.array([0.0, 1e-6])
-    along, across = (groove_gap.groove_gap(race, 0.0, *xy)[1] for xy in ((at, 0.0 * at), (0.0 * at, at)))
+    along, across = (groove_gap(race, 0.0, *xy)[1] for xy in ((at, 0.0 * at), (0.0 * at, at)))
     rolling = 2.0 / D + s * 2.0 * np.cos(angle) / (PITCH - s * D * np.cos(angle))
     assert along == pytest.approx(0.5e-12 * rolling, rel=1e-6, abs=0.0)
     assert across == pytest.approx(0.5e-12 * (2.0 - 1.0 / 0.53) / D, rel=1e-6, abs=0.0)
@@ -134,8 +134,8 @@ def test_adaptive_quadrature(gap, outer, groove, angle):
 def test_twice_the_nodes_change_nothing(outer, groove, gap, angle, monkeypatch):
     race = race_of(groove, outer=outer, angle=angle)
     found = groove_capacitance(race, gap)
-    monkeypatch.setattr(groove_gap, "_ALONG", 2 * groove_gap._ALONG)
-    monkeypatch.setattr(groove_gap, "_ACROSS", 2 * groove_gap._ACROSS)
+    monkeypatch.setattr(capacitances, "_ALONG", 2 * capacitances._ALONG)
+    monkeypatch.setattr(capacitances, "_ACROSS", 2 * capacitances._ACROSS)
     assert found == pytest.approx(groove_capacitance(race, gap), rel=1e-11, abs=0.0)
 
 
@@ -308,8 +308,8 @@ def test_twice_the_nodes_change_nothing_outside(outer, load, film, monkeypatch):
     domains = [(*ends, side * dry.semi_axis_y) for side in (1.2, 1.75)]
     contact = LoadedContact(dry, E, film - dry.approach, 0.0)
     found = [outside_capacitance(race, contact, domain) for domain in domains]
-    for name in ("_ALONG_PART", "_ACROSS_PART"):
-        monkeypatch.setattr(groove_gap, name, 2 * getattr(groove_gap, name))
+    for name in ("_BESIDE", "_AHEAD", "_BEHIND"):
+        monkeypatch.setattr(capacitances, name, tuple(2 * nodes for nodes in getattr(capacitances, name)))
     finer = [outside_capacitance(race, contact, domain) for domain in domains]
     assert found == pytest.approx(finer, rel=1e-8, abs=0.0)
 
@@ -339,7 +339,7 @@ def test_a_film_is_continued(outer):
     dry = loaded(race, 600.0)
     x, y = rim(-4.0 * dry.semi_axis_x, 2.0 * dry.semi_axis_x, 1.6 * dry.semi_axis_y)
     offset = 3e-7 - dry.approach
-    film = groove_gap.groove_gap(race, offset, x, y) + point_deflection(x, y, dry, E)
+    film = groove_gap(race, offset, x, y) + point_deflection(x, y, dry, E)
     assert np.min(film) > 0.0
     contact = match_film(race, dry, E, x=x, y=y, thickness=film)
     assert contact.offset == pytest.approx(offset, rel=1e-9, abs=0.0)
@@ -374,7 +374,7 @@ def test_domain_may_be_any(outer):
     small, large = (-3.0 * b, 2.0 * b, 1.4 * a), (-4.0 * b, 2.5 * b, 1.7 * a)
 
     def thin(y, x):
-        gap = groove_gap.groove_gap(race, contact.offset, np.array(x), np.array(y))
+        gap = groove_gap(race, contact.offset, np.array(x), np.array(y))
         return 1.0 / float(gap + point_deflection(x, y, dry, E))
 
     ring = 0.0

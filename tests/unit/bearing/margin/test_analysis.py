@@ -398,7 +398,7 @@ def test_inputs_beside_the_films_solve_no_bearing_again(balls, monkeypatch):
     changes = {"motor.rotor_frame_capacitance": 5e-10}, {"bearing.composite_rq": 6e-8}
     again = [margin_at(balls, **one) for one in changes]
     with monkeypatch.context() as patched:
-        patched.delattr("ehlectric.bearing.margin.quick_margins.solution_of")
+        patched.delattr("ehlectric.bearing.margin.quick_margins.quick_solution")
         found = [margins.at(one) for one in changes]
     assert [one.margin for one in found] == pytest.approx(again, rel=1e-3)
     assert found[1].lambda_ratio == pytest.approx(0.5 * margins.own.lambda_ratio, rel=1e-12)

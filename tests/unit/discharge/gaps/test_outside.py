@@ -7,7 +7,8 @@ import pytest
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.bearing.gaps.groove import Raceway, match_film, outside_capacitance
+from ehlectric.bearing.gaps.groove import match_film, outside_capacitance
+from ehlectric.bearing.gaps.raceway import Raceway
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.discharge.gaps import outside as gaps
 from ehlectric.discharge.gaps.bodies import Bodies, Body, points

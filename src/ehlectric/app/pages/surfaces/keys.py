@@ -73,7 +73,9 @@ def _box(key: RoughKey, text: str) -> tuple[ui.element, Callable[[str], None]]:
         box.props["placeholder"] = f"for example {key.example}" if key.example else ""
 
         def typed(found: str) -> None:
-            box.props["value"] = found
+            # The attribute, not the value: each answer draws the whole page again, and would write the value
+            # over what is being typed.
+            box.props["^value"] = found
 
         typed(text)
         return box, typed
