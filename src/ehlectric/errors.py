@@ -349,6 +349,12 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "scatter-large": Cause("Film factors scatter more than the measurement states."),
         "factor-varies": Cause("The film factor changes with the speed."),
         "range-left-out": Cause("The uncertainty of a film factor leaves out the range of an input."),
+        # Measured waveforms
+        "units-assumed": Cause("A file of a waveform states no units; seconds and volts were taken.", "note"),
+        "samples-missing": Cause("Samples may be missing in a file of a waveform."),
+        "waveform-clipped": Cause("The range of the oscilloscope was probably exceeded."),
+        "waveform-coarse": Cause("A measured waveform has few different voltages."),
+        "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
         # Files of other versions
         "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),
         "unclassified": Cause("Another version of the program gave this warning."),

@@ -1,0 +1,180 @@
+"""Equal spacing of times that are read block by block and printed with few digits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError
+
+# Largest deviation from equal spacing, beyond the rounding of printed times [steps].
+_JITTER = 1e-3
+
+# Rounded to the same digits, the times of two ends and a sample between them deviate by one last digit.
+_DIGITS = 1.01
+
+# Samples whose extremes are kept together. Within a group, the deviation that comes from the provisional step is
+# a thousandth of that of the times from which the step is estimated.
+_GROUP = 1000
+
+# Times that give the provisional step, if the file has as many.
+_FIRST = 2 * _GROUP
+
+# Largest share of double distances that are taken for missing samples.
+_FEW = 0.05
+
+
+class Spacing:
+    """Test of equal spacing that keeps no times, only their extremes within groups of samples.
+
+    Parameters
+    ----------
+    source : str
+        Name of the file in errors.
+    """
+
+    def __init__(self, source: str) -> None:
+        self.source = source
+        self.count = 0
+        self.first = self.last = 0.0
+        self.long = 0
+        self.first_long: int | None = None
+        self._step = 0.0  # provisional
+        self._shortest = 0.0
+        self._waiting: list[Array] = []
+        self._groups: list[tuple[Array, Array, Array, Array]] = []
+
+    def add(self, times: Array, line: Callable[[int], int]) -> None:
+        """Take further times; ``line`` gives the line of the file of one of them.
+
+        Raises
+        ------
+        InputError
+            If a time is not after the one before it.
+        """
+        if not times.size:
+            return
+        if not self.count:
+            self.first = float(times[0])
+        before = self.last if self.count else -np.inf
+        steps = np.diff(times, prepend=before)
+        if not np.all(steps > 0.0):
+            bad = int(np.argmin(steps > 0.0))
+            what = "repeats the time before it" if steps[bad] == 0.0 else "goes backward in time"
+            advice = "; if times are printed with too few digits, give the sampling interval as step"
+            raise InputError(
+                self.source,
+                f"line {line(bad)} {what}",
+                takes="increasing times" + advice * (steps[bad] == 0.0),
+            )
+        self._waiting.append(times)
+        self.count += times.size
+        self.last = float(times[-1])
+        if self._step or sum(each.size for each in self._waiting) >= _FIRST:
+            self._take()
+
+    def _take(self) -> None:
+        """Extremes of the deviations of the times that wait from the provisional step."""
+        times = np.concatenate(self._waiting)
+        self._waiting.clear()
+        at = self.count - times.size
+        if not self._step:
+            self._step = (float(times[-1]) - float(times[0])) / max(1, times.size - 1)
+            self._shortest = float(np.min(np.diff(times))) if times.size > 1 else 0.0
+            steps = np.diff(times)
+        else:
+            steps = np.diff(times, prepend=self._before)
+        long = np.flatnonzero(steps > 1.5 * self._shortest)
+        if long.size and self.first_long is None:
+            self.first_long = self.count - steps.size + int(long[0])
+        self.long += long.size
+        self._before = float(times[-1])
+        numbers = np.arange(at, self.count)
+        deviations = times - (self.first + self._step * numbers)
+        begins = np.arange(0, times.size, _GROUP)
+        ends = np.append(begins[1:], times.size) - 1
+        self._groups.append(
+            (
+                numbers[begins].astype(np.float64),
+                numbers[ends].astype(np.float64),
+                np.minimum.reduceat(deviations, begins),
+                np.maximum.reduceat(deviations, begins),
+            )
+        )
+
+    def step(self, resolution: float) -> float:
+        """Spacing of all times, from the first and the last one.
+
+        Parameters
+        ----------
+        resolution : float
+            Last printed digit of the times, in their unit.
+
+        Returns
+        -------
+        float
+            Spacing, in the unit of the times.
+
+        Raises
+        ------
+        InputError
+            If a time deviates from equal spacing by more than the rounding of printed digits explains.
+        """
+        if self._waiting:
+            self._take()
+        step = (self.last - self.first) / (self.count - 1)
+        begin, end, least, most = (np.concatenate(column) for column in zip(*self._groups, strict=True))
+        drift = step - self._step
+        high = most - np.minimum(drift * begin, drift * end)
+        low = least - np.maximum(drift * begin, drift * end)
+        deviations = np.maximum(high, -low)
+        rounding = 8.0 * np.finfo(float).eps * max(abs(self.first), abs(self.last))
+        if np.max(deviations) > _DIGITS * resolution + _JITTER * step + rounding:
+            worst = int(np.argmax(deviations))
+            raise InputError(
+                self.source,
+                f"is unevenly sampled: between samples {int(begin[worst]) + 1} and {int(end[worst]) + 1}, a time "
+                f"is {deviations[worst] / step:.3g} of a step off",
+                takes=f"equal steps of time, here {step:.6g}, up to {_JITTER:g} of a step and the rounding of "
+                "printed times",
+            )
+        return step
+
+    @property
+    def missing(self) -> bool:
+        """Whether a few distances between times are twice the others, as where samples are missing."""
+        return 0 < self.long <= _FEW * self.count
+
+
+def resolution(dialect_decimal: str, ends: Sequence[Sequence[str]]) -> float:
+    """Last printed digit of times: in each group of texts the finest one, of all groups the coarsest.
+
+    A program that leaves out zeros at the end prints some times with fewer digits than others, and one with a
+    fixed number of digits prints fewer decimal places the larger a time is.
+
+    Parameters
+    ----------
+    dialect_decimal : str
+        Decimal mark.
+    ends : sequence of sequences of str
+        Texts of the first times and of the last ones.
+
+    Returns
+    -------
+    float
+        Last digit, in the unit of the times.
+
+    Examples
+    --------
+    >>> resolution(".", [["-1.000e-03", "-9.99e-04"], ["0.001", "0.00101"]])
+    1e-05
+    """
+    return max(min(_last_digit(text, dialect_decimal) for text in group) for group in ends if group)
+
+
+def _last_digit(text: str, decimal: str) -> float:
+    mantissa, _, exponent = text.lower().partition("e")
+    places = len(mantissa.partition(decimal)[2]) - int(exponent or 0)
+    return float(10.0 ** -min(max(places, -300), 300))
