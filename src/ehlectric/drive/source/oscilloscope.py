@@ -23,6 +23,9 @@ from ehlectric.runtime.sizes import check_memory_for
 # Smallest number of samples, and size of the beginning of a file in which its layout is found [bytes].
 LEAST_SAMPLES, _HEAD = 16, 65_536
 
+# Largest credible voltage [V].
+_MOST = 1e9
+
 # Rows at each end of a file whose printed digits are counted.
 _COUNTED = 40
 
@@ -101,7 +104,11 @@ def read_waveform(
     path = Path(path)
     _check_arguments(step, scale)
     content = whole_lines(path)
-    layout, first = _layout(path, next(content, b""))
+    beginning = next(content, b"")
+    if len(beginning) < _HEAD:
+        # The last line of a short file may have no end, and comes alone then.
+        beginning += b"".join(content)
+    layout, first = _layout(path, beginning)
     heads = heads_of(layout)
     choice = _choice(path, heads, column, time_column, (time_unit, value_unit), step)
     record = _Record(path, layout, choice, keeps_times=step is None)
@@ -110,13 +117,7 @@ def read_waveform(
     if values.size < LEAST_SAMPLES:
         raise InputError(path, f"has {values.size} samples", takes=f"at least {LEAST_SAMPLES}")
     start, interval = _times(path, record, heads, choice, step)
-    values *= choice.factor * scale
-    if not np.ptp(values) > 0.0:
-        raise InputError(
-            path, f"is constant, all {values.size} samples of {choice.value} are {values[0]:g} V"
-        )
-    if not np.isfinite(np.ptp(values)):
-        raise InputError(path, f"has voltages beyond all numbers in {choice.value}", takes="finite voltages")
+    _scale(path, values, choice, scale)
     waveform = Waveform(start, interval, values)
     warnings = [*_of_reading(path, record, heads, choice), *quality_warnings(str(path), waveform)]
     return waveform, tuple(warnings)
@@ -127,6 +128,18 @@ def _check_arguments(step: float | None, scale: float) -> None:
         raise InputError("step", got=step, takes="a sampling interval above 0 s")
     if not np.isfinite(scale) or scale == 0.0:
         raise InputError("scale", got=scale, takes="a finite factor other than 0")
+
+
+def _scale(path: Path, values: Array, choice: _Choice, scale: float) -> None:
+    """Make voltages [V] of numbers, in place; constant ones and those beyond all machines are refused."""
+    with np.errstate(over="ignore"):
+        values *= choice.factor * scale
+    low, high = float(np.min(values)), float(np.max(values))
+    if max(abs(low), abs(high)) > _MOST:
+        takes = f"at most {_MOST:g} V; are unit and scale right?"
+        raise InputError(path, f"has {low:g} to {high:g} V in {choice.value}", takes=takes)
+    if low == high:
+        raise InputError(path, f"is constant, all {values.size} samples of {choice.value} are {low:g} V")
 
 
 def _layout(path: Path, text: bytes) -> tuple[Layout, bytes]:
@@ -164,9 +177,7 @@ def _choice(
     time = before[-1] if before else times[0] if times else None
     if time is None and step is None and heads.step is None:
         key, takes = "step", "a sampling interval in s, or the name of a column of times as time_column"
-        raise InputError.worded(
-            key, f"missing; {path} has no column of times that is known; expected {takes}"
-        )
+        raise InputError.worded(key, f"missing; {path} has no column of times that is known; expected {takes}")
     assumed: list[str] = []
     factor = _factor(path, value, "value_unit", given[1], "V", assumed)
     time_factor = 1.0 if time is None else _factor(path, time, "time_unit", given[0], "s", assumed)
@@ -194,18 +205,16 @@ def _single(path: Path, channels: Sequence[Head]) -> Head:
     voltages = [head for head in channels if head.unit in VOLTAGES]
     candidates = voltages or [head for head in channels if not head.unit] or list(channels)
     if not candidates:
-        raise InputError(
-            path, "has one column of numbers, which are times", takes="a column of voltages, too"
-        )
+        raise InputError(path, "has one column of numbers, which are times", takes="a column of voltages, too")
     if len(candidates) > 1:
         listed = f"{path} has the channels {_listed(candidates)}"
-        raise InputError.worded(
-            "column", f"missing; {listed}; expected the name or the number of one of them"
-        )
+        raise InputError.worded("column", f"missing; {listed}; expected the name or the number of one of them")
     return candidates[0]
 
 
-def _factor(path: Path, head: Head, key: str, given: str | None, unit: str, assumed: list[str]) -> float:
+def _factor(
+    path: Path, head: Head, key: str, given: str | None, unit: str, assumed: list[str]
+) -> float:
     """Factor from the unit of a column to the SI unit; a unit that nobody states is assumed to be that."""
     wanted = None if given is None else unit_of(given)
     usual = "'s', 'ms' or 'us'" if unit == "s" else "'V', 'mV' or 'kV'"
@@ -218,9 +227,7 @@ def _factor(path: Path, head: Head, key: str, given: str | None, unit: str, assu
         try:
             stated = units.factor(units.plain(head.unit), unit)
         except ValueError as error:
-            raise InputError(
-                path, f"has {shown(head.unit)} as unit of {head} ({error})", takes=usual
-            ) from None
+            raise InputError(path, f"has {shown(head.unit)} as unit of {head} ({error})", takes=usual) from None
         if factor is not None and factor != stated:
             raise InputError(key, got=f"{shown(given)}, but {path} states {shown(head.unit)} of {head}")
         return stated
@@ -308,9 +315,7 @@ def _times(
     first, last = (at * choice.time_factor for at, _ in record.ends)
     told, given = last - first, step * (record.count - 1)
     if abs(told - given) > _SAME * given + 2.0 * record.resolution * choice.time_factor:
-        says = (
-            f"{step:g} s, {given:.6g} s for {record.count} samples, but the times of {path} span {told:.6g} s"
-        )
+        says = f"{step:g} s, {given:.6g} s for {record.count} samples, but the times of {path} span {told:.6g} s"
         raise InputError("step", got=says)
     return first, step
 
@@ -324,7 +329,7 @@ def _of_reading(path: Path, record: _Record, heads: Heads, choice: _Choice) -> I
         text = f"{path} states {heads.points} samples, but has {record.count}: is the file cut off?"
         yield ResultWarning("samples-missing", text)
     if record.spacing.missing:
-        at = (record.spacing.first_long or 0) + 1
+        at = record.spacing.first_long
         text = (
             f"{path}: {record.spacing.long} of {record.count - 1} distances between times are twice the others, "
             f"the first after sample {at}: times are rounded, or samples are missing; equal steps were taken"

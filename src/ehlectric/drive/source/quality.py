@@ -11,7 +11,8 @@ from ehlectric.drive.source.waveform import Waveform
 from ehlectric.errors import ResultWarning
 
 # Fewest different voltages of a waveform that is not called coarse: an eighth of the range of eight bits.
-_LEVELS = 32
+# Short records have few of them anyhow.
+_LEVELS, _LONG = 32, 256
 
 # A flat top or bottom is clipped if its longest run has at least _RUN samples and _RUNS times as many as the
 # longest run at any other voltage, and if _FLAT times as many samples lie on it as within _BAND of the range
@@ -126,7 +127,9 @@ def longest_run(on: Mask) -> int:
 
 
 def few_levels(values: Array) -> int | None:
-    """Number of different voltages if it is below 32; None for finer waveforms."""
+    """Number of different voltages if it is below 32; None for finer and for short waveforms."""
+    if values.size < _LONG:
+        return None
     known: Array = np.empty(0)
     for begin in range(0, values.size, 1 << 16):
         known = np.union1d(known, values[begin : begin + (1 << 16)])
@@ -157,7 +160,8 @@ def unresolved_edges(values: Array) -> tuple[int, int]:
     >>> unresolved_edges(np.interp(np.arange(60.0), [20.0, 26.0], [0.0, 1.0]))
     (0, 0)
     """
-    steps = np.abs(np.diff(values))
+    steps = np.diff(values)
+    np.abs(steps, out=steps)
     steep = np.flatnonzero(steps >= _EDGE * np.ptp(values))
     edges = _largest_of_groups(steep, steps)[:_MOST]
     if not edges.size:

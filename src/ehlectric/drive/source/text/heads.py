@@ -38,6 +38,10 @@ _POINTS = ("record length", "memory length", "waveform length", "data length", "
 _X_UNIT = ("horizontal units", "horizontal unit", "x unit", "x units", "xunits", "hunit")
 _Y_UNIT = ("vertical units", "vertical unit", "y unit", "y units", "yunits", "vunit")
 
+# First words of other keys, which are no names of columns.
+_OTHER = ("model", "serial", "firmware", "vertical", "horizontal", "trigger", "probe", "label", "record", "memory")
+_OTHER += ("sample", "sampling", "waveform", "gating", "date", "display", "average", "channels", "version")
+
 # Prefixes of a sampling rate such as 1.25 GSa/s.
 _PREFIXES = {"": 1.0, "k": 1e3, "K": 1e3, "M": 1e6, "G": 1e9}
 
@@ -200,7 +204,7 @@ def _take(stated: _Stated, key: str, values: Sequence[str]) -> None:
     elif key in _X_UNIT:
         stated.units.setdefault("x", list(values))
     elif key in _Y_UNIT:
-        stated.units.setdefault("y", list(values))
+        stated.units.setdefault("y", [value.rpartition(":")[2].strip() for value in values])
 
 
 def _plain(text: str) -> float | None:
@@ -286,7 +290,9 @@ def _are_units(layout: Layout, row: Sequence[str]) -> bool:
 def _are_names(layout: Layout, row: Sequence[str]) -> bool:
     """Whether a row has names in the columns of numbers: texts, or whole numbers of channels."""
     key = _key(row[0])
-    if key in (*_STEP, *_RATE, *_POINTS, *_X_UNIT, *_Y_UNIT):
+    # "Sample,CH1" numbers the samples, "Sample Rate,5 MHz" does not.
+    of_keys = key not in _NUMBERINGS and key.split(" ")[0] in _OTHER
+    if of_keys or key in (*_STEP, *_RATE, *_POINTS[:-2], *_X_UNIT, *_Y_UNIT):
         return False
     texts = [row[place] for place in layout.columns]
     numbers = [text for text in texts if layout.dialect.number(text) is not None]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,6 +14,9 @@ from ehlectric.arrays import Array
 from ehlectric.drive.source.text.dialect import Dialect
 from ehlectric.drive.source.text.lines import decoded
 from ehlectric.errors import InputError, shown
+
+# Field of the first row that no file has behind its last column.
+_BEHIND = "behind-the-last-column"
 
 
 @dataclass(frozen=True)
@@ -114,14 +118,19 @@ def block_of(text: bytes, first: int, columns: Columns) -> Block:
 
 def _at_once(text: bytes, columns: Columns) -> tuple[Array, ...] | None:
     """Numbers as the fast parser reads them; None where it meets a line that is not of numbers only."""
-    kinds: dict[int, type] = dict.fromkeys(columns.places, np.float64)
-    # A field behind the last column would be left out without a word. Nothing follows a field in most files,
-    # and texts that are all empty are cheap.
-    kinds[columns.width] = str
+    if b'"' in text:
+        # A quote that is not closed would make one field of many lines.
+        return None
+    kinds: dict[int, Any] = dict.fromkeys(columns.places, np.float64)
+    # A field behind the last column would be left out without a word, so that there is a column for it: its
+    # category is empty. A row of zeros before the others makes the parser know of this column.
+    kinds[columns.width] = "category"
+    separator = columns.dialect.separator
+    longer = (separator or " ").join([*["0"] * columns.width, _BEHIND]).encode()
     try:
         table = pd.read_csv(
-            io.BytesIO(text),
-            sep=r"\s+" if columns.dialect.separator is None else columns.dialect.separator,
+            io.BytesIO(longer + b"\n" + text),
+            sep=r"\s+" if separator is None else separator,
             decimal=columns.dialect.decimal,
             header=None,
             names=range(columns.width + 1),
@@ -134,8 +143,8 @@ def _at_once(text: bytes, columns: Columns) -> tuple[Array, ...] | None:
         )
     except ValueError:  # of pandas, too
         return None
-    values = tuple(table[place].to_numpy() for place in columns.places)
-    if (table[columns.width] != "").any() or not all(np.isfinite(each).all() for each in values):
+    values = tuple(table[place].to_numpy()[1:] for place in columns.places)
+    if not {"", _BEHIND}.issuperset(table[columns.width].cat.categories) or not all(np.isfinite(each).all() for each in values):
         return None
     return values
 

@@ -62,13 +62,11 @@ class Spacing:
         steps = np.diff(times, prepend=before)
         if not np.all(steps > 0.0):
             bad = int(np.argmin(steps > 0.0))
-            what = "repeats the time before it" if steps[bad] == 0.0 else "goes backward in time"
-            advice = "; if times are printed with too few digits, give the sampling interval as step"
-            raise InputError(
-                self.source,
-                f"line {line(bad)} {what}",
-                takes="increasing times" + advice * (steps[bad] == 0.0),
-            )
+            what, takes = "goes backward in time", "increasing times"
+            if steps[bad] == 0.0:
+                what = "repeats the time before it"
+                takes += "; if times are printed with too few digits, give the sampling interval as step"
+            raise InputError(self.source, f"line {line(bad)} {what}", takes=takes)
         self._waiting.append(times)
         self.count += times.size
         self.last = float(times[-1])
