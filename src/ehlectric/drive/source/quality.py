@@ -56,24 +56,25 @@ def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]
     if levels is not None:
         yield ResultWarning(
             "waveform-coarse",
-            f"{source} has only {levels} different voltages in {np.ptp(values):.4g} V: measure with a smaller "
-            "range, or with more bits",
+            f"{source} has only {levels} different voltages in {np.ptp(values):.4g} V: measure with a "
+            "smaller range, or with more bits",
         )
     unresolved, edges = unresolved_edges(values)
     if unresolved:
         yield ResultWarning(
             "edges-unresolved",
-            f"{source}: of {edges} steep edges, {unresolved} have fewer than {_RESOLVED} samples between 10 and "
-            f"90 % of their height at a sampling interval of {waveform.step:.3g} s: rise times and peaks are not "
-            "resolved; measure with a higher sampling rate",
+            f"{source}: of {edges} steep edges, {unresolved} have fewer than {_RESOLVED} samples between 10 "
+            f"and 90 % of their height at a sampling interval of {waveform.step:.3g} s: rise times and peaks "
+            "are not resolved; measure with a higher sampling rate",
         )
 
 
 def clipped_levels(values: Array) -> dict[float, int]:
     """Extremes at which a waveform is probably clipped, with the numbers of samples on them.
 
-    A plateau with noise touches its extremes in short runs only. A waveform without any noise that consists of
-    its two extremes and a few samples between them is taken for a computed square wave, not for a clipped one.
+    A plateau with noise touches its extremes in short runs only. A waveform without any noise that consists
+    of its two extremes and a few samples between them is taken for a computed square wave, not for a clipped
+    one.
 
     Parameters
     ----------

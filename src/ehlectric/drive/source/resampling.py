@@ -12,9 +12,9 @@ from ehlectric.arrays import Array, IntArray
 from ehlectric.drive.source.waveform import Waveform
 from ehlectric.errors import InputError
 
-# Low-pass filter: up to _PASS of the new sampling rate voltages keep their amplitude, above the half of it they
-# are suppressed. With the attenuation [dB], the width of this transition gives the half length of the filter
-# after Kaiser, in new steps.
+# Low-pass filter: up to _PASS of the new sampling rate voltages keep their amplitude, above the half of it
+# they are suppressed. With the attenuation [dB], the width of this transition gives the half length of the
+# filter after Kaiser, in new steps.
 _PASS, _STOP, _ATTENUATION = 0.4, 0.5, 85.0
 HALF = int(np.ceil((_ATTENUATION - 8.0) / (2.285 * 2.0 * np.pi * (_STOP - _PASS)) / 2.0))
 
@@ -51,11 +51,11 @@ def resample(waveform: Waveform, step: float) -> Waveform:
     Notes
     -----
     The filter is a sinc function with a Kaiser window, evaluated at the distances between new and old samples
-    (J. F. Kaiser, Proc. IEEE ISCAS 1974, 20-23). Up to 0.4 of the new sampling rate, amplitudes change by less
-    than 0.1 %; from half of it on, they are 1/1000 or less. It is symmetric and shifts no phase. Its weights are
-    divided by their sum, so that a constant stays the same. Beyond both ends the waveform is mirrored at its
-    first and last sample, which keeps the mean; the ends within 27 new steps are less accurate. A voltage that
-    jumps overshoots by about 9 % of the jump, at most 11 % (Gibbs).
+    (J. F. Kaiser, Proc. IEEE ISCAS 1974, 20-23). Up to 0.4 of the new sampling rate, amplitudes change by
+    less than 0.1 %; from half of it on, they are 1/1000 or less. It is symmetric and shifts no phase. Its
+    weights are divided by their sum, so that a constant stays the same. Beyond both ends the waveform is
+    mirrored at its first and last sample, which keeps the mean; the ends within 27 new steps are less
+    accurate. A voltage that jumps overshoots by about 9 % of the jump, at most 11 % (Gibbs).
 
     Examples
     --------
@@ -71,15 +71,16 @@ def resample(waveform: Waveform, step: float) -> Waveform:
         return waveform
     count = int((waveform.values.size - 1) / ratio + _SAME * waveform.values.size) + 1
     if count < 2:
-        raise InputError("step", got=f"{step:g} s", takes=f"at most {waveform.duration:g} s, the whole waveform")
+        raise InputError(
+            "step", got=f"{step:g} s", takes=f"at most {waveform.duration:g} s, the whole waveform"
+        )
     reach = int(np.ceil(HALF * ratio))
     values = np.empty(count)
     # As many new samples at once as the bound on products allows, at least one.
     many = max(1, _AT_ONCE // (2 * reach + 1))
     for begin in range(0, count, many):
-        values[begin : begin + many] = _filtered(
-            waveform.values, np.arange(begin, min(begin + many, count)) * ratio, ratio, reach
-        )
+        places = ratio * np.arange(begin, min(begin + many, count), dtype=np.float64)
+        values[begin : begin + many] = _filtered(waveform.values, places, ratio, reach)
     return Waveform(waveform.start, step, values)
 
 

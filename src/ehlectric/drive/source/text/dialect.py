@@ -121,8 +121,8 @@ def layout_of(path: object, lines: Sequence[str]) -> Layout:
     Raises
     ------
     InputError
-        If most lines are not of numbers, if they can be read in two ways, or if text follows the first line of
-        numbers.
+        If most lines are not of numbers, if they can be read in two ways, or if text follows the first line
+        of numbers.
     """
     filled = [line for line in lines if line.strip()]
     if not filled:

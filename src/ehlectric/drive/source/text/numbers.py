@@ -144,7 +144,9 @@ def _at_once(text: bytes, columns: Columns) -> tuple[Array, ...] | None:
     except ValueError:  # of pandas, too
         return None
     values = tuple(table[place].to_numpy()[1:] for place in columns.places)
-    if not {"", _BEHIND}.issuperset(table[columns.width].cat.categories) or not all(np.isfinite(each).all() for each in values):
+    if not {"", _BEHIND}.issuperset(table[columns.width].cat.categories) or not all(
+        np.isfinite(each).all() for each in values
+    ):
         return None
     return values
 

@@ -15,8 +15,8 @@ _JITTER = 1e-3
 # Rounded to the same digits, the times of two ends and a sample between them deviate by one last digit.
 _DIGITS = 1.01
 
-# Samples whose extremes are kept together. Within a group, the deviation that comes from the provisional step is
-# a thousandth of that of the times from which the step is estimated.
+# Samples whose extremes are kept together. Within a group, the deviation that comes from the provisional step
+# is at most that of the times from which the step is estimated.
 _GROUP = 1000
 
 # Times that give the provisional step, if the file has as many.
@@ -42,7 +42,7 @@ class Spacing:
         self.long = 0
         self.first_long: int | None = None
         self._step = 0.0  # provisional
-        self._shortest = 0.0
+        self._shortest = self._before = 0.0
         self._waiting: list[Array] = []
         self._groups: list[tuple[Array, Array, Array, Array]] = []
 
@@ -133,10 +133,10 @@ class Spacing:
             worst = int(np.argmax(deviations))
             raise InputError(
                 self.source,
-                f"is unevenly sampled: between samples {int(begin[worst]) + 1} and {int(end[worst]) + 1}, a time "
-                f"is {deviations[worst] / step:.3g} of a step off",
-                takes=f"equal steps of time, here {step:.6g}, up to {_JITTER:g} of a step and the rounding of "
-                "printed times",
+                f"is unevenly sampled: between samples {int(begin[worst]) + 1} and {int(end[worst]) + 1}, a "
+                f"time is {deviations[worst] / step:.3g} of a step off",
+                takes=f"equal steps of time, here {step:.6g}, up to {_JITTER:g} of a step and the rounding "
+                "of printed times",
             )
         return step
 
