@@ -159,7 +159,8 @@ def _dialect(path: object, lines: Sequence[str], sample: Sequence[str]) -> tuple
     best = next(one for one in found if one[:2] == most)
     if best[2] == Dialect(",", "."):
         # A pair such as "0,5" is one number with a decimal comma, too: the heads decide.
-        single = next((one for one in found if one[0] == best[0] and one[2].decimal == ","), None)
+        pairs = (one for one in found if one[2].decimal == "," and one[2].separator != ",")
+        single = next((one for one in pairs if one[0] == best[0]), None)
         if single is not None:
             heads = [line for line in lines if line.strip() and not _is_row(best[2], best[2].fields(line))]
             if not heads:

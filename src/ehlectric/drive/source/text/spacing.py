@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from decimal import Decimal
 
 import numpy as np
 
@@ -146,15 +147,16 @@ class Spacing:
         return 0 < self.long <= _FEW * self.count
 
 
-def resolution(dialect_decimal: str, ends: Sequence[Sequence[str]]) -> float:
-    """Last printed digit of times: in each group of texts the finest one, of all groups the coarsest.
+def resolution(decimal: str, ends: Sequence[Sequence[str]]) -> float:
+    """Last printed digit of times, at that end of a record where it is coarser.
 
     A program that leaves out zeros at the end prints some times with fewer digits than others, and one with a
-    fixed number of digits prints fewer decimal places the larger a time is.
+    fixed number of digits prints fewer decimal places the larger a time is. At each end, the largest time
+    therefore counts, with the most digits that any time there has.
 
     Parameters
     ----------
-    dialect_decimal : str
+    decimal : str
         Decimal mark.
     ends : sequence of sequences of str
         Texts of the first times and of the last ones.
@@ -169,10 +171,13 @@ def resolution(dialect_decimal: str, ends: Sequence[Sequence[str]]) -> float:
     >>> resolution(".", [["-1.000e-03", "-9.99e-04"], ["0.001", "0.00101"]])
     1e-05
     """
-    return max(min(_last_digit(text, dialect_decimal) for text in group) for group in ends if group)
+    return max(_last_digit([text.replace(decimal, ".") for text in texts]) for texts in ends if texts)
 
 
-def _last_digit(text: str, decimal: str) -> float:
-    mantissa, _, exponent = text.lower().partition("e")
-    places = len(mantissa.partition(decimal)[2]) - int(exponent or 0)
-    return float(10.0 ** -min(max(places, -300), 300))
+def _last_digit(texts: Sequence[str]) -> float:
+    numbers = [Decimal(text) for text in texts]
+    filled = [number for number in numbers if number]
+    if not filled:
+        return float(10.0 ** max(-300, min(number.adjusted() for number in numbers)))
+    digits = max(len(number.as_tuple().digits) for number in filled)
+    return float(10.0 ** max(-300, max(number.adjusted() for number in filled) - digits + 1))

@@ -22,7 +22,18 @@ _Y_UNIT = ("vertical units", "vertical unit", "y unit", "y units", "yunits", "vu
 
 # First words of other keys, which are no names of columns.
 _OTHER = (
-    *("model", "serial", "firmware", "version", "date", "vertical", "horizontal", "trigger", "probe", "label"),
+    *(
+        "model",
+        "serial",
+        "firmware",
+        "version",
+        "date",
+        "vertical",
+        "horizontal",
+        "trigger",
+        "probe",
+        "label",
+    ),
     *("record", "memory", "sample", "sampling", "waveform", "gating", "display", "average", "channels"),
 )
 
