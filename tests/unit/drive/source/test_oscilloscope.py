@@ -3,6 +3,7 @@
 import math
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -214,6 +215,30 @@ def test_what_is_no_text_file_is_refused(tmp_path):
     assert "is a directory" in refused(tmp_path)
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        "," * 90_000,
+        ("," * 9_000 + "\n") * 200,
+        "1," * 40_000 + "\n" + "1," * 40_000,
+        ("1 " * 20_000 + "\n") * 40,
+        '"' * 90_000,
+        ('"' + "1" * 200 + "\n") * 2_000,
+        "a" * 90_000 + "\n" + "0,1\n" * 20,
+        "(" * 60_000 + "\n" + "0 1\n" * 20,
+        "Sample Interval," + "1" * 60_000 + "\n" + "0,1\n" * 20,
+        "Sample Rate:" + "1 " * 30_000 + "\n" + "0 1\n" * 20,
+        "t,u\n" + "0,1\n" * 9 + "1" * 90_000 + ",1\n" + "2,3\n" * 9,
+        "\n" * 1_000_000,
+    ],
+    ids=range(12),
+)
+def test_hostile_files_are_refused_soon(tmp_path, content):
+    began = time.process_time()
+    refused(written(tmp_path, content))
+    assert time.process_time() - began < 5.0
+
+
 def test_too_large_a_file_is_refused_before_it_is_read(tmp_path):
     path = tmp_path / "large.csv"
     with path.open("wb") as file:
@@ -246,7 +271,7 @@ def test_a_file_without_heads_has_its_times_first(tmp_path):
         written(tmp_path, "\n".join(f"{k} {v:.4f}" for k, v in enumerate(wave(30))))
     )
     assert (read.step, codes(warnings)) == (1.0, ["units-assumed"])
-    assert "column 2) is in V and that without a name (column 1) is in s" in warnings[0].text
+    assert "column 2 is in V and that column 1 is in s" in warnings[0].text
     path = written(tmp_path, "\n".join(GOOD))
     assert read_waveform(path, time_unit="us", value_unit="mV")[1] == ()
     assert read_waveform(path, time_unit="us", value_unit="mV")[0].step == pytest.approx(1e-6)

@@ -11,6 +11,9 @@ from ehlectric.drive.source.text.heads import Head, Heads
 from ehlectric.drive.source.text.spelling import TIMES, VOLTAGES, unit_of
 from ehlectric.errors import InputError, shown
 
+# Most columns that an error lists: as many as an oscilloscope has channels, with their times.
+_LISTED = 9
+
 
 @dataclass(frozen=True)
 class Choice:
@@ -103,7 +106,7 @@ def _named(path: Path, key: str, wanted: str | int, columns: Sequence[Head]) -> 
 
 
 def _listed(columns: Sequence[Head]) -> str:
-    return ", ".join(str(head) for head in columns[:20]) + ", ..." * (len(columns) > 20)
+    return ", ".join(str(head) for head in columns[:_LISTED]) + ", ..." * (len(columns) > _LISTED)
 
 
 def _single(path: Path, channels: Sequence[Head]) -> Head:

@@ -16,6 +16,10 @@ from ehlectric.drive.source.text.spelling import (
     spelled,
 )
 from ehlectric.drive.source.text.stated import is_key, key_of, stated_by, take
+from ehlectric.errors import printable, short
+
+# Longest name of a column in a text [characters].
+_LONGEST = 40
 
 
 @dataclass(frozen=True)
@@ -49,7 +53,8 @@ class Head:
         return not self.is_numbering and self.name.lower() in TIME_NAMES
 
     def __str__(self) -> str:
-        return f"{self.name or 'without a name'} (column {self.place + 1})"
+        column = f"column {self.place + 1}"
+        return f"{short(printable(self.name), _LONGEST)} ({column})" if self.name else column
 
 
 @dataclass(frozen=True)
