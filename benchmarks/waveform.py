@@ -1,8 +1,8 @@
 """Reading and resampling of a waveform of ten million samples: python -m benchmarks.waveform [SAMPLES]
 
-A file of "time,value" lines is written into a folder for temporary files, read, and resampled to larger steps.
-Seconds are of the processor; the memory is the largest that the process had. For comparison, the time in which
-Python splits the lines of the same file at their commas.
+A file of "time,value" lines is written into a folder for temporary files, read, and resampled to larger
+steps. Seconds are of the processor; the memory is the largest that the process had. For comparison, the time
+in which Python splits the lines of the same file at their commas.
 """
 
 from __future__ import annotations

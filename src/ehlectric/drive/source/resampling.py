@@ -5,8 +5,6 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from scipy.signal import kaiser_beta
-from scipy.special import i0
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.drive.source.waveform import Waveform
@@ -119,6 +117,10 @@ def _filter(distances: Array) -> Array:
 @cache
 def _table() -> Array:
     """Weights at 0, 1/2048, ... of a new step up to the end of the filter, and a zero behind it."""
+    # Both take a while to import.
+    from scipy.signal import kaiser_beta
+    from scipy.special import i0
+
     distances = np.arange(HALF * _TABLE + 1) / _TABLE
     beta = kaiser_beta(_ATTENUATION)
     window = i0(beta * np.sqrt(1.0 - (distances / HALF) ** 2)) / i0(beta)

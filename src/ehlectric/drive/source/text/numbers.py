@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from ehlectric.arrays import Array
 from ehlectric.drive.source.text.dialect import Dialect
@@ -121,6 +120,8 @@ def _at_once(text: bytes, columns: Columns) -> tuple[Array, ...] | None:
     if b'"' in text:
         # A quote that is not closed would make one field of many lines.
         return None
+    import pandas as pd  # takes a while
+
     kinds: dict[int, Any] = dict.fromkeys(columns.places, np.float64)
     # A field behind the last column would be left out without a word, so that there is a column for it: its
     # category is empty. A row of zeros before the others makes the parser know of this column.
