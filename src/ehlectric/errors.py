@@ -144,24 +144,12 @@ class InputError(ValueError):
 
     @classmethod
     def missing(cls, key: str, takes: str) -> Self:
-        """Error of a required key that is missing.
-
-        Examples
-        --------
-        >>> str(InputError.missing("contact.load", "a value"))
-        'contact.load: missing; expected a value'
-        """
+        """Error of a required key that is missing."""
         return cls(key, takes=takes)
 
     @classmethod
     def unknown(cls, key: str, nearest: str) -> Self:
-        """Error of a key that does not exist; ``nearest`` is the existing key with the most similar name.
-
-        Examples
-        --------
-        >>> str(InputError.unknown("contact.lod", "contact.load"))
-        'contact.lod: unknown key; the nearest known one is contact.load'
-        """
+        """Error of a key that does not exist; ``nearest`` is the existing key with the most similar name."""
         return cls.worded(short(key), f"unknown key; the nearest known one is {nearest}", takes=nearest)
 
     @classmethod

@@ -113,6 +113,14 @@ OTHERS = ("abc", "", "nan", "inf", "0x1", "1_0", "1,5", "--1", "1e999", "9" * 41
 fields = st.sampled_from([*NUMBERS, *OTHERS, '"1"', '"'])
 
 
+def test_stated_values_above_a_single_column():
+    """After Infiniium: keys, no times, and a start that counts samples."""
+    keys = ["Type,raw", "Start,0", "Points,20", "XInc,2.0E-09", "XOrg,-1.0E-06", "YUnits,Volt", "Data,"]
+    heads = heads_of(layout("\n".join([*keys, *(f"{k / 7:.3e}" for k in range(20))])))
+    assert (heads.step, heads.start, heads.points) == (2e-9, -1e-6, 20)
+    assert [column.unit for column in heads.columns] == ["V"]
+
+
 @given(st.lists(st.lists(fields, min_size=1, max_size=4), min_size=1, max_size=6), st.sampled_from(";,\t"))
 def test_the_fast_parser_reads_what_the_slow_one_reads(rows, separator):
     """Or nothing, and then the slow one decides."""

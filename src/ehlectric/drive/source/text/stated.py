@@ -91,10 +91,10 @@ def _keys(layout: Layout) -> Iterator[tuple[str, list[str]]]:
     for line in lines:
         row = layout.dialect.fields(line)
         if len([text for text in row if text]) == 1:
-            # "Sample Interval: 4 ns" has no separator of columns.
+            # "Sample Interval: 4 ns" has no separator of columns, and files of one column have none at all.
             text = next(text for text in row if text)
-            mark = next((mark for mark in (":", "=") if mark in text), None)
-            row = list(text.partition(mark)[::2]) if mark else row
+            at = min((text.find(mark) for mark in ":=,;\t" if mark in text), default=-1)
+            row = [text[:at], text[at + 1 :].strip(",; \t")] if at > 0 else row
         if min(layout.columns) > 1:
             row = row[: min(layout.columns)]
         values = [text.strip() for text in row[1:] if text.strip()]
@@ -119,7 +119,8 @@ def take(stated: Stated, key: str, values: Sequence[str]) -> None:
     elif key in _RATE and stated.step is None:
         rate = _rate(values[0])
         stated.step = None if rate is None or rate <= 0.0 else 1.0 / rate
-    elif key in _START and stated.start is None:
+    elif key in _START and (stated.start is None or key != _START[0]):
+        # A bare "Start" may be a number of samples, so that any other key replaces it.
         stated.start = _amount(values[0])
     elif key in _POINTS and stated.points is None:
         number = _plain(values[0].rpartition(":")[2])
