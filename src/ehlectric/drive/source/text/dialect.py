@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ehlectric.errors import InputError, shown
 
 # Letters of a number with a decimal point, and its largest length [characters].
-_OF_NUMBERS, _LONGEST = frozenset("0123456789+-.eE"), 40
+_OF_NUMBERS, _LONGEST = frozenset("0123456789+-.eE"), 100
 
 # Lines that are tried with every dialect: enough for one in which the first values are all zero.
 _TRIED = 400

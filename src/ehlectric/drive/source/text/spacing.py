@@ -16,12 +16,10 @@ _JITTER = 1e-3
 # Rounded to the same digits, the times of two ends and a sample between them deviate by one last digit.
 _DIGITS = 1.01
 
-# Samples whose extremes are kept together. Within a group, the deviation that comes from the provisional step
-# is at most that of the times from which the step is estimated.
-_GROUP = 1000
-
-# Times that give the provisional step, if the file has as many.
-_FIRST = 2 * _GROUP
+# Samples whose extremes are kept together, and number of times from which a provisional step is estimated. The
+# uncertainty of this step moves the deviations within a group by at most the ratio of the two, 1/200 of a last
+# printed digit.
+_GROUP, _FIRST = 100, 20_000
 
 # Largest share of double distances that are taken for missing samples.
 _FEW = 0.05
