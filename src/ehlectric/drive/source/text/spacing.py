@@ -16,9 +16,9 @@ _JITTER = 1e-3
 # Rounded to the same digits, the times of two ends and a sample between them deviate by one last digit.
 _DIGITS = 1.01
 
-# Samples whose extremes are kept together, and number of times from which a provisional step is estimated. The
-# uncertainty of this step moves the deviations within a group by at most the ratio of the two, 1/200 of a last
-# printed digit.
+# Samples whose extremes are kept together, and number of times from which a provisional step is estimated.
+# The uncertainty of this step moves the deviations within a group by at most the ratio of the two, 1/200 of a
+# last printed digit.
 _GROUP, _FIRST = 100, 20_000
 
 # Largest share of double distances that are taken for missing samples.
