@@ -144,24 +144,12 @@ class InputError(ValueError):
 
     @classmethod
     def missing(cls, key: str, takes: str) -> Self:
-        """Error of a required key that is missing.
-
-        Examples
-        --------
-        >>> str(InputError.missing("contact.load", "a value"))
-        'contact.load: missing; expected a value'
-        """
+        """Error of a required key that is missing."""
         return cls(key, takes=takes)
 
     @classmethod
     def unknown(cls, key: str, nearest: str) -> Self:
-        """Error of a key that does not exist; ``nearest`` is the existing key with the most similar name.
-
-        Examples
-        --------
-        >>> str(InputError.unknown("contact.lod", "contact.load"))
-        'contact.lod: unknown key; the nearest known one is contact.load'
-        """
+        """Error of a key that does not exist; ``nearest`` is the existing key with the most similar name."""
         return cls.worded(short(key), f"unknown key; the nearest known one is {nearest}", takes=nearest)
 
     @classmethod
@@ -349,6 +337,12 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "scatter-large": Cause("Film factors scatter more than the measurement states."),
         "factor-varies": Cause("The film factor changes with the speed."),
         "range-left-out": Cause("The uncertainty of a film factor leaves out the range of an input."),
+        # Measured waveforms
+        "units-assumed": Cause("A file of a waveform states no units; seconds and volts were taken.", "note"),
+        "samples-missing": Cause("Samples may be missing in a file of a waveform."),
+        "waveform-clipped": Cause("The range of the oscilloscope was probably exceeded."),
+        "waveform-coarse": Cause("A measured waveform has few different voltages."),
+        "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
         # Files of other versions
         "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),
         "unclassified": Cause("Another version of the program gave this warning."),

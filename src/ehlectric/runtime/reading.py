@@ -131,6 +131,38 @@ def read_bytes(path: str | Path, *, most: int, copies: float = 1.0) -> bytes:
     return content
 
 
+def blocks(path: str | Path, *, most: int, size: int = 8_000_000) -> Iterator[bytes]:
+    """Content of a regular file of a bounded size, block by block.
+
+    Parameters
+    ----------
+    path : str or Path
+        File to read; a link is followed.
+    most : int
+        Largest size of the file [bytes]. A larger file is refused before it is read.
+    size : int
+        Size of a block [bytes], of which the last one may have less.
+
+    Yields
+    ------
+    bytes
+        Blocks in the order of the file; none of an empty file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is no regular file, is larger than ``most``, or grows while it is read.
+    """
+    with regular(path) as file:
+        left = os.fstat(file.fileno()).st_size
+        check_size(Path(path), left, most, copies=0.0)
+        while block := file.read(min(size, left + 1)):
+            if len(block) > left:
+                raise InputError(path, "grows while it is read")
+            left -= len(block)
+            yield block
+
+
 def read_text(path: str | Path, *, most: int = MOST_TEXT) -> str:
     """Text of a regular file in UTF-8 of a bounded size; a byte order mark is left out.
 

@@ -10,9 +10,10 @@ import pytest
 from ehlectric.cases.any_case import case_of_file
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
+from ehlectric.drive.source.oscilloscope import read_waveform
 from ehlectric.errors import InputError
 from ehlectric.runs.kinds import expect
-from ehlectric.runtime.reading import MOST_TEXT, read_bytes, read_text, refuse_unreadable
+from ehlectric.runtime.reading import MOST_TEXT, blocks, read_bytes, read_text, refuse_unreadable
 from ehlectric.surfaces.files import read_surface
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import plan
@@ -37,6 +38,7 @@ READERS = {
     "kind": expect,
     "surface": read_surface,
     "result": refuse_unreadable,
+    "waveform": read_waveform,
 }
 
 
@@ -108,7 +110,7 @@ def test_a_pipe_as_roughness_of_a_sweep_is_no_valid_point(tmp_path):
     assert all("it is a pipe" in point.refused for point in plan(sweep))
 
 
-@pytest.mark.parametrize("name", ["case", "bearing", "sweep", "base case", "surface"])
+@pytest.mark.parametrize("name", ["case", "bearing", "sweep", "base case", "surface", "waveform"])
 def test_a_sparse_file_of_20_gb_is_refused_unread(tmp_path, name):
     path = tmp_path / "sparse.toml"
     with path.open("wb") as file:
@@ -116,7 +118,7 @@ def test_a_sparse_file_of_20_gb_is_refused_unread(tmp_path, name):
             file.truncate(20 * 10**9)
         except OSError as error:
             pytest.skip(f"the file system of the tests makes no sparse file, {error}")
-    with pytest.raises(InputError, match=r"sparse\.toml: has 20 GB; expected at most 1 [MG]B"):
+    with pytest.raises(InputError, match=r"sparse\.toml: has 20 GB; expected at most [12] [MG]B"):
         READERS[name](path)
 
 
@@ -136,6 +138,28 @@ def test_bytes_come_back_as_they_are(tmp_path):
         read_bytes(tmp_path / "any", most=3)
     (tmp_path / "empty").write_bytes(b"")
     assert read_bytes(tmp_path / "empty", most=0) == b""
+
+
+def test_blocks_of_a_file_are_the_file(tmp_path):
+    path = tmp_path / "any"
+    path.write_bytes(bytes(range(250)))
+    assert [len(block) for block in blocks(path, most=250, size=100)] == [100, 100, 50]
+    assert b"".join(blocks(path, most=250, size=7)) == bytes(range(250))
+    with pytest.raises(InputError, match="any: has 250 B; expected at most 249 B"):
+        next(blocks(path, most=249))
+    (tmp_path / "empty").write_bytes(b"")
+    assert list(blocks(tmp_path / "empty", most=0)) == []
+
+
+def test_a_file_that_grows_between_blocks_is_refused(tmp_path):
+    path = tmp_path / "log"
+    path.write_bytes(b"1" * 100)
+    read = blocks(path, most=1000, size=60)
+    assert len(next(read)) == 60
+    with path.open("ab") as file:
+        file.write(b"2" * 100)
+    with pytest.raises(InputError, match="log: grows while it is read"):
+        list(read)
 
 
 def test_text_has_line_feeds_and_no_mark_of_its_byte_order(tmp_path):

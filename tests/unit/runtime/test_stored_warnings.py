@@ -87,6 +87,11 @@ UNSTORED = {
     "scatter-large",
     "factor-varies",
     "range-left-out",
+    "units-assumed",
+    "samples-missing",
+    "waveform-clipped",
+    "waveform-coarse",
+    "edges-unresolved",
 }
 
 

@@ -38,7 +38,8 @@ _FILM = ("lambda", *_FIRST)
 _SPARK = ("shaft-voltage", "margin")
 _ALL = ("capacitance", "lambda", "first-break", "shaft-voltage", "margin")
 
-# Codes of sweeps, of measurements, and of no kind: they concern no number of a bearing or of a contact.
+# Codes of sweeps, of measurements, of measured waveforms, and of no kind: they concern no number of a bearing
+# or of a contact.
 WITHOUT_PLACE = (
     "points-with-warnings",
     "points-with-notes",
@@ -53,6 +54,11 @@ WITHOUT_PLACE = (
     "scatter-large",
     "factor-varies",
     "range-left-out",
+    "units-assumed",
+    "samples-missing",
+    "waveform-clipped",
+    "waveform-coarse",
+    "edges-unresolved",
     "unclassified",
 )
 
