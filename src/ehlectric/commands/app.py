@@ -19,6 +19,7 @@ from ehlectric.commands.motion import animate
 from ehlectric.commands.report import report
 from ehlectric.commands.reproduce import reproduce
 from ehlectric.commands.serve import app as serve_app
+from ehlectric.commands.spice import spice
 from ehlectric.commands.start import examples, init
 from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
@@ -49,6 +50,16 @@ _COMMANDS = (
     ("check", check, "Check a file without solving it.", ("check bearing.toml", "check sweep.toml --json")),
     ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
     ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts atlas",)),
+    (
+        "spice",
+        spice,
+        "Write a bearing as a netlist.",
+        (
+            "spice bearing.toml -o bearing.lib",
+            'spice bearing.toml --arc-resistance "1 ohm" --extinction-voltage "1 V" --bench bench.cir',
+            'spice bearing.toml --contacts atlas --speeds "500 rpm : 3000 rpm : 7"',
+        ),
+    ),
     ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
     (
         "film",
