@@ -27,8 +27,8 @@ _CELSIUS = 273.15
 
 _CIRCUIT = (
     "circuit from shaft to housing: the films (C_films, R_leak and, where there is one, the arc) are "
-    "parallel to each other; the coating of a ring (C_coat, R_coat), where there is one, is in series with them; the "
-    "capacitance of cage, shields and wiring (C_par), where there is one, is parallel to all"
+    "parallel to each other; the coating of a ring (C_coat, R_coat), where there is one, is in series with "
+    "them; the capacitance of cage, shields and wiring (C_par), where there is one, is parallel to all"
 )
 
 
