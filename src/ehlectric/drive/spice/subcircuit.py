@@ -160,12 +160,15 @@ class Subcircuit:
         yield from (f"{warning.severity}: {warning}" for warning in self.warnings())
 
     def warnings(self) -> Iterator[ResultWarning]:
-        """Warnings at the speed that is the default, and of other speeds those of further codes."""
+        """Warnings at the speed that is the default, and those of further codes with their speed."""
         codes: set[str] = set()
         for result in self.results:
             new = [warning for warning in result.warnings if warning.code not in codes]
             codes.update(warning.code for warning in new)
-            yield from new
+            at = rpm_text(result.case.bearing.inner_speed)
+            for warning in new:
+                own = result is self.results[0]
+                yield warning if own else ResultWarning(warning.code, f"at {at} rpm: {warning}")
 
     def _table(self) -> Iterator[str]:
         """Nodes over the speed, and the quantities at the speed of the instance."""

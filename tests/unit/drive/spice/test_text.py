@@ -91,6 +91,18 @@ def test_the_header_says_what_was_computed(plain, tmp_path):
         assert warning.text.replace("µ", "u")[:60] in joined
 
 
+def test_warnings_of_other_speeds_have_their_speed(plain, tmp_path):
+    """Breakdown is expected at the lower speed only."""
+    slow = solved(bearing__inner_speed="900 rpm")
+    code = "breakdown-expected"
+    assert code not in {warning.code for warning in plain.warnings}
+    (told,) = (warning.text for warning in slow.warnings if warning.code == code)
+    write_netlist([plain, slow], tmp_path / "bearing.lib")
+    lines = (tmp_path / "bearing.lib").read_text().splitlines()
+    (line,) = (line for line in lines if line.startswith(f"* warning: at 900 rpm: {told[:30]}"))
+    assert line
+
+
 def test_missing_conductivity_is_said(tmp_path):
     write_netlist(solved(discharge__conductivity=None), tmp_path / "bearing.lib")
     text = (tmp_path / "bearing.lib").read_text()
