@@ -35,7 +35,7 @@ def ascii_of(text: str) -> str:
 def comment(text: str) -> Iterator[str]:
     """Lines of a comment with any text of a user, wrapped.
 
-    Every line begins with an asterisk and a space: ngspice takes "*#" for a command.
+    Every line begins with an asterisk and a space: ngspice takes ``*#`` for a command.
 
     Examples
     --------
