@@ -16,7 +16,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
 	@echo "make app     install and open the web app; options with: make app OPTIONS='--port 8100'"
-	@echo "make browser install what the tests of the web app and of reports need: Chromium, pdftotext"
+	@echo "make browser install what the tests of the web app, reports and netlists need: Chromium, pdftotext, ngspice"
 	@echo "make test    install and run the tests"
 	@echo "make slow    run the long tests"
 	@echo "make thorough  run them with all of their random examples, and others each time; takes hours"
@@ -68,11 +68,12 @@ app: $(VENV)/.app
 	$(BIN)/ehlectric app $(OPTIONS)
 
 # Tests in a browser are skipped without one, unless EHLECTRIC_BROWSER is "required"; tests that read a PDF are
-# skipped without pdftotext.
+# skipped without pdftotext. Tests of netlists need ngspice as those in a browser need one.
 browser:
 	@missing=" chromium fonts-dejavu-core"; \
 	for name in $(BROWSERS); do if command -v $$name; then missing=; break; fi; done; \
 	command -v pdftotext || missing="$$missing poppler-utils"; \
+	command -v ngspice || missing="$$missing ngspice"; \
 	if [ -z "$$missing" ]; then exit; fi; \
 	if [ "$$(id -u)" = 0 ] && command -v apt-get > /dev/null; then \
 	  apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends $$missing; \

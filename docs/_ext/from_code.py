@@ -458,6 +458,7 @@ _GROUPS = {
     "Files": ("save", "load", "read_sweep", "read_motion"),
     "Figures": ("figure", "figure_names", "save_figures"),
     "Reports": ("write_report",),
+    "Netlists": ("write_netlist",),
     "Errors": ("InputError", "ConvergenceError", "LostError"),
 }
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ehlectric.cases.oils.named import oil
     from ehlectric.contact.results import PointResult, Result
     from ehlectric.discharge.verdict import Verdict
+    from ehlectric.drive.spice.files import write_netlist
     from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning
     from ehlectric.figures.results import figure, figure_names, save_figures
     from ehlectric.motion.result import MotionResult
@@ -57,6 +58,7 @@ __all__ = [  # noqa: RUF022
     "figure_names",
     "save_figures",
     "write_report",
+    "write_netlist",
     "Result",
     "PointResult",
     "BearingResult",
@@ -95,6 +97,7 @@ _HOMES = {
     "figure_names": "figures.results",
     "save_figures": "figures.results",
     "write_report": "report.files",
+    "write_netlist": "drive.spice.files",
     "Result": "contact.results",
     "PointResult": "contact.results",
     "BearingResult": "bearing.result",

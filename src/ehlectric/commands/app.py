@@ -20,6 +20,7 @@ from ehlectric.commands.motion import animate
 from ehlectric.commands.report import report
 from ehlectric.commands.reproduce import reproduce
 from ehlectric.commands.serve import app as serve_app
+from ehlectric.commands.spice import spice
 from ehlectric.commands.start import examples, init
 from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
@@ -55,6 +56,16 @@ _COMMANDS = (
         drive,
         "Simulate the discharges of both bearings of a motor.",
         ("drive drive.toml -o results", "drive drive.toml --contacts atlas --json"),
+    ),
+    (
+        "spice",
+        spice,
+        "Write a bearing as a netlist.",
+        (
+            "spice bearing.toml -o bearing.lib",
+            'spice bearing.toml --arc-resistance "1 ohm" --extinction-voltage "1 V" --bench bench.cir',
+            'spice bearing.toml --contacts atlas --speeds "500 rpm : 3000 rpm : 7"',
+        ),
     ),
     ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
     (

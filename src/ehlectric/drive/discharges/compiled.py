@@ -15,10 +15,10 @@ _OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy"}
 
 def compiled(function: F) -> F:
     """Compile a function of numbers and arrays at its first call."""
-    return cast(F, numba.njit(**_OPTIONS)(function))
+    return cast("F", numba.njit(**_OPTIONS)(function))
 
 
 def inner(function: F) -> F:
     """Compile a function that only other compiled functions call, which takes less time."""
     alone: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    return cast(F, numba.njit(**_OPTIONS, **alone)(function))
+    return cast("F", numba.njit(**_OPTIONS, **alone)(function))

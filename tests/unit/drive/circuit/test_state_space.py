@@ -20,7 +20,7 @@ def test_capacitive_divider():
 
 
 def test_series_resonance():
-    """L i' = u - v, C v' = i: an oscillator of 1/sqrt(L C), damped by R/(2 L)."""
+    """L i' = u - v, C v' = i: an oscillator, damped by R/(2 L)."""
     inductance, capacitance, resistance = 1e-3, 1e-9, 100.0
     system = state_space(
         [

@@ -1,0 +1,155 @@
+"""The command that writes a bearing as a netlist for circuit simulators."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlectric.commands.options import Quiet, file_argument, files_ending, one_of
+from ehlectric.commands.terminal import (
+    NOT_CONVERGED,
+    echo_files,
+    print_rows,
+    progress_bar,
+    say,
+    user_errors,
+    warn,
+)
+from ehlectric.errors import InputError
+
+if TYPE_CHECKING:
+    from ehlectric.cases.row import Row
+    from ehlectric.drive.spice.subcircuit import Subcircuit
+
+# Options by the names of their inputs.
+_OPTIONS = {"arc_resistance": "--arc-resistance", "extinction_voltage": "--extinction-voltage"}
+
+
+def spice(
+    bearing_file: Annotated[Path, file_argument("FILE", "Bearing file, in TOML.", ".toml")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Write the subcircuit into this file.",
+            autocompletion=files_ending(".lib", ".cir"),
+        ),
+    ] = Path("bearing.lib"),
+    bench: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Write a test bench with the drive of the table [motor] into this file.",
+            show_default=False,
+            autocompletion=files_ending(".cir"),
+        ),
+    ] = None,
+    arc_resistance: Annotated[
+        str | None,
+        typer.Option(
+            metavar="R",
+            help='Resistance of a discharge through the films, as "1 ohm"; the subcircuit then has a switch.',
+            show_default=False,
+        ),
+    ] = None,
+    extinction_voltage: Annotated[
+        str | None,
+        typer.Option(
+            metavar="V",
+            help='Voltage across the films below which a discharge ends, as "2 V"; the switch needs it too.',
+            show_default=False,
+        ),
+    ] = None,
+    speeds: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SPEEDS",
+            help='Make the speed a parameter: a table at "500 rpm, 1000 rpm", or at a number of speeds of a '
+            'range, "500 rpm : 3000 rpm : 7". The speed of the file is always in it.',
+            show_default=False,
+        ),
+    ] = None,
+    contacts: Annotated[
+        str,
+        typer.Option(
+            metavar="HOW",
+            help="Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
+            "(formula). Without this option the file decides.",
+            show_default=False,
+            autocompletion=one_of("solved", "atlas", "formula"),
+        ),
+    ] = "",
+    quiet: Quiet = False,
+) -> None:
+    """Write a bearing as a netlist for ngspice and LTspice: a subcircuit from shaft to housing.
+
+    It has the capacitance of the films and the leak through their oil, the coating of a ring and the parallel
+    capacitance, and with both of its options a switch that closes where the films break down. Every parameter
+    has a line with its unit. The table [motor] is only needed for --bench.
+
+    Exit status 0: written. 2: the input is wrong, or there is another file of this name. 3: a contact is not
+    converged, the files are still written; or memory ran out.
+    """
+    with user_errors(), _named_as_options():
+        from ehlectric.drive.spice.bench import drive_of
+        from ehlectric.drive.spice.files import arc_of, check_targets, write_subcircuit
+        from ehlectric.drive.spice.over_speed import solve_at_speeds, speeds_of
+        from ehlectric.drive.spice.subcircuit import check_strength, subcircuit_of
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.kinds import expect
+        from ehlectric.runtime.files import clear_left_behind
+
+        expect(bearing_file, "bearing")
+        case = by_kind.read_bearing(bearing_file)
+        case = case.replace({"contacts": contacts}) if contacts else case
+        arc = arc_of(arc_resistance, extinction_voltage)
+        check_targets(output, bench)
+        if arc is not None:
+            check_strength(case)
+        if bench is not None:
+            drive_of(case)
+        others = () if speeds is None else speeds_of(case, speeds)
+        with progress_bar(shown=not quiet) as progress:
+            results = solve_at_speeds(case, others, progress)
+        subcircuit = subcircuit_of(results, arc)
+        clear_left_behind(output.parent)
+        files = write_subcircuit(subcircuit, output, bench)
+    if not quiet:
+        print_rows(_rows(subcircuit), subcircuit.case.title)
+        echo_files(files)
+        warn(subcircuit.warnings())
+        for note in subcircuit.notes:
+            say(f"note: {note}", err=True)
+    if not all(result.converged for result in results):
+        say("error: not converged: a contact of the bearing", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+@contextmanager
+def _named_as_options() -> Iterator[None]:
+    """Context in which an input of the arc is named by its option."""
+    try:
+        yield
+    except InputError as error:
+        raise error.retold(_OPTIONS.get(error.key or "", error.key), error.text) from None
+
+
+def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
+    """Rows of the table: the subcircuit and its parameters, and what it has at each speed of a table."""
+    from ehlectric.cases.row import Row, amount
+    from ehlectric.cases.units import rpm_text
+
+    yield Row("subcircuit", f"{subcircuit.name} shaft housing")
+    for parameter in subcircuit.parameters():
+        unit = parameter.unit.replace("Ohm", "Ω")
+        shown = f"{parameter.value:.4g} rpm" if unit == "rpm" else amount(parameter.value, unit)
+        yield Row(parameter.name, shown, "", f", {parameter.meaning}")
+    for one in subcircuit.found if subcircuit.tabulated else ():
+        breaks = "" if one.threshold is None else f", breakdown at {one.threshold:.4g} V"
+        yield Row(f"at {rpm_text(one.speed)} rpm", amount(one.capacitance, "F"), "", breaks)

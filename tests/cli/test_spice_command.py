@@ -1,0 +1,129 @@
+"""The command that writes a bearing as a netlist, and what ngspice makes of its files."""
+
+import re
+import shlex
+
+import pytest
+
+from ehlectric import BearingCase, solve_bearing
+from tests.cli.test_mistakes_commands import BEARING
+from tests.helpers.ngspice import run_netlist
+from tests.helpers.places import EXAMPLES, ROOT
+
+DRIVE = 'switching_frequency = "10 kHz"\nrise_time = "0.2 us"\n'
+ARC = ("--arc-resistance", "1 ohm", "--extinction-voltage", "1 V")
+
+
+@pytest.fixture
+def bearing(tmp_path):
+    path = tmp_path / "bearing.toml"
+    path.write_text(BEARING + DRIVE)
+    return path
+
+
+def test_a_bearing_and_its_bench_are_written(ehlectric, bearing, tmp_path):
+    """The shaft voltage of the bench is that of the solved bearing."""
+    (tmp_path / "sim").mkdir()
+    done = ehlectric("spice", "bearing.toml", "-o", "film.lib", "--bench", "sim/bench.cir", *ARC)
+    assert done.returncode == 0, done.stderr
+    for text in ("bearing_6208 shaft housing", "C_films", "V_ext", "film.lib", "bench.cir"):
+        assert text in done.stdout
+    assert "note: the switch closes at the ring-to-ring breakdown voltage" in done.stderr
+    assert "warning: contacts by formula" in done.stderr
+    assert '.include "../film.lib"' in (tmp_path / "sim" / "bench.cir").read_text()
+    shaft = solve_bearing(BearingCase.from_toml(bearing), workers=1).shaft_voltage
+    found = run_netlist(tmp_path / "sim" / "bench.cir")
+    assert found["shaft_peak_to_peak"] == pytest.approx(2.0 * shaft, rel=1e-4)
+
+
+@pytest.mark.usefixtures("bearing")
+def test_a_table_over_speed_is_written(ehlectric, tmp_path):
+    done = ehlectric("spice", "bearing.toml", "--speeds", "1500 rpm : 6000 rpm : 3", "--bench", "bench.cir")
+    assert done.returncode == 0, done.stderr
+    for text in ("speed 3000 rpm", "at 1500 rpm", "at 6000 rpm"):
+        assert text in " ".join(done.stdout.split())
+    text = (tmp_path / "bearing.lib").read_text()
+    assert "+ speed=3000 ; rpm" in text
+    assert "n_4" not in text  # the middle of the range is the speed of the file
+    assert run_netlist(tmp_path / "bench.cir")["common_mode_peak_to_peak"] == pytest.approx(600.0)
+
+
+@pytest.mark.usefixtures("bearing")
+def test_nothing_is_said_when_quiet_and_files_are_replaced(ehlectric, tmp_path):
+    for _ in range(2):
+        done = ehlectric("spice", "bearing.toml", "-q")
+        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["bearing.lib", "bearing.toml"]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("-o", "bearing.toml"), "bearing.toml: already exists and is no netlist of ehlectric"),
+        (("-o", "none/bearing.lib"), "none/bearing.lib: cannot be written to, its folder does not exist"),
+        (("--arc-resistance", "1 ohm"), "--extinction-voltage: missing; expected a value"),
+        (
+            ("--arc-resistance", "1", "--extinction-voltage", "1 V"),
+            "--arc-resistance: got '1' (it has no unit)",
+        ),
+        ((*ARC[:3], "100 V"), "--extinction-voltage: got 100 V; expected less than"),
+        (("--speeds", "500"), "--speeds: got '500' (it has no unit); expected speeds with units"),
+        (
+            ("--speeds", "50 rpm"),
+            "bearing.inner_speed: got 50 rpm, where surfaces touch (lambda ratio below 1)",
+        ),
+        (("--contacts", "guess"), "contacts: "),
+        (("--bench", "bearing.lib"), "bearing.lib: is the file of the subcircuit"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(ehlectric, bearing, tmp_path, words, message):
+    before = bearing.read_text()
+    done = ehlectric("spice", "bearing.toml", *words)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.startswith(f"error: {message}")
+    assert [path.name for path in tmp_path.iterdir()] == ["bearing.toml"]
+    assert bearing.read_text() == before
+
+
+def test_a_bench_needs_the_drive(ehlectric, bearing, tmp_path):
+    """By the key that is missing, before anything is solved."""
+    for text, key in (
+        (BEARING, "motor.switching_frequency"),
+        (BEARING + DRIVE.partition("\n")[0], "motor.rise_time"),
+        (BEARING.partition("[motor]")[0], "motor"),
+    ):
+        bearing.write_text(text.replace('contacts = "formula"', 'contacts = "solved"'))
+        done = ehlectric("spice", "bearing.toml", "--bench", "bench.cir")
+        assert done.returncode == 2
+        assert done.stderr.startswith(f"error: {key}: missing")
+    assert [path.name for path in tmp_path.iterdir()] == ["bearing.toml"]
+
+
+def test_a_sweep_is_told_its_command(ehlectric, tmp_path):
+    (tmp_path / "sweep.toml").write_text('case = "bearing.toml"\n[vary]\nbearing.fill = ["oil", "air"]\n')
+    done = ehlectric("spice", "sweep.toml")
+    assert done.returncode == 2
+    assert "sweep.toml: is a sweep file; expected a bearing file" in done.stderr
+
+
+def test_the_guide_has_the_lines_of_its_command(ehlectric, tmp_path):
+    """The parameters that docs/guide/spice.md prints."""
+    page = (ROOT / "docs" / "guide" / "spice.md").read_text(encoding="utf-8")
+    command, *_ = re.findall(r"^ehlectric (spice .*)$", page, re.MULTILINE)
+    words = shlex.split(command.replace("examples/", f"{EXAMPLES}/"))
+    assert ehlectric(*words).returncode == 0
+    shown = page.partition(".subckt ")[2].partition("```")[0].splitlines()
+    written = (tmp_path / "bearing.lib").read_text().partition(".subckt ")[2].splitlines()
+    assert len(shown) == 6
+    assert shown == written[:6]
+
+
+def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
+    page = (ROOT / "docs" / "guide" / "spice.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "examples").symlink_to(EXAMPLES)
+    exec(compile(block, "spice.md", "exec"), {})
+    assert "+ speed=3000 ; rpm" in (tmp_path / "bearing.lib").read_text()
