@@ -343,6 +343,8 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "waveform-clipped": Cause("The range of the oscilloscope was probably exceeded."),
         "waveform-coarse": Cause("A measured waveform has few different voltages."),
         "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
+        "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
+        "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),
         # Files of other versions
         "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),
         "unclassified": Cause("Another version of the program gave this warning."),

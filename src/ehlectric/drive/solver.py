@@ -17,9 +17,11 @@ from ehlectric.drive.circuit.motor import film_nodes, states_of
 from ehlectric.drive.discharges.simulation import Measuring, Record, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Segments
 from ehlectric.drive.source.modulation import steps_of
+from ehlectric.drive.source.oscilloscope import read_waveform
+from ehlectric.drive.source.resampling import resample
 from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.source.waveform import Waveform
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, ResultWarning
 from ehlectric.runtime.progress import Progress, silent
 
 # Fundamental periods that are simulated where the case gives no duration, and periods before them in which
@@ -51,6 +53,8 @@ class DriveSolution:
         Voltage across the films of each bearing per volt of the source, right after an edge.
     highest_source : float
         Largest absolute voltage of the source [V].
+    told : tuple of ResultWarning
+        Warnings about the file of a measured source.
     """
 
     case: DriveCase
@@ -59,6 +63,7 @@ class DriveSolution:
     record: Record
     divider: tuple[float, float]
     highest_source: float
+    told: tuple[ResultWarning, ...] = ()
 
 
 def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:
@@ -94,7 +99,7 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     films, ringing = films_of(elements, case.breakdown), ringing_of(case.source)
     systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
     modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
-    waveform = None
+    waveform, told = _measured(case)
     highest, settling, duration = _times(case, waveform)
     divider = _divider(modes)
     reach = _highest(divider, highest, ringing)
@@ -107,7 +112,29 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
         case.drive.seed,
         lambda time: progress(round(100.0 * min(time / (settling + duration), 1.0)), 100, "simulating"),
     )
-    return DriveSolution(case, results, elements, record, divider, highest)
+    return DriveSolution(case, results, elements, record, divider, highest, told)
+
+
+def _measured(case: DriveCase) -> tuple[Waveform | None, tuple[ResultWarning, ...]]:
+    """Measured waveform and the warnings about its file; None for a described source."""
+    source = case.source
+    if source.file is None:
+        return None, ()
+    try:
+        waveform, told = read_waveform(
+            source.file,
+            column=source.column,
+            time_column=source.time_column,
+            step=source.step,
+            time_unit=source.time_unit,
+            value_unit=source.value_unit,
+            scale=source.scale,
+        )
+        if source.resample is not None:
+            waveform = resample(waveform, source.resample)
+    except InputError as error:
+        raise error.under("source") from None
+    return waveform, told
 
 
 def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> None:

@@ -29,6 +29,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     ResultWarning
         Warning with its code.
     """
+    yield from solution.told
     yield from _of_bearings(solution)
     yield from _of_threshold(solution)
     yield from _of_time(solution)

@@ -39,11 +39,11 @@ _ROWS = (
 
 # Columns of the table of remedies, of the bearing with more discharges.
 _COLUMNS = (
-    ("discharges [1/s]", "events_per_second", "1/s"),
-    ("voltage [V]", "voltage_mean", "V"),
+    ("events [1/s]", "events_per_second", "1/s"),
+    ("at [V]", "voltage_mean", "V"),
     ("energy [nJ]", "energy_mean", "nJ"),
     ("power [µW]", "power", "µW"),
-    ("largest voltage [V]", "peak_voltage", "V"),
+    ("peak [V]", "peak_voltage", "V"),
 )
 
 
@@ -78,7 +78,7 @@ def remedies_table(summary: Mapping[str, Any]) -> Table:
     rich.table.Table
         A row for the drive as it is and for each remedy.
     """
-    head = ["remedy, bearing with more discharges", *(name for name, _, _ in _COLUMNS)]
+    head = ["remedy, worse bearing", *(name for name, _, _ in _COLUMNS)]
     return _table(head, (_remedy(title, ends) for title, ends in _drives(summary)))
 
 

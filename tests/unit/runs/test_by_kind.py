@@ -52,16 +52,38 @@ composite_rq = "0.03 um"
 base = "paper"
 viscosity = "20 mPa s"
 """
+DRIVE = """\
+[drive]
+duration = "2 ms"
+[source]
+dc_link = "560 V"
+modulation = "space-vector"
+switching_frequency = "10 kHz"
+fundamental_frequency = "500 Hz"
+modulation_index = 0.8
+rise_time = "100 ns"
+[circuit]
+winding_rotor_capacitance = "50 pF"
+rotor_frame_capacitance = "500 pF"
+[breakdown]
+arc_resistance = "10 ohm"
+extinction_current = "10 mA"
+recovery_time = "100 ns"
+[drive_end]
+file = "bearing.toml"
+discharge.dielectric_strength = "15 V/um"
+"""
 SWEEP = """\
 case = "contact.toml"
 [vary]
 "contact.entrainment_speed" = ["2 m/s", "4 m/s"]
 """
-FILES = {"contact": CASE, "motion": CASE + MOTION, "bearing": BEARING, "sweep": SWEEP}
+FILES = {"contact": CASE, "motion": CASE + MOTION, "bearing": BEARING, "drive": DRIVE, "sweep": SWEEP}
 WRITTEN = {
     "contact": ["summary.json", "result.nc", "film.csv"],
     "motion": ["summary.json", "motion.nc"],
     "bearing": ["summary.json", "contacts.csv", "bearing.nc"],
+    "drive": ["summary.json", "events.csv"],
     "sweep": ["sweep.csv", "sweep.parquet", "sweep.nc"],
 }
 
@@ -77,7 +99,7 @@ def files(tmp_path):
 def test_a_file_of_each_kind_is_run_the_same_way(kind, files, tmp_path):
     """Nothing is drawn; what the progress is told last is the end."""
     told = []
-    options = {"workers": 1} if kind in ("bearing", "sweep") else {}
+    options = {"workers": 1} if kind in ("bearing", "drive", "sweep") else {}
     outcome = run(files[kind], tmp_path / "out", lambda *at: told.append(at), **options)
     assert isinstance(outcome, RunOutcome)
     assert outcome.converged

@@ -92,6 +92,8 @@ UNSTORED = {
     "waveform-clipped",
     "waveform-coarse",
     "edges-unresolved",
+    "threshold-constant",
+    "few-discharges",
 }
 
 

@@ -59,6 +59,8 @@ WITHOUT_PLACE = (
     "waveform-clipped",
     "waveform-coarse",
     "edges-unresolved",
+    "threshold-constant",
+    "few-discharges",
     "unclassified",
 )
 

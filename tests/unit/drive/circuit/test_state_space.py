@@ -37,7 +37,7 @@ def test_series_resonance():
 
 
 def test_a_source_between_two_free_nodes():
-    """A source on top of a floating node: with equal capacitors to the frame it shares its voltage equally."""
+    """A source on a floating node shares its voltage between equal capacitors to the frame."""
     own = [Element("capacitor", "a", "frame", 1e-9), Element("capacitor", "b", "frame", 1e-9)]
     system = state_space(own, ("a", "b"))
     assert -system.jump == pytest.approx([-0.5], rel=1e-14)
