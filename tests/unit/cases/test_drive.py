@@ -1,0 +1,107 @@
+"""Drive files: what they take, what they refuse, and how they change."""
+
+import pytest
+
+from ehlectric import InputError
+from ehlectric.cases.drives.case import DriveCase
+from tests.helpers.places import EXAMPLES
+
+TABLE = {
+    "source": {
+        "dc_link": "560 V",
+        "modulation": "sinusoidal",
+        "switching_frequency": "10 kHz",
+        "fundamental_frequency": "50 Hz",
+        "modulation_index": 0.8,
+        "rise_time": "100 ns",
+    },
+    "circuit": {"winding_rotor_capacitance": "50 pF", "rotor_frame_capacitance": "500 pF"},
+    "breakdown": {"arc_resistance": 10.0, "extinction_current": "10 mA", "recovery_time": "100 ns"},
+}
+FILE = """\
+[drive]
+speed = "1500 rpm"
+[source]
+dc_link = "560 V"
+modulation = "sinusoidal"
+switching_frequency = "10 kHz"
+fundamental_frequency = "50 Hz"
+modulation_index = 0.8
+rise_time = "100 ns"
+[circuit]
+winding_rotor_capacitance = "50 pF"
+rotor_frame_capacitance = "500 pF"
+[breakdown]
+arc_resistance = "10 ohm"
+extinction_current = "10 mA"
+recovery_time = "100 ns"
+[drive_end]
+file = "bearing.toml"
+bearing.radial_load = "1 kN"
+"""
+
+
+@pytest.fixture
+def file(tmp_path):
+    (tmp_path / "bearing.toml").write_text((EXAMPLES / "bearing_6208.toml").read_text("utf-8"), "utf-8")
+    (tmp_path / "drive.toml").write_text(FILE)
+    return tmp_path / "drive.toml"
+
+
+def test_a_file_names_its_bearing_and_changes_it(file):
+    case = DriveCase.from_toml(file)
+    first, second = case.bearings
+    assert first == second
+    assert first.bearing.radial_load == 1000.0
+    assert first.bearing.inner_speed == pytest.approx(157.07963)
+    assert case.drive_end.bearing.inner_speed == pytest.approx(314.15927)
+    assert case.breakdown.lowest_voltage == pytest.approx(0.1)
+
+
+def test_a_case_is_written_and_read_back(file, tmp_path):
+    case = DriveCase.from_toml(file)
+    (tmp_path / "again.toml").write_text(case.to_toml(), "utf-8")
+    assert DriveCase.from_toml(tmp_path / "again.toml") == case
+    assert DriveCase.from_dict(case.to_dict()) == case
+
+
+def test_changes_of_one_end_and_of_both(file):
+    case = DriveCase.from_toml(file)
+    one = case.replace({"non_drive_end.bearing.radial_load": "500 N", "drive.seed": 3})
+    assert [end.bearing.radial_load for end in one.bearings] == [1000.0, 500.0]
+    assert one.drive.seed == 3
+    both = case.replace({"bearings.bearing.radial_load": "700 N"})
+    assert [end.bearing.radial_load for end in both.bearings] == [700.0, 700.0]
+    assert case.replace({"breakdown.extinction_voltage": "1 V"}).breakdown.extinction_current is None
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"source.switching_frequency": "100 Hz"}, "source.switching_frequency"),
+        ({"source.rise_time": "60 us"}, "source.rise_time"),
+        ({"source.overshoot": 0.2}, "source.ringing_frequency"),
+        ({"source.modulation": "six-step"}, "source.switching_frequency"),
+        ({"source.file": "scope.csv"}, "source.dc_link"),
+        ({"circuit.winding_rotor_capacitance": "50 V"}, "circuit.winding_rotor_capacitance"),
+        ({"drive_end.bearing.radial_lode": "1 N"}, "drive_end.bearing.radial_lode"),
+        ({"bearings": 3}, "bearings"),
+    ],
+)
+def test_wrong_values_are_refused_by_key(file, changes, key):
+    with pytest.raises(InputError) as error:
+        DriveCase.from_toml(file).replace(changes)
+    assert error.value.key == key
+
+
+def test_a_missing_bearing_file_is_told_with_its_table(file):
+    (file.parent / "bearing.toml").unlink()
+    with pytest.raises(InputError, match="drive_end"):
+        DriveCase.from_toml(file)
+
+
+def test_a_missing_extinction_is_told(file):
+    text = FILE.replace('extinction_current = "10 mA"\n', "")
+    file.write_text(text)
+    with pytest.raises(InputError, match="one of extinction_current and extinction_voltage"):
+        DriveCase.from_toml(file)
