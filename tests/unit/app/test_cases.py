@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.app.compute.cases import case_of, names_in, sweep_of, with_own_files
+from ehlectric.app.compute.cases import case_of, kind_of, names_in, sweep_of, with_own_files
 from ehlectric.app.inputs import Inputs
 from ehlectric.errors import InputError
 from tests.helpers.places import DEKTAK, EXAMPLES
@@ -125,3 +125,8 @@ def test_refusal_reads_nothing(folder):
     with pytest.raises(InputError):
         with_own_files(rough("/etc/passwd"), folder)
     assert "/etc/passwd" not in OPENED
+
+
+def test_a_drive_is_told_its_command():
+    with pytest.raises(InputError, match="ehlectric drive"):
+        kind_of({"source": {"dc_link": "560 V"}})

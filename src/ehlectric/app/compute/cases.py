@@ -54,8 +54,18 @@ def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
 
 
 def kind_of(table: Mapping[str, Any]) -> FileKind:
-    """Kind of the tables of a page: "contact", "motion", "bearing" or "sweep"."""
-    return kind_of_tables(table) or "contact"
+    """Kind of the tables of a page: "contact", "motion", "bearing" or "sweep".
+
+    Raises
+    ------
+    InputError
+        If the tables are those of a drive, which has no page.
+    """
+    kind = kind_of_tables(table) or "contact"
+    if kind == "drive":
+        takes = "the file of a contact, a bearing or a sweep; ehlectric drive simulates drives"
+        raise InputError("file", "is a drive file", takes=takes)
+    return kind
 
 
 def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:

@@ -228,6 +228,9 @@ def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase
         raise InputError(f"{end}.file", got=str(name), takes="the path of a bearing file")
     try:
         case = BearingCase.from_toml(folder / name)
+    except InputError as error:
+        raise error.retold(f"{end}.file, {error.key}", error.text) from None
+    try:
         changes = flattened({key: value for key, value in table.items() if key != "file"})
         return case.replace(changes) if changes else case
     except InputError as error:

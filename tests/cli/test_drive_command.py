@@ -1,0 +1,82 @@
+"""The command that simulates a drive: its tables, its files, its remedies, and what it refuses."""
+
+import csv
+import json
+
+import pytest
+
+from tests.helpers.places import EXAMPLES
+from tests.unit.cases.test_drive import FILE
+
+SHORT = FILE.replace('speed = "1500 rpm"', 'speed = "1500 rpm"\ncontacts = "formula"\nduration = "20 ms"\nseed = 4')
+SHORT = SHORT.replace('recovery_time = "100 ns"', 'recovery_time = "100 ns"\nweibull_shape = 5')
+REMEDY = """
+[[remedies]]
+title = "Ceramic"
+changes = { "bearings.bearing.element_material" = "silicon-nitride", "bearings.bearing.element_capacitance" = "5 pF" }
+"""
+
+
+@pytest.fixture
+def drive(tmp_path):
+    (tmp_path / "bearing.toml").write_text((EXAMPLES / "bearing_6208.toml").read_text("utf-8"), "utf-8")
+    path = tmp_path / "drive.toml"
+    path.write_text(SHORT)
+    return path
+
+
+def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
+    drive.write_text(SHORT + REMEDY)
+    done = ehlectric("drive", "drive.toml", "-o", "out", "--no-plots")
+    assert done.returncode == 0, done.stderr
+    for text in ("drive end", "non-drive end", "discharges per second", "as it is", "Ceramic"):
+        assert text in done.stdout
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
+    for end in ("drive_end", "non_drive_end"):
+        found = summary[end]
+        assert found["events"] > 100
+        low, high = found["events_per_second_low"], found["events_per_second_high"]
+        assert low < found["events_per_second"] < high
+        assert 0.5 * found["breakdown_voltage"] < found["voltage_mean"] < 1.5 * found["breakdown_voltage"]
+        assert 0.0 < found["waveform_ratio"] <= 2.0 * found["voltage_ratio"]
+        (remedy,) = summary["remedies"]
+        assert remedy[end]["events"] == 0
+        assert remedy[end]["breakdown_voltage"] is None
+    with (tmp_path / "out" / "events.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == summary["drive"]["events"]
+    times = [float(row["time [s]"]) for row in rows]
+    assert times == sorted(times)
+    assert 0.0 <= times[0] <= times[-1] <= 0.02
+
+
+def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
+    for name in ("one", "two"):
+        assert ehlectric("drive", drive, "-o", name, "--no-plots", "-q").returncode == 0
+    one, two = ((tmp_path / name / "events.csv").read_bytes() for name in ("one", "two"))
+    assert one == two
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('file = "bearing.toml"', 'file = "no.toml"', "drive_end.file, no.toml: cannot be read"),
+        ('modulation = "sinusoidal"', 'modulation = "sine"', "source.modulation: got 'sine'"),
+        ('extinction_current = "10 mA"', 'extinction_current = "10 A"', "breakdown.extinction_voltage: got 100 V"),
+        ('"bearing.toml"', '"bearing.toml"\nbearing.composite_rq = "1 um"', "drive_end.bearing.contact_resistance"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_simulated_is_refused(ehlectric, drive, tmp_path, old, new, message):
+    drive.write_text(SHORT.replace(old, new))
+    done = ehlectric("drive", "drive.toml", "-o", "out")
+    assert done.returncode == 2, done.stderr
+    assert message in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "out" / "summary.json").exists()
+
+
+def test_a_bearing_file_is_told_its_command(ehlectric, drive):
+    done = ehlectric("drive", "bearing.toml")
+    assert (done.returncode, "ehlectric bearing bearing.toml" in done.stderr) == (2, True)
+    done = ehlectric("bearing", drive)
+    assert (done.returncode, "ehlectric drive" in done.stderr) == (2, True)
