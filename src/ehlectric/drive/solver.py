@@ -28,6 +28,9 @@ from ehlectric.runtime.progress import Progress, silent
 # the circuit settles.
 _PERIODS, _SETTLING = 50.0, 1.0
 
+# Part of a period by which a whole number of periods may be rounded.
+_WHOLE = 1e-6
+
 # Voltages whose share of time is told [V]: field experience has discharges from a few volts on.
 LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 
@@ -156,7 +159,9 @@ def _times(case: DriveCase, waveform: Waveform | None) -> tuple[float, float, fl
     if waveform is not None:
         return float(np.max(np.abs(waveform.values))), 0.0, case.drive.duration or waveform.duration
     assert source.dc_link is not None and source.fundamental_frequency is not None
-    settling = _SETTLING / source.fundamental_frequency
+    # Whole periods of the carrier, so that a chunk of the source ends there.
+    carrier = source.switching_frequency or 6.0 * source.fundamental_frequency
+    settling = math.ceil(_SETTLING * carrier / source.fundamental_frequency - _WHOLE) / carrier
     peak = source.dc_link * (1.0 / 6.0 if source.modulation == "six-step" else 0.5)
     return peak, settling, case.drive.duration or _PERIODS / source.fundamental_frequency
 

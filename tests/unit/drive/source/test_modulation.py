@@ -61,7 +61,7 @@ def test_mean_of_the_common_mode_voltage():
 
 @pytest.mark.parametrize("rise", [0.0, 1e-7, 5e-5])
 def test_segments_are_the_edges(rise):
-    """Also where edges are shorter than the pulses between them: the voltage is that of the steps, averaged."""
+    """Also where pulses are shorter than their edges: the voltage is that of the steps, averaged."""
     one = source("space-vector")
     start, intervals = steps_of(one, 0.02, 0.003)
     pieces = list(edges(start, intervals, rise))
@@ -86,4 +86,6 @@ def test_an_edge_excites_its_ringing():
     rings = piece.ring[piece.ring != 0.0]
     assert rings.real == pytest.approx(np.zeros(rings.size))
     slope = (rings * ringing.rate).real
-    assert np.abs(slope) == pytest.approx(np.full(rings.size, 0.25 * LINK / 3.0 * 2.0 * np.pi * 1e6), rel=1e-12)
+    assert np.abs(slope) == pytest.approx(
+        np.full(rings.size, 0.25 * LINK / 3.0 * 2.0 * np.pi * 1e6), rel=1e-12
+    )
