@@ -42,8 +42,8 @@ def _of_bearings(solution: DriveSolution) -> Iterator[ResultWarning]:
         yield from first.warnings
         return
     for end, result in zip(ENDS, solution.bearings, strict=True):
-        for one in result.warnings:
-            yield ResultWarning(one.code, f"{end}: {one}")
+        for warning in result.warnings:
+            yield ResultWarning(warning.code, f"{end}: {warning}")
 
 
 def _of_threshold(solution: DriveSolution) -> Iterator[ResultWarning]:
