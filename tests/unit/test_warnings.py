@@ -54,8 +54,8 @@ def test_every_generator_gives_a_known_code():
     assert len(calls) > 40
     given = [call.args[0] for call in calls]
     assert {node.value for node in given if isinstance(node, ast.Constant)} <= set(CODES)
-    # Of a warning and its severe form, of earlier files, and of those that a contact of a bearing, a speed of a
-    # netlist and an end of a drive hand on.
+    # Of a warning and its severe form, of earlier files, and of those that a contact of a bearing, a speed of
+    # a netlist and an end of a drive hand on.
     others = [ast.unparse(node) for node in given if not isinstance(node, ast.Constant)]
     assert sorted(others) == ["code"] * 4 + ["warning.code"] * 3
 
