@@ -31,7 +31,7 @@ def drive(tmp_path):
 
 def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     drive.write_text(SHORT + REMEDY)
-    done = ehlectric("drive", "drive.toml", "-o", "out", "--no-plots")
+    done = ehlectric("drive", "drive.toml", "-o", "out")
     assert done.returncode == 0, done.stderr
     for text in ("drive end", "non-drive end", "discharges per second", "as it is", "Ceramic"):
         assert text in done.stdout
@@ -56,7 +56,7 @@ def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
 
 def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
     for name in ("one", "two"):
-        assert ehlectric("drive", drive, "-o", name, "--no-plots", "-q").returncode == 0
+        assert ehlectric("drive", drive, "-o", name, "-q").returncode == 0
     one, two = ((tmp_path / name / "events.csv").read_bytes() for name in ("one", "two"))
     assert one == two
 

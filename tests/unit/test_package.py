@@ -32,6 +32,12 @@ def test_solving_needs_no_figures_or_files():
     assert not loaded & {"matplotlib", "xarray", "pint", "h5py"}
 
 
+def test_files_of_results_are_named_without_the_compiler_of_drives():
+    loaded = modules_after("from ehlectric.runs.folders import files_of_results; files_of_results('.')")
+    assert "ehlectric.drive.files" in loaded
+    assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
+
+
 def test_public_names():
     for name in ehlectric.__all__:
         assert getattr(ehlectric, name) is not None

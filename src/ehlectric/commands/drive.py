@@ -8,17 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ehlectric.commands.options import (
-    Formats,
-    Json,
-    Output,
-    Plots,
-    Quiet,
-    Style,
-    figure_options,
-    file_argument,
-    one_of,
-)
+from ehlectric.commands.options import Json, Output, Quiet, file_argument, one_of
 from ehlectric.commands.terminal import progress_bar, report, user_errors
 
 if TYPE_CHECKING:
@@ -40,13 +30,10 @@ def drive(
             autocompletion=one_of("solved", "atlas", "formula"),
         ),
     ] = "",
-    plots: Plots = True,
-    formats: Formats = None,
-    style: Style = "screen",
     quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
-    """Simulate inverter, motor and both bearings over time; write summary.json, events.csv and figures.
+    """Simulate inverter, motor and both bearings over time; write summary.json and events.csv.
 
     The bearing voltage, the discharges of each bearing with their voltage, charge, energy and current, and
     the same for each remedy of the file.
@@ -58,17 +45,13 @@ def drive(
     written; or memory ran out, or the process of a contact was killed twice.
     """
     with user_errors():
-        look = figure_options(formats, style)
-
         from ehlectric.runs import by_kind
         from ehlectric.runs.kinds import expect
 
         expect(drive_file, "drive")
         case = by_kind.read_drive(drive_file)
         with progress_bar(shown=not quiet) as progress:
-            outcome = by_kind.run_and_draw(
-                "drive", case, output, progress, draw=plots, contacts=contacts, **look
-            )
+            outcome = by_kind.run_drive(case, output, progress, contacts=contacts)
     report(outcome, _tables, quiet=quiet, as_json=as_json)
 
 

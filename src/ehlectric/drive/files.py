@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ehlectric.cases.drives.case import DriveCase
-from ehlectric.drive.result import EVENT_COLUMNS, DriveResult, solve_drive
+from ehlectric.drive.keys import EVENT_COLUMNS
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tables import column_head, csv_of
+
+if TYPE_CHECKING:
+    from ehlectric.drive.result import DriveResult
 
 SUMMARY, EVENTS = "summary.json", "events.csv"
 FILES = (SUMMARY, EVENTS)
@@ -51,6 +55,9 @@ def run(
     InputError
         Where the drive cannot be solved, the folder cannot be used, or another command writes into it.
     """
+    # Loads the compiler of the simulation, which the names of the files above do not need.
+    from ehlectric.drive.result import solve_drive
+
     names = (*FILES, *others)
     with alone_in(folder, names) as folder:
         result = solve_drive(case, progress=progress, workers=workers)
@@ -81,7 +88,7 @@ def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = (
     InputError
         If the folder cannot be written to, its disk is full, or another command writes into it.
     """
-    heads = ["bearing", *(column_head(name, unit) for name, (unit, _) in EVENT_COLUMNS.items())]
+    heads = ["bearing", *(column_head(name, unit) for name, unit in EVENT_COLUMNS.items())]
     contents: dict[str, Content] = {
         SUMMARY: json_of(result.summary()),
         EVENTS: csv_of(heads, (row.values() for row in result.events())),

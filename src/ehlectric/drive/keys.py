@@ -112,3 +112,13 @@ DRIVE_KEYS: Keys = {
     **under("remedies", _REMEDY),
     "seconds": ResultKey("computing time", "s", "computing time"),
 }
+
+# Columns of the table of events, with their units.
+EVENT_COLUMNS = {
+    "time": "s",
+    "duration": "s",
+    "voltage": "V",
+    "charge": "C",
+    "energy": "J",
+    "peak_current": "A",
+}

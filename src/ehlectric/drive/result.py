@@ -11,30 +11,31 @@ import numpy as np
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
+from ehlectric.drive.keys import EVENT_COLUMNS
 from ehlectric.drive.solver import DriveSolution, solve
 from ehlectric.drive.summary import converged, drive_summary, whole_summary
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning
-from ehlectric.runtime.display import Shown, headline
+from ehlectric.runtime.display import headline
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
     import pandas as pd
 
-# Columns of the table of events: name, unit, and column of the record.
-EVENT_COLUMNS = {
-    "time": ("s", ON),
-    "duration": ("s", OFF),
-    "voltage": ("V", VOLTAGE),
-    "charge": ("C", CHARGE),
-    "energy": ("J", ENERGY),
-    "peak_current": ("A", PEAK),
+# Columns of a record, by the names of the table of events.
+_RECORDED = {
+    "time": ON,
+    "duration": OFF,
+    "voltage": VOLTAGE,
+    "charge": CHARGE,
+    "energy": ENERGY,
+    "peak_current": PEAK,
 }
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DriveResult(Shown):
+class DriveResult:
     """Result of a drive: what happened over time, its summary, and its remedies.
 
     Attributes
@@ -80,7 +81,7 @@ class DriveResult(Shown):
         rows = self.solution.record.events
         found = []
         for row in rows[np.argsort(rows[:, ON], kind="stable")]:
-            values = {name: float(row[column]) for name, (_, column) in EVENT_COLUMNS.items()}
+            values = {name: float(row[column]) for name, column in _RECORDED.items()}
             values["duration"] -= values["time"]
             found.append({"bearing": ENDS[int(row[FILM])], **values})
         return found
@@ -90,16 +91,17 @@ class DriveResult(Shown):
         import pandas as pd
 
         frame = pd.DataFrame(self.events(), columns=["bearing", *EVENT_COLUMNS])
-        frame.attrs["units"] = {name: unit for name, (unit, _) in EVENT_COLUMNS.items()}
+        frame.attrs["units"] = dict(EVENT_COLUMNS)
         return frame
 
-    def _headline(self) -> str:
+    def __repr__(self) -> str:
         found = drive_summary(self.solution)
-        return headline(
+        line = headline(
             self.case.title,
             *(f"{end.replace('_', ' ')} {found[end]['events_per_second']:.3g} discharges/s" for end in ENDS),
             "converged" if self.converged else "NOT CONVERGED",
         )
+        return f"<DriveResult {line}>"
 
 
 def solve_drive(
