@@ -15,10 +15,12 @@ if TYPE_CHECKING:
     from ehlectric.bearing.solver import solve_bearing
     from ehlectric.cases.bearings.case import BearingCase
     from ehlectric.cases.case import Case, LineCase, PointCase
+    from ehlectric.cases.drives.case import DriveCase
     from ehlectric.cases.measurements.factors import FilmFactors
     from ehlectric.cases.oils.named import oil
     from ehlectric.contact.results import PointResult, Result
     from ehlectric.discharge.verdict import Verdict
+    from ehlectric.drive.result import DriveResult, solve_drive
     from ehlectric.drive.spice.files import write_netlist
     from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning
     from ehlectric.figures.results import figure, figure_names, save_figures
@@ -40,12 +42,14 @@ __all__ = [  # noqa: RUF022
     "solve",
     "solve_many",
     "solve_bearing",
+    "solve_drive",
     "solve_motion",
     "film_factors",
     "Case",
     "LineCase",
     "PointCase",
     "BearingCase",
+    "DriveCase",
     "oil",
     "Sweep",
     "run_sweep",
@@ -62,6 +66,7 @@ __all__ = [  # noqa: RUF022
     "Result",
     "PointResult",
     "BearingResult",
+    "DriveResult",
     "MotionResult",
     "SweepResults",
     "Laws",
@@ -101,6 +106,9 @@ _HOMES = {
     "Result": "contact.results",
     "PointResult": "contact.results",
     "BearingResult": "bearing.result",
+    "DriveResult": "drive.result",
+    "solve_drive": "drive.result",
+    "DriveCase": "cases.drives.case",
     "MotionResult": "motion.result",
     "SweepResults": "sweep.results",
     "Laws": "lubricant.own",

@@ -116,7 +116,7 @@ WRONG = [
     pytest.param(
         ("examples", "bering"),
         "examples: got 'bering'; expected one of ball_bearing, ball_contact, bearing_6208, "
-        "bearing_greased, bearing_regime_map, bearing_thin_oil, discharge, hot_contact, line_contact, "
+        "bearing_greased, bearing_regime_map, bearing_thin_oil, discharge, drive, hot_contact, line_contact, "
         "mixed_contact, moving_roughness, oil_contact, roller_bearing, rough_contact, starved_contact, "
         "sweep, traction_curve, uncertainty",
         id="examples",

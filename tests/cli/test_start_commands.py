@@ -17,7 +17,8 @@ from ehlectric.runs.meaning import check
 from tests.cli.conftest import CASE
 from tests.helpers.places import EXAMPLES, ROOT
 
-KINDS = {"moving": "motion", "bearing": "bearing", "sweep": "sweep", "uncertainty": "sweep"}
+KINDS = {"moving": "motion", "bearing": "bearing", "drive": "drive", "sweep": "sweep", "uncertainty": "sweep"}
+COMMANDS = {"bearing": "bearing", "drive": "drive", "sweep": "sweep"}
 
 
 @pytest.mark.parametrize("kind", TEMPLATES)
@@ -27,7 +28,7 @@ def test_a_template_of_each_kind_is_written_and_means_something(ehlectric, tmp_p
     assert done.returncode == 0, done.stderr
     found = kind_of_file(tmp_path / "new.toml")
     assert found == KINDS.get(kind, "contact")
-    command = {"bearing": "bearing", "sweep": "sweep"}.get(found, "run")
+    command = COMMANDS.get(found, "run")
     assert done.stdout == (
         "written: new.toml\n  check it with: ehlectric check new.toml\n"
         f"  solve it with: ehlectric {command} new.toml\n"
@@ -45,8 +46,8 @@ def test_a_template_of_each_kind_is_written_and_means_something(ehlectric, tmp_p
 def test_a_template_of_each_kind_is_solved_as_it_is(ehlectric, tmp_path, kind):
     assert ehlectric("init", "new.toml", "--kind", kind, "-q").returncode == 0
     found = kind_of_file(tmp_path / "new.toml")
-    command = {"bearing": "bearing", "sweep": "sweep"}.get(found, "run")
-    options = ["--no-plots"] if command != "sweep" else []
+    command = COMMANDS.get(found, "run")
+    options = ["--no-plots"] if command in ("run", "bearing") else []
     # The contacts of the bearing take a minute: they are solved in a test of the example.
     options += ["--contacts", "formula"] if command == "bearing" else []
     done = ehlectric(command, "new.toml", "-o", "out", *options)

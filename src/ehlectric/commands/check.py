@@ -22,8 +22,8 @@ def check(
     """Check a file of any kind without solving it, and print what it means.
 
     Hertz contact, groups, regime and film formulas of a contact; with [discharge], an estimate of its
-    breakdown voltage. Loads, speeds, oil, films, capacitance and margin of a bearing, unsolved. Number of
-    points of a sweep, and its first point.
+    breakdown voltage. Loads, speeds, oil, films, capacitance and margin of a bearing, unsolved. Source and
+    bearings of a drive, not simulated. Number of points of a sweep, and its first point.
 
     Exit status 0: the file can be solved. 2: the input is wrong.
     """
@@ -32,7 +32,7 @@ def check(
         from ehlectric.runs.kinds import expect
         from ehlectric.runs.meaning import check as check_meaning
 
-        kind = expect(file, "contact", "motion", "bearing", "sweep")
+        kind = expect(file, "contact", "motion", "bearing", "drive", "sweep")
         meaning = check_meaning(by_kind.RUNS[kind].read(file))
     if as_json:
         typer.echo(json.dumps(meaning.summary, indent=2))

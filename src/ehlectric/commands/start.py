@@ -26,6 +26,7 @@ TEMPLATES: Mapping[str, str] = MappingProxyType(
         "moving": "examples/moving_roughness.toml",
         "discharge": "examples/discharge.toml",
         "bearing": "examples/bearing_6208.toml",
+        "drive": "examples/drive.toml",
         "sweep": "templates/sweep.toml",
         "uncertainty": "templates/uncertainty.toml",
     }
@@ -193,4 +194,4 @@ def _command(path: Path) -> str:
     from ehlectric.runs.kinds import kind_of_file
 
     kind = kind_of_file(path)
-    return kind if kind in ("bearing", "sweep") else "run"
+    return kind if kind in ("bearing", "drive", "sweep") else "run"

@@ -15,7 +15,7 @@ from ehlectric.drive.bearings import BearingElement, bearing_element
 from ehlectric.drive.circuit.modes import Modes, modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
 from ehlectric.drive.discharges.simulation import Measuring, Record, circuits_of, films_of, simulate
-from ehlectric.drive.discharges.states import Segments
+from ehlectric.drive.discharges.states import Films, Segments
 from ehlectric.drive.source.modulation import steps_of
 from ehlectric.drive.source.oscilloscope import read_waveform
 from ehlectric.drive.source.resampling import resample
@@ -69,6 +69,93 @@ class DriveSolution:
     told: tuple[ResultWarning, ...] = ()
 
 
+@dataclass(frozen=True, eq=False)
+class PreparedDrive:
+    """Drive before its simulation: solved bearings, and the circuit in each of its states.
+
+    Attributes
+    ----------
+    case : DriveCase
+        Case.
+    bearings : tuple of BearingResult
+        Solved bearings at the drive end and at the other end.
+    elements : tuple of BearingElement
+        The same as elements of the circuit.
+    films : Films
+        Thresholds and arcs of the films.
+    modes : Modes
+        Circuit in each of its states.
+    ringing : Ringing or None
+        What the edges of a described source excite.
+    waveform : Waveform or None
+        Voltage of a measured source.
+    highest_source : float
+        Largest absolute voltage of the source [V].
+    settling, duration : float
+        Times that are simulated before and after measuring begins [s].
+    told : tuple of ResultWarning
+        Warnings about the file of a measured source.
+    """
+
+    case: DriveCase
+    bearings: tuple[BearingResult, BearingResult]
+    elements: tuple[BearingElement, BearingElement]
+    films: Films
+    modes: Modes
+    ringing: Ringing | None
+    waveform: Waveform | None
+    highest_source: float
+    settling: float
+    duration: float
+    told: tuple[ResultWarning, ...]
+
+    @property
+    def divider(self) -> tuple[float, float]:
+        """Voltage across the films of each bearing per volt of the source, right after an edge.
+
+        The elements are at their first position.
+        """
+        first, second = self.modes.films_source[0]
+        return abs(float(first)), abs(float(second))
+
+
+def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
+    """Solve the bearings of a drive, and set up its circuit.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Drive.
+    workers : int, optional
+        Number of processes that solve the contacts of the bearings.
+
+    Returns
+    -------
+    PreparedDrive
+        All that the simulation needs.
+
+    Raises
+    ------
+    InputError
+        Where a bearing cannot be solved, or lacks a value that discharges need.
+    """
+    first, second = case.bearings
+    drive_end = solve_bearing(first, workers=workers)
+    results = drive_end, drive_end if second == first else solve_bearing(second, workers=workers)
+    elements = (
+        bearing_element(results[0], case.breakdown, ENDS[0]),
+        bearing_element(results[1], case.breakdown, ENDS[1]),
+    )
+    _check_extinction(case, elements)
+    films, ringing = films_of(elements, case.breakdown), ringing_of(case.source)
+    systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
+    modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
+    waveform, told = _measured(case)
+    return PreparedDrive(
+        case, results, elements, films, modes, ringing, waveform, *_times(case, waveform), told
+    )
+
+
 def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:
     """Solve the bearings of a drive, and simulate it over time.
 
@@ -91,31 +178,20 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     InputError
         Where a bearing cannot be solved, or lacks a value that discharges need.
     """
-    first, second = case.bearings
-    drive_end = solve_bearing(first, workers=workers)
-    results = drive_end, drive_end if second == first else solve_bearing(second, workers=workers)
-    elements = (
-        bearing_element(results[0], case.breakdown, ENDS[0]),
-        bearing_element(results[1], case.breakdown, ENDS[1]),
-    )
-    _check_extinction(case, elements)
-    films, ringing = films_of(elements, case.breakdown), ringing_of(case.source)
-    systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
-    modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
-    waveform, told = _measured(case)
-    highest, settling, duration = _times(case, waveform)
-    divider = _divider(modes)
-    reach = _highest(divider, highest, ringing)
-    measuring = Measuring(settling, duration, reach, LIMITS, _trace(case))
+    ready = prepare(case, workers=workers)
+    whole = ready.settling + ready.duration
+    reach = _highest(ready.divider, ready.highest_source, ready.ringing)
     record = simulate(
-        circuits_of(modes, None if ringing is None else ringing.rate),
-        films,
-        _chunks(case, waveform, settling, duration, ringing),
-        measuring,
+        circuits_of(ready.modes, None if ready.ringing is None else ready.ringing.rate),
+        ready.films,
+        _chunks(ready),
+        Measuring(ready.settling, ready.duration, reach, LIMITS, _trace(case)),
         case.drive.seed,
-        lambda time: progress(round(100.0 * min(time / (settling + duration), 1.0)), 100, "simulating"),
+        lambda time: progress(round(100.0 * min(time / whole, 1.0)), 100, "simulating"),
     )
-    return DriveSolution(case, results, elements, record, divider, highest, told)
+    return DriveSolution(
+        case, ready.bearings, ready.elements, record, ready.divider, ready.highest_source, ready.told
+    )
 
 
 def _measured(case: DriveCase) -> tuple[Waveform | None, tuple[ResultWarning, ...]]:
@@ -173,24 +249,17 @@ def _trace(case: DriveCase) -> float:
     return math.inf if carrier is None else _TRACED / carrier
 
 
-def _divider(modes: Modes) -> tuple[float, float]:
-    """Voltage across each film per volt of the source with all elements at their first position."""
-    first, second = modes.films_source[0]
-    return abs(float(first)), abs(float(second))
-
-
 def _highest(divider: tuple[float, float], highest: float, ringing: Ringing | None) -> float:
     """Voltage up to which histograms reach [V]: twice the divider's, as discharges shift it by itself."""
     over = 1.0 if ringing is None else 1.0 + ringing.overshoot
     return 2.0 * over * max(divider) * highest
 
 
-def _chunks(
-    case: DriveCase, waveform: Waveform | None, settling: float, duration: float, ringing: Ringing | None
-) -> Iterator[Segments]:
+def _chunks(ready: PreparedDrive) -> Iterator[Segments]:
     """Pieces of the source."""
-    if waveform is not None:
-        return sampled(waveform, duration)
-    assert case.source.rise_time is not None
-    start, intervals = steps_of(case.source, settling + duration, settling)
-    return edges(start, intervals, case.source.rise_time, ringing)
+    source = ready.case.source
+    if ready.waveform is not None:
+        return sampled(ready.waveform, ready.duration)
+    assert source.rise_time is not None
+    start, intervals = steps_of(source, ready.settling + ready.duration, ready.settling)
+    return edges(start, intervals, source.rise_time, ready.ringing)

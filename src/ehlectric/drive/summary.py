@@ -14,7 +14,7 @@ from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.simulation import Record
 from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
-from ehlectric.drive.solver import DriveSolution
+from ehlectric.drive.solver import DriveSolution, PreparedDrive
 from ehlectric.drive.statistics import event_rate, spread
 from ehlectric.runtime.files import plain
 
@@ -60,15 +60,9 @@ def edges_per_second(case: DriveCase) -> float | None:
 def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     """Summary of the bearing at one end: its film, its voltage, and its events."""
     case, record, one = solution.case, solution.record, solution.elements[b]
-    breakdown, peak = float(np.min(one.breakdown)), float(record.peak[b])
-    finite = math.isfinite(one.shape) and math.isfinite(breakdown)
+    peak = float(record.peak[b])
     return {
-        "capacitance": one.mean_capacitance,
-        "conductance": one.conductance,
-        "breakdown_voltage": breakdown if math.isfinite(breakdown) else None,
-        "weibull_shape": one.shape if finite else None,
-        "renewal_time": (case.breakdown.renewal_time or one.transit) if finite else None,
-        "touching_time_share": one.touching,
+        **_film(case, one),
         "voltage_ratio": solution.divider[b],
         "waveform_ratio": peak / solution.highest_source,
         "peak_voltage": peak,
@@ -79,6 +73,46 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
         },
         **_events(record, b, edges_per_second(case)),
         **_densities(record, one, b),
+    }
+
+
+def prepared_summary(ready: PreparedDrive) -> dict[str, Any]:
+    """Tables ``source``, ``drive``, ``drive_end`` and ``non_drive_end`` of a drive that is not simulated."""
+    case = ready.case
+    bearing = ready.bearings[0].case.bearing
+    summary: dict[str, Any] = plain(
+        {
+            "source": {"peak": ready.highest_source, "edges_per_second": edges_per_second(case)},
+            "drive": {
+                "speed": bearing.inner_speed,
+                "temperature": bearing.oil_temperature,
+                "duration": ready.duration,
+                "remedies": len(case.remedies),
+            },
+            **{
+                end: {
+                    **_film(case, one),
+                    "voltage_ratio": ratio,
+                    "voltage_at_peak": ratio * ready.highest_source,
+                }
+                for end, one, ratio in zip(ENDS, ready.elements, ready.divider, strict=True)
+            },
+        }
+    )
+    return summary
+
+
+def _film(case: DriveCase, one: BearingElement) -> dict[str, Any]:
+    """Films of a bearing as an element of the circuit."""
+    breakdown = float(np.min(one.breakdown))
+    finite = math.isfinite(one.shape) and math.isfinite(breakdown)
+    return {
+        "capacitance": one.mean_capacitance,
+        "conductance": one.conductance,
+        "breakdown_voltage": breakdown if math.isfinite(breakdown) else None,
+        "weibull_shape": one.shape if finite else None,
+        "renewal_time": (case.breakdown.renewal_time or one.transit) if finite else None,
+        "touching_time_share": one.touching,
     }
 
 

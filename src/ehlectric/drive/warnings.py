@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.row import amount
 from ehlectric.drive.solver import DriveSolution
@@ -30,18 +31,18 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
         Warning with its code.
     """
     yield from solution.told
-    yield from _of_bearings(solution)
+    yield from bearing_warnings(solution.bearings)
     yield from _of_threshold(solution)
     yield from _of_time(solution)
 
 
-def _of_bearings(solution: DriveSolution) -> Iterator[ResultWarning]:
-    """Warnings of the bearings; those of two equal bearings are told once."""
-    first, second = solution.bearings
+def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[ResultWarning]:
+    """Warnings of both bearings, each with its end; those of two equal bearings are told once."""
+    first, second = bearings
     if second is first:
         yield from first.warnings
         return
-    for end, result in zip(ENDS, solution.bearings, strict=True):
+    for end, result in zip(ENDS, bearings, strict=True):
         for warning in result.warnings:
             yield ResultWarning(warning.code, f"{end}: {warning}")
 

@@ -18,6 +18,7 @@ import numpy as np
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW, QUICK
 from ehlectric.cases.case import Case
+from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import Row
 from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
@@ -60,13 +61,14 @@ class Meaning:
 
 
 @singledispatch
-def check(case: Case | BearingCase | Sweep) -> Meaning:
+def check(case: Case | BearingCase | DriveCase | Sweep) -> Meaning:
     """Meaning of a case or of a sweep, at once: dry contact, groups, and what film formulas predict.
 
     Parameters
     ----------
-    case : Case, BearingCase or Sweep
-        Case of a contact, with or without motion; a bearing; or a sweep, of which the first point is checked.
+    case : Case, BearingCase, DriveCase or Sweep
+        Case of a contact, with or without motion; a bearing; a drive, of which nothing is simulated; or a
+        sweep, of which the first point is checked.
 
     Returns
     -------
@@ -209,6 +211,35 @@ def _check_bearing(case: BearingCase) -> Meaning:
     if refused is not None:
         rows.append(Row("breakdown voltage", note="needs solved contacts for this strength"))
     return Meaning(case.title, tuple(rows), summary, result.warnings, result.verdict)
+
+
+@check.register
+def _check_drive(case: DriveCase) -> Meaning:
+    from ehlectric.bearing.accuracy import film_error
+    from ehlectric.bearing.quick.ways import quick_case
+    from ehlectric.drive.solver import prepare
+    from ehlectric.drive.summary import prepared_summary
+    from ehlectric.drive.warnings import bearing_warnings
+    from ehlectric.tables.drive import prepared_rows
+
+    films = {}
+    for end, bearing in zip(ENDS, case.bearings, strict=True):
+        judged, refused = quick_case(bearing)
+        if judged is None or refused is not None:
+            key = "lubricant" if refused is None else refused.key
+            note = f"{end}.{key}: needs solved contacts; ehlectric drive solves them"
+            row = Row("films and voltages", note=note)
+            return Meaning(case.title, (row,), {"inputs": case.to_dict(), "films": None}, ())
+        films[end] = judged
+    tables = {**case.to_dict(), **films}
+    tables["drive"].pop("contacts", None)
+    ready = prepare(DriveCase.from_dict(tables), workers=1)
+    summary = {**prepared_summary(ready), "inputs": case.to_dict()}
+    for end, result in zip(ENDS, ready.bearings, strict=True):
+        summary[end] |= {"films": films[end].contacts, "films_error": film_error(result.solution)}
+    return Meaning(
+        case.title, tuple(prepared_rows(summary)), summary, tuple(bearing_warnings(ready.bearings))
+    )
 
 
 def _solved_quickly(case: BearingCase) -> BearingResult:

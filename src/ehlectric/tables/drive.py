@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.cases.row import UNITS
+from ehlectric.bearing.accuracy import percent
+from ehlectric.cases.bearings.ways import HOW
+from ehlectric.cases.row import UNITS, Row
 from ehlectric.errors import printable
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-_ENDS = ("drive_end", "non_drive_end")
+_NAMES = {"drive_end": "drive end", "non_drive_end": "non-drive end"}
+_ENDS = tuple(_NAMES)
 
 # Rows of the table of both ends: name, key, and unit in which it is shown.
 _ROWS = (
@@ -37,6 +40,12 @@ _ROWS = (
     ("current density, one element", "element_current_density", "A/mm²"),
 )
 
+# Rows of a bearing before the simulation.
+_PREPARED = (
+    *_ROWS[:4],
+    ("bearing voltage at the peak, by the divider", "voltage_at_peak", "V"),
+)
+
 # Columns of the table of remedies, of the bearing with more discharges.
 _COLUMNS = (
     ("events [1/s]", "events_per_second", "1/s"),
@@ -45,6 +54,33 @@ _COLUMNS = (
     ("power [µW]", "power", "µW"),
     ("peak [V]", "peak_voltage", "V"),
 )
+
+
+def prepared_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of a drive that is not simulated.
+
+    Parameters
+    ----------
+    summary : mapping
+        Tables of ``drive.summary.prepared_summary``; in those of the ends also ``films`` and ``films_error``.
+
+    Yields
+    ------
+    Row
+        Source, and what is known of each bearing without a simulation.
+    """
+    yield Row("common-mode voltage, peak", summary["source"]["peak"], "V")
+    if summary["source"]["edges_per_second"] is not None:
+        yield Row("edges per second", summary["source"]["edges_per_second"], "1/s")
+    yield Row("simulated time", summary["drive"]["duration"], "s")
+    yield Row("remedies computed beside it", str(summary["drive"]["remedies"]))
+    for end in _ENDS:
+        about = summary[end]
+        note = f"contacts {HOW[about['films']]}: films may be {percent(about['films_error'])} off"
+        yield Row(_NAMES[end] + ":", note=note)
+        for name, key, unit in _PREPARED:
+            if about[key] is not None:
+                yield Row(name, about[key], unit, bound="≤" if key == "breakdown_voltage" else "")
 
 
 def ends_table(summary: Mapping[str, Any]) -> Table:
@@ -60,7 +96,7 @@ def ends_table(summary: Mapping[str, Any]) -> Table:
     rich.table.Table
         A row for each quantity, a column for each end, and one for the unit.
     """
-    head = [printable(summary["title"]), "drive end", "non-drive end", ""]
+    head = [printable(summary["title"]), *_NAMES.values(), ""]
     rows = ([name, *(_shown(summary[end][key], unit) for end in _ENDS), unit] for name, key, unit in _ROWS)
     return _table(head, rows)
 

@@ -130,6 +130,7 @@ def test_kinds_of_the_examples():
         "bearing_greased": "bearing",
         "bearing_regime_map": "sweep",
         "bearing_thin_oil": "bearing",
+        "drive": "drive",
         "moving_roughness": "motion",
         "sweep": "sweep",
         "traction_curve": "sweep",

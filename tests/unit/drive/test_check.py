@@ -1,0 +1,44 @@
+"""Drives are checked without being simulated."""
+
+import pytest
+
+from ehlectric import DriveCase, InputError
+from ehlectric.cases.drives.case import ENDS
+from ehlectric.drive.solver import solve
+from ehlectric.drive.summary import drive_summary
+from ehlectric.runs.meaning import check
+from tests.helpers.places import EXAMPLES
+
+
+@pytest.fixture(scope="module")
+def drive():
+    """The example, for a time in which hardly anything happens."""
+    return DriveCase.from_toml(EXAMPLES / "drive.toml").replace({"drive.duration": "1 ms"})
+
+
+def test_numbers_before_the_simulation_are_those_of_the_simulation(drive):
+    meaning, solved = check(drive), drive_summary(solve(drive))
+    for end in ENDS:
+        told = meaning.summary[end]
+        for key in ("capacitance", "conductance", "breakdown_voltage", "renewal_time", "voltage_ratio"):
+            assert told[key] == solved[end][key]
+        assert told["voltage_at_peak"] == pytest.approx(280.0 * solved[end]["voltage_ratio"])
+    assert meaning.summary["source"] == solved["source"]
+    names = [row.name for row in meaning.rows]
+    assert names.count("breakdown voltage, weakest position") == 2
+
+
+def test_contacts_that_would_be_solved_are_from_the_atlas(drive):
+    assert check(drive.replace({"drive.contacts": "solved"})).summary["drive_end"]["films"] == "atlas"
+
+
+def test_what_the_simulation_refuses_is_refused(drive):
+    with pytest.raises(InputError, match=r"^breakdown\.extinction_voltage: got 100 V"):
+        check(drive.replace({"breakdown.extinction_voltage": "100 V"}))
+
+
+def test_a_strength_that_needs_the_field_is_told(drive):
+    """Its films are solved by the simulation alone."""
+    oil = drive.replace({"bearings.lubricant.viscosity_law": "constant"})
+    (row,) = check(oil).rows
+    assert "drive_end.lubricant.viscosity_law: needs solved contacts" in row.note
