@@ -343,6 +343,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "waveform-clipped": Cause("The range of the oscilloscope was probably exceeded."),
         "waveform-coarse": Cause("A measured waveform has few different voltages."),
         "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
+        "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
         "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
         "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),
         # Files of other versions

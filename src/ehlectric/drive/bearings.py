@@ -101,7 +101,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     touching = duty_of(solution).contact_time_share
     touching = touching if touching > _NEVER else 0.0
     if touching and bearing.contact_resistance is None:
-        raise InputError.worded(
+        raise InputError(
             f"{end}.bearing.contact_resistance",
             f"missing; asperities close the films of this bearing for {100.0 * touching:.3g} % of the time",
             takes="the resistance of one closed contact; about 0.1 to 1 ohm",
@@ -109,9 +109,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     circuits = solution.circuits()
     strengths = np.array([circuit.through_breakdown for circuit in circuits])
     if not ceramic and not np.all(np.isfinite(strengths)):
-        raise InputError.worded(
-            f"{end}.discharge.dielectric_strength", "missing", takes="the strength of the oil"
-        )
+        raise InputError.missing(f"{end}.discharge.dielectric_strength", "the strength of the oil")
     films = np.array([circuit.capacitance for circuit in circuits])
     if bearing.element_capacitance is not None:
         films = np.full(films.size, bearing.elements * bearing.element_capacitance)

@@ -18,6 +18,17 @@ _SOURCE: Keys = {
     "peak": ResultKey("largest absolute common-mode voltage, without ringing", "V", "common-mode voltage"),
     "edges_per_second": ResultKey("steps of the common-mode voltage", "1/s", "edges of the source"),
 }
+_CIRCUIT: Keys = {
+    "winding_rotor_capacitance": ResultKey(
+        "capacitance from the winding to the rotor, given or from the geometry", "F", "winding to rotor"
+    ),
+    "rotor_frame_capacitance": ResultKey(
+        "capacitance from the rotor to the frame, given or from the geometry", "F", "rotor to frame"
+    ),
+    "winding_frame_capacitance": ResultKey(
+        "capacitance from the winding to the frame, given or from the geometry", "F", "winding to frame"
+    ),
+}
 _DRIVE: Keys = {
     "speed": ResultKey("speed of the rotor", "rad/s", "speed"),
     "temperature": ResultKey(
@@ -106,6 +117,7 @@ _REMEDY: Keys = {
 DRIVE_KEYS: Keys = {
     **_ABOUT,
     **under("source", _SOURCE),
+    **under("circuit", _CIRCUIT),
     **under("drive", _DRIVE),
     **under("drive_end", _END),
     **under("non_drive_end", _END),

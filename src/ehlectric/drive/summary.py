@@ -25,13 +25,14 @@ _COLUMNS = {"voltage": VOLTAGE, "charge": CHARGE, "energy": ENERGY, "peak_curren
 
 
 def drive_summary(solution: DriveSolution) -> dict[str, Any]:
-    """Tables ``source``, ``drive``, ``drive_end`` and ``non_drive_end`` of the summary of a drive."""
+    """Summary of a drive without its head and its remedies: its source, its circuit and both bearings."""
     case, record = solution.case, solution.record
     ends = {end: end_summary(solution, b) for b, end in enumerate(ENDS)}
     fundamental, bearing = case.source.fundamental_frequency, solution.bearings[0].case.bearing
     summary: dict[str, Any] = plain(
         {
             "source": {"peak": solution.highest_source, "edges_per_second": edges_per_second(case)},
+            "circuit": case.circuit.capacitances,
             "drive": {
                 "speed": bearing.inner_speed,
                 "temperature": bearing.oil_temperature,
@@ -77,12 +78,13 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
 
 
 def prepared_summary(ready: PreparedDrive) -> dict[str, Any]:
-    """Tables ``source``, ``drive``, ``drive_end`` and ``non_drive_end`` of a drive that is not simulated."""
+    """What is known of a drive without its simulation: its source, its circuit and both bearings."""
     case = ready.case
     bearing = ready.bearings[0].case.bearing
     summary: dict[str, Any] = plain(
         {
             "source": {"peak": ready.highest_source, "edges_per_second": edges_per_second(case)},
+            "circuit": case.circuit.capacitances,
             "drive": {
                 "speed": bearing.inner_speed,
                 "temperature": bearing.oil_temperature,

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.bearing.result import BearingResult
-from ehlectric.cases.drives.case import ENDS
+from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount
 from ehlectric.drive.solver import DriveSolution
 from ehlectric.errors import ResultWarning
@@ -32,6 +32,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     """
     yield from solution.told
     yield from bearing_warnings(solution.bearings)
+    yield from machine_warnings(solution.case)
     yield from _of_threshold(solution)
     yield from _of_time(solution)
 
@@ -45,6 +46,20 @@ def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[
     for end, result in zip(ENDS, bearings, strict=True):
         for warning in result.warnings:
             yield ResultWarning(warning.code, f"{end}: {warning}")
+
+
+def machine_warnings(case: DriveCase) -> Iterator[ResultWarning]:
+    """Note of capacitances that follow from the geometry of the machine."""
+    circuit = case.circuit
+    if circuit.estimated:
+        told = ", ".join(
+            f"circuit.{key} {amount(circuit.capacitances[key], 'F')}" for key in circuit.estimated
+        )
+        yield ResultWarning(
+            "capacitances-estimated",
+            f"{told}: from the geometry of the machine without end windings, which add to them; "
+            "measure them, or see what half and double of them change",
+        )
 
 
 def _of_threshold(solution: DriveSolution) -> Iterator[ResultWarning]:

@@ -219,7 +219,7 @@ def _check_drive(case: DriveCase) -> Meaning:
     from ehlectric.bearing.quick.ways import quick_case
     from ehlectric.drive.solver import prepare
     from ehlectric.drive.summary import prepared_summary
-    from ehlectric.drive.warnings import bearing_warnings
+    from ehlectric.drive.warnings import bearing_warnings, machine_warnings
     from ehlectric.tables.drive import prepared_rows
 
     films = {}
@@ -237,9 +237,8 @@ def _check_drive(case: DriveCase) -> Meaning:
     summary = {**prepared_summary(ready), "inputs": case.to_dict()}
     for end, result in zip(ENDS, ready.bearings, strict=True):
         summary[end] |= {"films": films[end].contacts, "films_error": film_error(result.solution)}
-    return Meaning(
-        case.title, tuple(prepared_rows(summary)), summary, tuple(bearing_warnings(ready.bearings))
-    )
+    told = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case))
+    return Meaning(case.title, tuple(prepared_rows(summary)), summary, told)
 
 
 def _solved_quickly(case: BearingCase) -> BearingResult:

@@ -40,6 +40,13 @@ _ROWS = (
     ("current density, one element", "element_current_density", "A/mm²"),
 )
 
+# Capacitances of the machine, by their keys.
+_CIRCUIT = {
+    "winding_rotor_capacitance": "winding to rotor",
+    "rotor_frame_capacitance": "rotor to frame",
+    "winding_frame_capacitance": "winding to frame",
+}
+
 # Rows of a bearing before the simulation.
 _PREPARED = (
     *_ROWS[:4],
@@ -72,6 +79,8 @@ def prepared_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     yield Row("common-mode voltage, peak", summary["source"]["peak"], "V")
     if summary["source"]["edges_per_second"] is not None:
         yield Row("edges per second", summary["source"]["edges_per_second"], "1/s")
+    for key, value in summary["circuit"].items():
+        yield Row(f"capacitance {_CIRCUIT[key]}", value, "pF")
     yield Row("simulated time", summary["drive"]["duration"], "s")
     yield Row("remedies computed beside it", str(summary["drive"]["remedies"]))
     for end in _ENDS:

@@ -4,6 +4,7 @@ import pytest
 
 from ehlectric import InputError
 from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.circuit import Circuit
 from tests.helpers.places import EXAMPLES
 
 TABLE = {
@@ -105,3 +106,33 @@ def test_a_missing_extinction_is_told(file):
     file.write_text(text)
     with pytest.raises(InputError, match="one of extinction_current and extinction_voltage"):
         DriveCase.from_toml(file)
+
+
+MACHINE = {
+    "stack_length": "120 mm", "bore_diameter": "110 mm", "air_gap": "0.5 mm", "slots": 36,
+    "slot_opening": "3 mm", "copper_depth": "2 mm", "slot_permittivity": 2, "liner_width": "50 mm",
+    "liner_thickness": "0.3 mm", "liner_permittivity": 3.5,
+}  # fmt: skip
+
+
+def test_capacitances_that_are_not_given_are_those_of_the_geometry():
+    whole = Circuit.from_dict({"machine": MACHINE})
+    assert whole.estimated == tuple(whole.capacitances)
+    assert len(whole.estimated) == 3
+    some = Circuit.from_dict({"machine": MACHINE, "winding_rotor_capacitance": "40 pF"})
+    assert some.capacitances == whole.capacitances | {"winding_rotor_capacitance": 40e-12}
+    assert some.estimated == ("rotor_frame_capacitance", "winding_frame_capacitance")
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ({}, r"^winding_rotor_capacitance: missing; expected a value; or the table circuit\.machine, "),
+        ({"machine": MACHINE | {"slot_opening": "10 mm"}}, r"slot_opening: got 10 mm; expected less"),
+        ({"machine": MACHINE | {"air_gap": "30 mm"}}, r"air_gap: got 30 mm; expected at most a quarter"),
+        ({"machine": MACHINE | {"slots": 2}}, r"slots: got 2; "),
+    ],
+)  # fmt: skip
+def test_a_machine_that_is_none_is_refused(table, message):
+    with pytest.raises(InputError, match=message):
+        Circuit.from_dict(table)

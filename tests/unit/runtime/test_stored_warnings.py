@@ -92,6 +92,7 @@ UNSTORED = {
     "waveform-clipped",
     "waveform-coarse",
     "edges-unresolved",
+    "capacitances-estimated",
     "threshold-constant",
     "few-discharges",
 }

@@ -59,6 +59,7 @@ WITHOUT_PLACE = (
     "waveform-clipped",
     "waveform-coarse",
     "edges-unresolved",
+    "capacitances-estimated",
     "threshold-constant",
     "few-discharges",
     "unclassified",

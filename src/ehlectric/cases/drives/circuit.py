@@ -2,21 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from functools import cached_property
+from typing import Annotated, Self
 
+from pydantic import model_validator
+
+from ehlectric.cases.drives.machine import Geometry
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
 
 _Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
 _Inductance = Annotated[float, Quantity("H", above=0.0, most=1e3, reason="of a path of the current")]
 _Resistance = Annotated[float, Quantity("ohm", least=0.0, most=1e12, reason="of a path of the current")]
 
 
+# Capacitances that a geometry gives where they are not given themselves, and their names there.
+_FROM_GEOMETRY = {
+    "winding_rotor_capacitance": "winding_rotor",
+    "rotor_frame_capacitance": "rotor_frame",
+    "winding_frame_capacitance": "winding_frame",
+}
+
+
 class Circuit(Table):
     """Circuit of the machine around its bearings."""
 
-    winding_rotor_capacitance: _Capacitance
-    rotor_frame_capacitance: _Capacitance
+    winding_rotor_capacitance: _Capacitance | None = None
+    rotor_frame_capacitance: _Capacitance | None = None
     winding_frame_capacitance: _Capacitance | None = None
     frame_earth_capacitance: _Capacitance | None = None
     cable_capacitance: _Capacitance | None = None
@@ -27,3 +40,29 @@ class Circuit(Table):
     grounding_ring_resistance: (
         Annotated[float, Quantity("ohm", above=0.0, most=1e12, reason="from the shaft to the frame")] | None
     ) = None
+    machine: Geometry | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in ("winding_rotor_capacitance", "rotor_frame_capacitance"):
+            if self.machine is None and getattr(self, key) is None:
+                takes = "a value; or the table circuit.machine, the geometry of the machine"
+                raise InputError.missing(key, takes)
+        return self
+
+    @property
+    def estimated(self) -> tuple[str, ...]:
+        """Keys of the capacitances that are not given, and follow from the geometry of the machine."""
+        return (
+            () if self.machine is None else tuple(key for key in _FROM_GEOMETRY if getattr(self, key) is None)
+        )
+
+    @cached_property
+    def capacitances(self) -> dict[str, float]:
+        """Capacitances of the machine by their keys [F], given or from its geometry; without any others."""
+        found = {key: getattr(self, key) for key in _FROM_GEOMETRY}
+        if self.estimated:
+            assert self.machine is not None
+            by_geometry = self.machine.capacitances
+            found |= {key: getattr(by_geometry, _FROM_GEOMETRY[key]) for key in self.estimated}
+        return {key: value for key, value in found.items() if value is not None}

@@ -80,7 +80,7 @@ class Source(Table):
         carrier = () if self.modulation == "six-step" else _NEEDED_BY_CARRIER
         for key in (*_NEEDED, *carrier):
             if getattr(self, key) is None:
-                raise InputError.worded(key, "missing", takes="a value; or file, a measured waveform")
+                raise InputError.missing(key, "a value; or file, a measured waveform")
         if self.modulation == "six-step":
             for key in _NEEDED_BY_CARRIER:
                 if getattr(self, key) is not None:

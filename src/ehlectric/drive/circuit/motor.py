@@ -16,6 +16,14 @@ from ehlectric.drive.circuit.state_space import FRAME, Element, StateSpace, stat
 SOURCE, WINDING, ROTOR, EARTH = "source", "winding", "rotor", "earth"
 
 
+# Nodes of the capacitances of the machine, by their keys.
+_PLATES = {
+    "winding_rotor_capacitance": (WINDING, ROTOR),
+    "rotor_frame_capacitance": (ROTOR, FRAME),
+    "winding_frame_capacitance": (WINDING, FRAME),
+}
+
+
 def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
     """Nodes between which the films of each bearing lie: a coating lies between them and the frame."""
     return [
@@ -42,10 +50,8 @@ def _reactor(circuit: Circuit) -> bool:
 
 def motor_elements(circuit: Circuit) -> Iterator[Element]:
     """Elements of the motor and of its connection to the inverter, without bearings."""
-    yield Element("capacitor", WINDING, ROTOR, circuit.winding_rotor_capacitance)
-    yield Element("capacitor", ROTOR, FRAME, circuit.rotor_frame_capacitance)
-    if circuit.winding_frame_capacitance is not None:
-        yield Element("capacitor", WINDING, FRAME, circuit.winding_frame_capacitance)
+    for key, value in circuit.capacitances.items():
+        yield Element("capacitor", *_PLATES[key], value)
     if circuit.grounding_ring_resistance is not None:
         yield Element("conductor", ROTOR, FRAME, 1.0 / circuit.grounding_ring_resistance)
     own, ground = circuit.common_mode_inductance or 0.0, circuit.ground_inductance or 0.0
