@@ -26,11 +26,11 @@ RECIPROCALS = tuple(1.0 / (k + 2.0) for k in range(_TERMS, 0, -1))
 # Exponents below which exp is taken as zero.
 _LOWEST = -700.0
 
-# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, second derivatives at its start,
-# amplitudes at a time, and the voltage across each film per amplitude. Its columns are the modes of the
-# circuit, the source without its ringing, and the ringing, which are modes of their own.
-RATE, START, FORCE, SLOPE, CURVATURE, NOW, FILMS = range(7)
-ROWS, FURTHER = 8, 2
+# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, amplitudes at a time; and of each film the
+# voltage across it per amplitude, and the size of its second derivative at the start. Its columns are the
+# modes of the circuit, the source without its ringing, and the ringing, which are modes of their own.
+RATE, START, FORCE, SLOPE, NOW, FILMS, CURVATURE = 0, 1, 2, 3, 4, 5, 7
+ROWS, FURTHER = 9, 2
 
 # Ways of a crossing.
 RISES, FALLS = range(2)
@@ -116,7 +116,9 @@ def begin(circuits: Circuits, c: int, x: Array, source: Source, piece: Complex) 
         piece[FILMS + film, n + 1] = circuits.ring_films[c, film]
     for m in range(n + FURTHER):
         rate = piece[RATE, m]
-        piece[CURVATURE, m] = rate * (rate * piece[START, m] + piece[FORCE, m]) + piece[SLOPE, m]
+        curvature = rate * (rate * piece[START, m] + piece[FORCE, m]) + piece[SLOPE, m]
+        for film in range(2):
+            piece[CURVATURE + film, m] = abs(piece[FILMS + film, m] * curvature)
 
 
 @inner
@@ -158,7 +160,7 @@ def curvature_bound(piece: Complex, film: int, t: float) -> float:
     """Bound of the second derivative of the voltage across a film from the time t on [V/s^2]."""
     bound = 0.0
     for m in range(piece.shape[1]):
-        size = abs(piece[FILMS + film, m] * piece[CURVATURE, m])
+        size = piece[CURVATURE + film, m].real
         if size > 0.0:
             bound += size * math.exp(max(piece[RATE, m].real * t, _LOWEST))
     return bound
