@@ -66,8 +66,8 @@ _NOTHING, _BROKEN, _OUT = range(3)
 
 # Abscissae and weights of Gauss and Legendre on (0, 1) for charge and energy of an arc, and the exponent at
 # which a mode is over. Rate times duration of a panel, L, leaves an error of 5.8e-31 L^21 in the integral of
-# an exponential, which has fallen to exp(-E), and 1e6 times as much in that of its square: L is the smaller one
-# of 4 exp(2 E/21) and 7.4 exp(E/21), for 3e-12.
+# an exponential, which has fallen to exp(-E), and 1e6 times as much in that of its square: for 3e-12, L is
+# the smaller one of 4 exp(2 E/21) and 7.4 exp(E/21).
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _OF_SQUARE, _OF_MODE, _ORDER, _GONE = 4.0, 7.4, 21.0, 40.0
 POINTS, WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS

@@ -26,8 +26,8 @@ RECIPROCALS = tuple(1.0 / (k + 2.0) for k in range(_TERMS, 0, -1))
 # Exponents below which exp is taken as zero.
 _LOWEST = -700.0
 
-# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, amplitudes at a time; and of each film the
-# voltage across it per amplitude, and the size of its second derivative at the start. Its columns are the
+# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, amplitudes at a time; and of each film
+# the voltage across it per amplitude, and the size of its second derivative at the start. Its columns are the
 # modes of the circuit, the source without its ringing, and the ringing, which are modes of their own.
 RATE, START, FORCE, SLOPE, NOW, FILMS, CURVATURE = 0, 1, 2, 3, 4, 5, 7
 ROWS, FURTHER = 9, 2
