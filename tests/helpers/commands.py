@@ -11,23 +11,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+from tests.helpers.preloaded import NAMES
+
 COMMAND = Path(sys.executable).with_name("ehlectric")
 
-_PRELOADED = (
-    "ehlectric.commands.app",
-    "ehlectric.contact.solver",
-    "ehlectric.contact.files",
-    "ehlectric.motion.run",
-    "ehlectric.figures.contact.save",
-    "ehlectric.figures.motion.save",
-    "matplotlib.backends.backend_agg",
-    "xarray",
-    "h5netcdf",
-    "pint",
-    "rich.progress",
-)
 _server = multiprocessing.get_context("forkserver")
-_server.set_forkserver_preload([__name__, *_PRELOADED])
+_server.set_forkserver_preload([__name__, *NAMES])
 
 
 def _command(arguments, folder, output, errors):
