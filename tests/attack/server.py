@@ -16,9 +16,10 @@ import sys
 import time
 import traceback
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 from typing import Any
+
+from tests.helpers.preloaded import preload
 
 # A child may not take more address space than this [bytes]; the bound that is judged is lower.
 ADDRESS_SPACE = 16 << 30
@@ -38,26 +39,12 @@ _CHANGING = {
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 
 
-# What commands import when they need it. Forks find it loaded.
-_LOADED = (
-    "h5py", "matplotlib.animation", "matplotlib.backends.backend_agg", "matplotlib.pyplot", "PIL.Image",
-    "pint", "xarray", "pyarrow.parquet", "scipy.stats.qmc", "rich.table", "ehlectric.bearing.files",
-    "ehlectric.commands.app", "ehlectric.commands.drawing", "ehlectric.runs.meaning",
-    "ehlectric.runs.by_kind", "ehlectric.tables.bearing", "ehlectric.tables.contact",
-    "ehlectric.tables.motion", "ehlectric.tables.sweep", "ehlectric.figures.bearing.save",
-    "ehlectric.figures.motion.save", "ehlectric.figures.results", "ehlectric.figures.surface",
-    "ehlectric.figures.sweep.save", "ehlectric.figures.sweep.sensitivity", "ehlectric.motion.run",
-    "ehlectric.paper.reproduce", "ehlectric.surfaces.files", "ehlectric.sweep.run",
-)  # fmt: skip
-
-
 def _preload() -> None:
     """Import what commands import, and make what they make once, so that forks have it."""
     import matplotlib
 
     matplotlib.use("agg")
-    for name in _LOADED:
-        import_module(name)
+    preload()
     from ehlectric import Case
 
     Case.from_toml(Path(__file__).parents[2] / "examples" / "line_contact.toml")

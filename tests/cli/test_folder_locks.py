@@ -18,7 +18,7 @@ from ehlectric.runtime import folders
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from tests.cli.conftest import CASE
 from tests.cli.test_moving_run import LONG, begun
-from tests.helpers.commands import COMMAND
+from tests.helpers.commands import Begun, run_command
 from tests.helpers.places import EXAMPLES
 
 SMALL = CASE.replace("801", "257")
@@ -121,15 +121,15 @@ def test_a_second_moving_run_does_not_touch_the_first(tmp_path):
     """Neither its motion.nc nor its steps; a kill releases the folder, and the run is resumed."""
     # Long enough for a second command to start meanwhile, on a busy machine too.
     process = begun(tmp_path, text=LONG.replace("passes = 20.0\nrecord = 400", "passes = 8.0\nrecord = 100"))
-    second = [COMMAND, "run", "case.toml", "-o", "out", "--no-plots"]
-    done = subprocess.run(second, cwd=tmp_path, capture_output=True, text=True, check=False)
+    second = ("run", "case.toml", "-o", "out", "--no-plots")
+    done = run_command(*second, cwd=tmp_path)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"error: {REFUSED.format('out')}\n"
     assert process.poll() is None
     process.send_signal(signal.SIGKILL)
     process.communicate()
     saved = package.read_motion(tmp_path / "out")["thickness"].values
-    subprocess.run(second, cwd=tmp_path, capture_output=True, check=True)
+    assert run_command(*second, cwd=tmp_path).returncode == 0
     found = package.read_motion(tmp_path / "out")
     assert found.attrs["complete"] == 1
     np.testing.assert_array_equal(found["thickness"].values[: len(saved)], saved)
@@ -178,13 +178,12 @@ def test_two_runs_at_once_leave_one_result(tmp_path):
 def test_what_a_kill_leaves_is_gone_after_the_next_run(tmp_path, seed):
     """A run that is killed at any moment leaves no hidden file behind the next one."""
     (tmp_path / "case.toml").write_text(SMALL)
-    command = [COMMAND, "run", "case.toml", "-o", "out", "-q"]
-    out = tmp_path / "out"
-    process = subprocess.Popen(command, cwd=tmp_path)
+    command, out = ("run", "case.toml", "-o", "out", "-q"), tmp_path / "out"
+    process = Begun(*command, cwd=tmp_path)
     while not out.exists():
         time.sleep(0.005)
     time.sleep(0.4 * seed)
     process.kill()
-    process.wait()
-    subprocess.run(command, cwd=tmp_path, check=True)
+    process.communicate()
+    assert run_command(*command, cwd=tmp_path).returncode == 0
     assert not [path.name for path in out.iterdir() if path.name.startswith(".")]

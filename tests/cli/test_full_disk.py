@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from tests.cli.conftest import CASE
-from tests.helpers.commands import COMMAND
+from tests.helpers.commands import run_command
 from tests.helpers.moving_cases import moving
 from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share_of
@@ -83,7 +83,7 @@ def disk(tmp_path):
 
 
 def typed(folder, *words):
-    done = subprocess.run([COMMAND, *words], cwd=folder, capture_output=True, text=True, check=False)
+    done = run_command(*words, cwd=folder)
     return done.returncode, done.stderr
 
 

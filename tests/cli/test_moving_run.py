@@ -5,7 +5,6 @@ import os
 import random
 import re
 import signal
-import subprocess
 import time
 
 import h5netcdf
@@ -18,7 +17,7 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.stored_run import MotionRun, read_motion
-from tests.helpers.commands import COMMAND
+from tests.helpers.commands import Begun, run_command
 
 CASE = """\
 title = "Bump"
@@ -280,10 +279,7 @@ def test_a_film_before_the_motion_that_is_not_found(typed, tmp_path, case_file):
 def begun(folder, frames=3, text=LONG):
     """A long run with some instants kept, still running."""
     (folder / "case.toml").write_text(text)
-    process = subprocess.Popen(
-        [COMMAND, "run", "case.toml", "-o", "out", "--no-plots"],
-        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
+    process = Begun("run", "case.toml", "-o", "out", "--no-plots", cwd=folder)
     deadline = time.monotonic() + 60.0
     while time.monotonic() < deadline:
         assert process.poll() is None, process.communicate()
@@ -359,16 +355,10 @@ def test_kills_lose_nothing_that_was_kept(tmp_path):
         schedule = MotionRun.of(found).schedule
         expected = schedule.step * schedule.time * np.arange(steps + 1)
         np.testing.assert_allclose(found["time"], expected, rtol=1e-9)
-    done = subprocess.run(
-        [COMMAND, "run", "case.toml", "-o", "out", "--no-plots"],
-        cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False,
-    )  # fmt: skip
+    done = run_command("run", "case.toml", "-o", "out", "--no-plots", cwd=tmp_path)
     assert done.returncode == 0
     assert "Traceback" not in done.stderr
-    whole = subprocess.run(
-        [COMMAND, "run", "case.toml", "-o", "whole", "--no-plots", "-q"],
-        cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False,
-    )  # fmt: skip
+    whole = run_command("run", "case.toml", "-o", "whole", "--no-plots", "-q", cwd=tmp_path)
     assert whole.returncode == 0
     killed, expected = read_motion(tmp_path / "out"), read_motion(tmp_path / "whole")
     for name in expected.variables:

@@ -6,39 +6,75 @@ status.
 
 import multiprocessing
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import weakref
 from pathlib import Path
+
+from tests.helpers.preloaded import NAMES
 
 COMMAND = Path(sys.executable).with_name("ehlectric")
 
-_PRELOADED = (
-    "ehlectric.commands.app",
-    "ehlectric.contact.solver",
-    "ehlectric.contact.files",
-    "ehlectric.motion.run",
-    "ehlectric.figures.contact.save",
-    "ehlectric.figures.motion.save",
-    "matplotlib.backends.backend_agg",
-    "xarray",
-    "h5netcdf",
-    "pint",
-    "rich.progress",
-)
 _server = multiprocessing.get_context("forkserver")
-_server.set_forkserver_preload([__name__, *_PRELOADED])
+_server.set_forkserver_preload([__name__, *NAMES])
 
 
-def _command(arguments, folder, output, errors):
+def _command(arguments, folder, output, errors, group):
     """Run the command in this process, with output and errors in files."""
     from ehlectric.commands.app import main
 
+    if group:
+        os.setsid()
     for number, path in ((1, output), (2, errors)):
         os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT), number)
     os.chdir(folder)
     sys.argv = [str(COMMAND), *arguments]
     main()
+
+
+class Begun:
+    """A command that runs, with what is used here of ``subprocess.Popen``.
+
+    Parameters
+    ----------
+    *words : str or Path
+        Arguments and options of the command.
+    cwd : Path
+        Folder to run in.
+    group : bool
+        Whether it leads a group of processes of its own.
+    """
+
+    def __init__(self, *words, cwd, group=False):
+        self.args = [str(word) for word in words]
+        scratch = tempfile.mkdtemp()
+        weakref.finalize(self, shutil.rmtree, scratch, ignore_errors=True)
+        self._files = [Path(scratch) / name for name in ("output", "errors")]
+        self._process = _server.Process(target=_command, args=(self.args, cwd, *self._files, group))
+        self._process.start()
+        self.pid = self._process.pid
+        self.kill, self.terminate = self._process.kill, self._process.terminate
+
+    @property
+    def returncode(self):
+        """Exit status, minus the signal that ended it; None while it runs."""
+        return self._process.exitcode
+
+    def poll(self):
+        return self.returncode
+
+    def send_signal(self, number):
+        os.kill(self.pid, number)
+
+    def communicate(self, timeout=300):
+        """Output and errors, once it has ended; a command that hangs is killed."""
+        self._process.join(timeout)
+        if self.returncode is None:
+            self.kill()
+            raise subprocess.TimeoutExpired(self.args, timeout)
+        return tuple(path.read_text("utf-8") if path.exists() else "" for path in self._files)
 
 
 def run_command(*words, cwd, timeout=300):
@@ -58,15 +94,6 @@ def run_command(*words, cwd, timeout=300):
     subprocess.CompletedProcess
         Exit status, output and errors of the command.
     """
-    arguments = [str(word) for word in words]
-    with tempfile.TemporaryDirectory() as scratch:
-        output, errors = Path(scratch) / "output", Path(scratch) / "errors"
-        process = _server.Process(target=_command, args=(arguments, cwd, output, errors))
-        process.start()
-        process.join(timeout)
-        if process.exitcode is None:
-            process.kill()
-            raise subprocess.TimeoutExpired(arguments, timeout)
-        return subprocess.CompletedProcess(
-            arguments, process.exitcode, output.read_text("utf-8"), errors.read_text("utf-8")
-        )
+    begun = Begun(*words, cwd=cwd)
+    output, errors = begun.communicate(timeout)
+    return subprocess.CompletedProcess(begun.args, begun.returncode, output, errors)

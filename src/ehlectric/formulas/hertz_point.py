@@ -24,6 +24,7 @@ from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
 from ehlectric.arrays import Array
+from ehlectric.formulas.elliptic import both_rd
 
 # Absolute ln(Ry/Rx) below which the ratio of the semi-axes is (Ry/Rx)^(2/3) to the last digit: the next term
 # is of third order.
@@ -230,7 +231,7 @@ def point_deflection(x: ArrayLike, y: ArrayLike, contact: DryContact, modulus: f
     w = np.maximum(0.0, w)
     # R_F follows from the two R_D, which take most of the time: 3 R_F = x R_D(y, z, x) + y R_D(z, x, y)
     # + z R_D(x, y, z), and the sum of the three R_D is 3/sqrt(x y z). No terms cancel.
-    at_b, at_a = elliprd(w, a2 + w, b2 + w), elliprd(w, b2 + w, a2 + w)
+    at_b, at_a = both_rd(w, a2 + w, b2 + w)
     edge = np.sqrt(w / ((a2 + w) * (b2 + w)))
     integral = 2.0 * edge + 2.0 / 3.0 * ((b2 - x2) * at_b + (a2 - y2) * at_a)
     area = contact.semi_axis_x * contact.semi_axis_y

@@ -16,8 +16,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from ehlectric.errors import DamagedError, InputError
+from ehlectric.runtime.checks.classes import file_class, reading_class
 from ehlectric.runtime.checks.seal import seal_of
-from ehlectric.runtime.checks.sound import file_class, refuse_damaged
+from ehlectric.runtime.checks.sound import refuse_damaged
 from ehlectric.runtime.drafts import Draft
 from ehlectric.runtime.files import writing
 from ehlectric.runtime.interrupts import held_back
@@ -141,7 +142,7 @@ def opened(path: Path) -> Iterator[Any]:
     refuse_damaged(path)
 
     def attempt() -> Any:
-        return file_class()(path, "r")
+        return reading_class()(path, "r")
 
     with _patient(path, attempt) as file:
         yield file

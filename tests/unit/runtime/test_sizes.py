@@ -7,6 +7,7 @@ import pytest
 
 from ehlectric.errors import InputError
 from ehlectric.runtime import sizes
+from ehlectric.runtime.checks.classes import reading_class
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.runtime.reading import read_bytes
 from ehlectric.runtime.sizes import check_netcdf_values, check_size
@@ -57,6 +58,29 @@ def test_values_of_ordinary_size_are_read(tmp_path):
         file.create_variable("a", ("x", "y"), "f8", data=np.zeros((1000, 1000)), compression="gzip")
     assert path.stat().st_size < 100_000
     assert read_dataset(path)["a"].shape == (1000, 1000)
+
+
+def test_shapes_are_those_of_the_library(tmp_path):
+    """Also of variables that are shorter than their dimension, which is as long as its longest variable."""
+    path = tmp_path / "grown.nc"
+    with h5netcdf.File(path, "w") as file:
+        file.dimensions = {"step": None, "x": 3}
+        inner = file.create_group("inner")
+        inner.dimensions = {"step": None}
+        for name, home, length in (("a", file, 2), ("b", file, 5), ("c", inner, 4), ("d", inner, 7)):
+            home.create_variable(name, ("step", "x"), "f8")
+            home.resize_dimension("step", length)
+            home.variables[name][...] = np.full((length, 3), float(length))
+    with h5py.File(path, "a") as file:
+        file["a"].resize((1, 3))
+    with h5netcdf.File(path, "r") as file, reading_class()(path, "r") as read:
+        assert read.variables["a"].shape == (5, 3)
+        for name in ("a", "b", "inner/c", "inner/d"):
+            expected, found = file[name], read[name]
+            for _ in range(2):
+                assert found.shape == expected.shape
+                assert (found.chunks, found.dtype) == (expected.chunks, expected.dtype)
+                assert np.array_equal(found[...], expected[...], equal_nan=True)
 
 
 def test_values_that_do_not_fit_into_the_memory(tmp_path, monkeypatch):

@@ -14,12 +14,13 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
-from functools import cache, lru_cache
+from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from ehlectric.errors import DamagedError, InputError
+from ehlectric.runtime.checks.classes import reading_class
 from ehlectric.runtime.checks.seal import sealed
 from ehlectric.runtime.reading import regular
 from ehlectric.runtime.sizes import check_netcdf_values
@@ -106,7 +107,7 @@ def read_all(path: str, seconds: int) -> int:
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
-        with file_class()(path, "r") as file:
+        with reading_class()(path, "r") as file:
             check_netcdf_values(Path(path), file)
             _read_group(file)
     except BlockingIOError:
@@ -125,19 +126,3 @@ def _read_group(group: Any) -> None:
         _ = variable.dimensions, variable[...]
     for inner in group.groups.values():
         _read_group(inner)
-
-
-@cache
-def file_class() -> Any:
-    """Class ``h5netcdf.File``, whose instances say nothing where a file cannot be opened.
-
-    Where its initialisation fails halfway, the class of the library writes a traceback to standard error when
-    the instance is deleted, as it lacks the attributes that are set here.
-    """
-    import h5netcdf
-
-    class File(h5netcdf.File):  # type: ignore[misc]  # the library has no types
-        _writable = False
-        _mode = "r"
-
-    return File
