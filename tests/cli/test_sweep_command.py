@@ -276,7 +276,7 @@ def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
 @pytest.mark.slow
 def test_a_worker_that_is_killed_costs_no_point(tmp_path, swept):
     swept(LONG.replace("count = 100", "count = 4"))
-    process = begun(tmp_path, "--workers", "2", points=4)
+    process = begun(tmp_path, "--workers", "2", "-q", points=4)
     # The tracker of resources is a child as well, and no worker.
     workers = [
         pid for pid in children(process.pid) if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()

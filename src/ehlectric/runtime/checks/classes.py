@@ -13,35 +13,30 @@ def file_class() -> Any:
 
     Where its initialisation fails halfway, the class of the library writes a traceback to standard error when
     the instance is deleted, as it lacks the attributes that are set here.
+
+    Its variables keep what they are asked for often; the library looks it up in the file each time. Where a
+    later version of the library lacks one of the names, this time is lost, no more.
     """
     import h5netcdf
 
     class File(h5netcdf.File):  # type: ignore[misc]  # the library has no types
         _writable = False
         _mode = "r"
+        _variable_cls = _variable_class()
+        _group_cls = _group_class(_variable_class())
 
     return File
 
 
 @cache
 def reading_class() -> Any:
-    """Class of files that are only read, whose variables keep what cannot change while the file is open.
+    """Class of files that are only read, whose variables also keep their shapes.
 
-    The library asks the file anew for each shape, and for the size of an unlimited dimension all variables
-    that have it, which takes most of the time in which a small file is read. Where a later version of the
-    library lacks one of the names, this time is lost, no more.
+    For each shape with an unlimited dimension the library asks all variables that have it, which takes most
+    of the time in which a small file is read.
     """
-    import h5netcdf
 
-    class Variable(h5netcdf.Variable):  # type: ignore[misc]
-        @cached_property
-        def _h5ds(self) -> Any:
-            return super()._h5ds
-
-        @cached_property
-        def dtype(self) -> Any:
-            return super().dtype
-
+    class Variable(_variable_class()):  # type: ignore[misc]
         @cached_property
         def shape(self) -> tuple[int, ...]:
             with suppress(AttributeError):
@@ -53,19 +48,42 @@ def reading_class() -> Any:
                 return tuple(known[dimension] for dimension in dimensions)
             return tuple(super().shape)
 
-    class Group(h5netcdf.Group):  # type: ignore[misc]
-        _variable_cls = Variable
-
-        @property
-        def _group_cls(self) -> Any:
-            return Group
-
     class File(file_class()):  # type: ignore[misc]
         _variable_cls = Variable
-        _group_cls = Group
+        _group_cls = _group_class(Variable)
 
         def __init__(self, *given: Any, **options: Any) -> None:
             self.known_sizes: dict[Any, int] = {}
             super().__init__(*given, **options)
 
     return File
+
+
+@cache
+def _variable_class() -> Any:
+    import h5netcdf
+
+    class Variable(h5netcdf.Variable):  # type: ignore[misc]
+        @cached_property
+        def _h5ds(self) -> Any:
+            return super()._h5ds
+
+        @cached_property
+        def dtype(self) -> Any:
+            return super().dtype
+
+    return Variable
+
+
+def _group_class(variable: Any) -> Any:
+    """Class of groups inside a file, with the same class of variables."""
+    import h5netcdf
+
+    class Group(h5netcdf.Group):  # type: ignore[misc]
+        _variable_cls = variable
+
+        @property
+        def _group_cls(self) -> Any:
+            return Group
+
+    return Group
