@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,8 @@ from ehlectric.drive.circuit.modes import Modes
 from ehlectric.drive.discharges.march import advance, start_clocks
 from ehlectric.drive.discharges.meters import Meters
 from ehlectric.drive.discharges.pieces import Circuits
-from ehlectric.drive.discharges.states import COLUMNS, FILM, OFF, ON, Films, Segments, State
+from ehlectric.drive.discharges.record import COLUMNS, FILM, OFF, ON, VOLTAGE, Record
+from ehlectric.drive.discharges.states import Films, Segments, State
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384
@@ -28,62 +30,38 @@ KEPT = 200_000
 BINS, TRACE = 400, 20_000
 _ROUGH, _SILENT = 5e-4, 1e-4
 
+# First events of which a typical one has the trace.
+_FIRST = 5
+
 # Number of blocks of time in which events are counted, from which their scatter follows.
 BLOCKS = 40
 
 
-@dataclass(frozen=True, eq=False)
-class Record:
-    """What happened in a simulated time.
+@dataclass(frozen=True)
+class Measuring:
+    """What is measured.
 
     Attributes
     ----------
-    duration : float
-        Time that was measured [s].
-    events : ndarray, shape (m, 8)
-        The first events of both films, a row for each with the columns of ``march``; times from the begin of
-        the measured time.
-    counts : ndarray of int, shape (2, blocks)
-        Number of events of each film in equal blocks of time.
-    sums, largest : ndarray, shape (2, 8)
-        Sums, and largest absolute values, of the columns of the events of each film.
-    edges : ndarray, shape (bins + 1,)
-        Edges of the bins of the histogram [V].
-    histogram : ndarray, shape (2, bins)
-        Time at the voltages of each bin [s].
-    limits : ndarray, shape (l,)
+    start, duration : float
+        Time from which on it is measured, and how long [s].
+    highest : float
+        Voltage up to which histograms reach [V].
+    limits : tuple of float
         Limits of the voltage [V].
-    above : ndarray, shape (2, l)
-        Time above each limit [s].
-    peak, rms : ndarray, shape (2,)
-        Largest and root mean square voltage across each film [V].
-    trace : ndarray, shape (m, 4)
-        Time [s], voltage of the source [V], and voltage across both films [V], at the begin.
+    trace : float
+        Time that the trace covers [s].
+    at_event : bool
+        Whether the trace is around a typical one of the first events, where there are any, and not at the
+        begin.
     """
-
-    duration: float
-    events: Array
-    counts: np.ndarray
-    sums: Array
-    largest: Array
-    edges: Array
-    histogram: Array
-    limits: Array
-    above: Array
-    peak: Array
-    rms: Array
-    trace: Array
-
-
-@dataclass(frozen=True)
-class Measuring:
-    """What is measured: from which time on [s], how long [s], limits [V], and the time of the trace [s]."""
 
     start: float
     duration: float
     highest: float
     limits: tuple[float, ...]
     trace: float
+    at_event: bool = False
 
 
 def circuits_of(modes: Modes, ring: complex | None) -> Circuits:
@@ -205,17 +183,52 @@ def simulate(
         start_clocks(films, state, b)
     meters, log = _meters(measuring), _Log(measuring.duration)
     events, begun = np.zeros((_EVENTS, COLUMNS)), measuring.start == 0.0
+    trace: Array | None = None
     for chunk in chunks:
         if not begun and state.time[0] >= measuring.start * (1.0 - 1e-9):
             meters, begun = _meters(measuring), True
         state.cursor[:] = 0.0
+        seeks = begun and measuring.at_event and trace is None
+        before = deepcopy((state, random)) if seeks else None
         while state.cursor[0] >= 0.0:
             count = advance(circuits, films, chunk, state, meters, events)
             random.fill(state)
             if begun:
                 log.add(events[:count], measuring.start)
+        if before is not None and log.number:
+            trace = _around(circuits, films, chunk, measuring, before, _typical(log))
         progress(float(state.time[0]))
-    return _record(measuring, meters, log)
+    return _record(measuring, meters, log, trace)
+
+
+def _typical(log: _Log) -> float:
+    """Time of the one of the first events whose voltage is the median of theirs [s]."""
+    first = np.vstack(log.kept)[:_FIRST]
+    order = np.argsort(np.abs(first[:, VOLTAGE]), kind="stable")
+    return float(first[order[first.shape[0] // 2], ON])
+
+
+def _around(
+    circuits: Circuits,
+    films: Films,
+    chunk: Segments,
+    measuring: Measuring,
+    before: tuple[State, _Random],
+    event: float,
+) -> Array:
+    """Trace around the time of an event [s], by a second march through the begin of its chunk."""
+    state, random = before
+    start = float(state.time[0])
+    ends = start + np.cumsum(chunk.duration)
+    begin = min(measuring.start + event - 0.5 * measuring.trace, float(ends[-1]) - measuring.trace)
+    begin = max(begin, start)
+    last = int(np.searchsorted(ends, begin + measuring.trace)) + 1
+    meters = _meters(measuring)._replace(until=np.array([begin, begin + measuring.trace]))
+    events, part = np.zeros((_EVENTS, COLUMNS)), Segments(*(values[:last] for values in chunk))
+    while state.cursor[0] >= 0.0:
+        advance(circuits, films, part, state, meters, events)
+        random.fill(state)
+    return _traced(measuring, meters)
 
 
 def _state(size: int) -> State:
@@ -251,9 +264,14 @@ def _meters(measuring: Measuring) -> Meters:
     )
 
 
-def _record(measuring: Measuring, meters: Meters, log: _Log) -> Record:
-    trace = meters.trace[: int(meters.traced[0])].copy()
+def _traced(measuring: Measuring, meters: Meters) -> Array:
+    """Rows of the trace that are filled; times from the begin of the measured time."""
+    trace: Array = meters.trace[: int(meters.traced[0])].copy()
     trace[:, 0] -= measuring.start
+    return trace
+
+
+def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None) -> Record:
     return Record(
         duration=measuring.duration,
         events=np.vstack(log.kept) if log.kept else np.zeros((0, COLUMNS)),
@@ -266,5 +284,5 @@ def _record(measuring: Measuring, meters: Meters, log: _Log) -> Record:
         above=meters.above,
         peak=meters.peak,
         rms=np.sqrt(meters.square / measuring.duration),
-        trace=trace,
+        trace=_traced(measuring, meters) if trace is None else trace,
     )
