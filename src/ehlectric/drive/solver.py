@@ -230,7 +230,7 @@ def _trace(ready: PreparedDrive) -> float:
 
 
 def _highest(divider: tuple[float, float], highest: float, ringing: Ringing | None) -> float:
-    """Voltage up to which histograms reach [V]: twice the divider's, as discharges shift it by itself."""
+    """About the highest voltage across a film [V]: twice the divider's, as discharges shift it by itself."""
     over = 1.0 if ringing is None else 1.0 + ringing.overshoot
     return 2.0 * over * max(divider) * highest
 

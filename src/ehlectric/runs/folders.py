@@ -164,8 +164,8 @@ def stored_result(path: str | Path) -> Path:
     Parameters
     ----------
     path : str or Path
-        A result.nc, bearing.nc, drive.nc or motion.nc, which is returned as it is; any other file of a result; or the
-        folder of a result.
+        A result.nc, bearing.nc, drive.nc or motion.nc, which is returned as it is; any other file of a
+        result; or the folder of a result.
 
     Returns
     -------

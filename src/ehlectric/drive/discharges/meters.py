@@ -16,9 +16,9 @@ class Meters(NamedTuple):
     Attributes
     ----------
     edges : ndarray, shape (2,)
-        Lowest and highest voltage of the histograms [V].
+        Lowest and highest voltage of the histograms [V], which are doubled where a voltage is beyond them.
     histogram : ndarray, shape (2, bins)
-        Time at the voltages of each bin [s]; voltages beyond the edges count in the outer bins.
+        Time at the voltages of each bin [s]; an even number of bins, half of them below zero.
     limits : ndarray, shape (l,)
         Limits of the voltage [V].
     above : ndarray, shape (2, l)
@@ -56,6 +56,9 @@ def measure(
     first: tuple[float, float], last: tuple[float, float],
 ) -> None:  # fmt: skip
     """Measure voltages that go straight from first to last values in a duration [s]."""
+    largest = max(max(abs(first[0]), abs(last[0])), max(abs(first[1]), abs(last[1])))
+    while largest > meters.edges[1]:
+        _widen(meters)
     for b in range(2):
         v, w = first[b], last[b]
         meters.peak[b] = max(meters.peak[b], abs(v), abs(w))
@@ -68,6 +71,19 @@ def measure(
         meters.trace[row, 0], meters.trace[row, 1] = now, source
         meters.trace[row, 2], meters.trace[row, 3] = first[0], first[1]
         meters.traced[0] = row + 1
+
+
+@inner
+def _widen(meters: Meters) -> None:
+    """Double the width of all bins: each takes the time of two neighbours, from zero outwards."""
+    half = meters.histogram.shape[1] // 2
+    for b in range(2):
+        merged = np.zeros(2 * half)
+        for k in range(2 * half):
+            merged[half + (k - half) // 2] += meters.histogram[b, k]
+        meters.histogram[b, :] = merged
+    meters.edges[0] *= 2.0
+    meters.edges[1] *= 2.0
 
 
 @inner

@@ -8,8 +8,8 @@ import numpy as np
 
 from ehlectric.arrays import Array
 
-# Columns of an event: begin and end [s], number of the film, voltage at breakdown [V], charge [C], energy [J],
-# largest current [A], and position of the elements.
+# Columns of an event: begin and end [s], number of the film, voltage at breakdown [V], charge [C], energy
+# [J], largest current [A], and position of the elements.
 ON, OFF, FILM, VOLTAGE, CHARGE, ENERGY, PEAK, PLACE = range(8)
 COLUMNS = 8
 

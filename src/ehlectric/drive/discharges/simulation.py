@@ -30,6 +30,12 @@ KEPT = 200_000
 BINS, TRACE = 400, 20_000
 _ROUGH, _SILENT = 5e-4, 1e-4
 
+# Voltage up to which a histogram reaches at first, over the highest one; it widens as voltages ask for.
+_NARROWEST = 2.0**-12
+
+# Relative difference of times that are the same.
+_SAME = 1e-9
+
 # First events of which a typical one has the trace.
 _FIRST = 5
 
@@ -46,7 +52,7 @@ class Measuring:
     start, duration : float
         Time from which on it is measured, and how long [s].
     highest : float
-        Voltage up to which histograms reach [V].
+        Voltage that is about the highest one [V], of which tolerances are parts.
     limits : tuple of float
         Limits of the voltage [V].
     trace : float
@@ -185,7 +191,7 @@ def simulate(
     events, begun = np.zeros((_EVENTS, COLUMNS)), measuring.start == 0.0
     trace: Array | None = None
     for chunk in chunks:
-        if not begun and state.time[0] >= measuring.start * (1.0 - 1e-9):
+        if not begun and state.time[0] >= measuring.start * (1.0 - _SAME):
             meters, begun = _meters(measuring), True
         state.cursor[:] = 0.0
         seeks = begun and measuring.at_event and trace is None
@@ -251,7 +257,7 @@ def _state(size: int) -> State:
 def _meters(measuring: Measuring) -> Meters:
     highest, limits = measuring.highest, np.array(measuring.limits)
     return Meters(
-        edges=np.array([-highest, highest]),
+        edges=_NARROWEST * np.array([-highest, highest]),
         histogram=np.zeros((2, BINS)),
         limits=limits,
         above=np.zeros((2, limits.size)),
@@ -259,7 +265,7 @@ def _meters(measuring: Measuring) -> Meters:
         square=np.zeros(2),
         trace=np.zeros((TRACE, 4)),
         traced=np.zeros(1, dtype=np.int64),
-        until=np.array([measuring.start, measuring.start + measuring.trace]),
+        until=np.array([measuring.start * (1.0 - _SAME), measuring.start + measuring.trace]),
         rough=np.array([_ROUGH * highest, _SILENT * highest]),
     )
 
@@ -278,7 +284,7 @@ def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None
         counts=log.counts,
         sums=log.sums,
         largest=log.largest,
-        edges=np.linspace(-measuring.highest, measuring.highest, BINS + 1),
+        edges=np.linspace(*meters.edges, BINS + 1),
         histogram=meters.histogram,
         limits=meters.limits,
         above=meters.above,

@@ -111,7 +111,7 @@ def _events(events: Array) -> dict[str, Array]:
     """Variables of events; none without an event, as a dimension of a file has a size."""
     if not len(events):
         return {}
-    whole = {column: np.int64 for column in _WHOLE}
+    whole = dict.fromkeys(_WHOLE, np.int64)
     return {
         name: events[:, column].astype(whole.get(column, np.float64)) for column, name in enumerate(EVENTS)
     }
