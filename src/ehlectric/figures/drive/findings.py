@@ -38,10 +38,11 @@ def histogram(result: DriveResult) -> str:
     shares = 100.0 * record.above / record.duration
     told = np.flatnonzero(np.max(shares, axis=0) >= _TOLD)
     if not told.size:
-        lowest = f"{record.limits[0]:g} V" if record.limits.size else "any limit"
-        return (
-            f"Above {lowest} for {float(np.max(shares, initial=0.0)):.2g} % of the time: {_largest(result)}"
+        share = float(np.max(shares[:, 0]))
+        lead = (
+            f"Above {record.limits[0]:g} V for {share:.2g} % of the time" if share else "Low bearing voltage"
         )
+        return f"{lead}: {_largest(result)}"
     k = int(told[-1])
     texts = [f"{share:.3g} %" for share in shares[:, k]]
     if len(set(texts)) == 1:
