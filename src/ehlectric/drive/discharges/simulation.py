@@ -230,11 +230,16 @@ def _around(
     begin = max(begin, start)
     last = int(np.searchsorted(ends, begin + measuring.trace)) + 1
     meters = _meters(measuring)._replace(until=np.array([begin, begin + measuring.trace]))
-    events, part = np.zeros((_EVENTS, COLUMNS)), Segments(*(values[:last] for values in chunk))
+    events, part = np.zeros((_EVENTS, COLUMNS)), _until(chunk, last)
     while state.cursor[0] >= 0.0:
         advance(circuits, films, part, state, meters, events)
         random.fill(state)
     return _traced(measuring, meters)
+
+
+def _until(chunk: Segments, last: int) -> Segments:
+    """Segments of a chunk before a number of them."""
+    return Segments(chunk.duration[:last], chunk.level[:last], chunk.slope[:last], chunk.ring[:last])
 
 
 def _state(size: int) -> State:
@@ -284,7 +289,7 @@ def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None
         counts=log.counts,
         sums=log.sums,
         largest=log.largest,
-        edges=np.linspace(*meters.edges, BINS + 1),
+        edges=np.linspace(meters.edges[0], meters.edges[1], BINS + 1),
         histogram=meters.histogram,
         limits=meters.limits,
         above=meters.above,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -46,7 +48,7 @@ def time_at_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
     width = float(record.edges[1] - record.edges[0])
     shares = 100.0 * record.histogram / record.duration
     for b, values in enumerate(shares):
-        look = {"fill": True, "alpha": 0.35, "lw": 0.0} if b == 0 else {"lw": 1.1}
+        look: dict[str, Any] = {"fill": True, "alpha": 0.35, "lw": 0.0} if b == 0 else {"lw": 1.1}
         ax.stairs(values, factor * record.edges, color=COLOURS[b], label=NAMES[b], **look)
         if b == 0:
             ax.stairs(values, factor * record.edges, color=COLOURS[b], lw=0.7)
@@ -87,7 +89,12 @@ def time_above(result: DriveResult, ax: Axes | None = None) -> Axes:
         ax.plot(factor * edges[known], values[known], color=COLOURS[b], lw=1.1, ls=("-", (0, (5, 2)))[b])
         above = 100.0 * record.above[b] / record.duration
         seen = above > 0.0
-        look = {"ls": "none", "marker": "os"[b], "ms": (8.0, 4.0)[b], "mfc": ("white", COLOURS[b])[b]}
+        look: dict[str, Any] = {
+            "ls": "none",
+            "marker": "os"[b],
+            "ms": (8.0, 4.0)[b],
+            "mfc": ("white", COLOURS[b])[b],
+        }
         ax.plot(factor * record.limits[seen], above[seen], color=COLOURS[b], **look)
     _log_share(ax, shares)
     for volts in _breakdowns(result):

@@ -24,7 +24,8 @@ THRESHOLD: dict[str, Any] = {"color": "black", "lw": 0.9, "ls": "--"}
 def events_of(result: DriveResult, b: int) -> Array:
     """Events of one bearing, a row for each, as in ``Record``."""
     events = result.solution.record.events
-    return events[events[:, FILM] == b]
+    own: Array = events[events[:, FILM] == b]
+    return own
 
 
 def number_of_events(result: DriveResult, b: int) -> int:

@@ -57,7 +57,8 @@ def rates(result: DriveResult, ax: Axes | None = None) -> Axes:
     bottom = 10.0 ** math.floor(math.log10(0.5 * least))
     for row, (_, pair) in enumerate(rows):
         for b, end in enumerate(pair):
-            at, look = _place(row, b), {"color": COLOURS[b], "lw": 1.3}
+            at = _place(row, b)
+            look: dict[str, Any] = {"color": COLOURS[b], "lw": 1.3}
             low, high = end["events_per_second_low"], end["events_per_second_high"]
             if end["events"]:
                 ax.plot([max(low, bottom), high], [at, at], **look)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from ehlectric.cases.quantity import unit_for
@@ -79,7 +82,14 @@ def bearing_voltage(result: DriveResult, ax: Axes | None = None, *, b: int) -> A
     if len(here):
         scale, _ = unit_for(_span(result), "s", least=1.0)
         at = scale * (here[:, ON] - _begin(result))
-        look = {"ls": "none", "marker": "o", "ms": 4.5, "mfc": "white", "mec": "black", "mew": 0.9}
+        look: dict[str, Any] = {
+            "ls": "none",
+            "marker": "o",
+            "ms": 4.5,
+            "mfc": "white",
+            "mec": "black",
+            "mew": 0.9,
+        }
         ax.plot(at, factor * here[:, VOLTAGE], label="discharge", zorder=4.0, clip_on=False, **look)
     if len(trace):
         ax.set_ylim(-_ROOM * factor * top - 1e-12, _ROOM * factor * top + 1e-12)
@@ -88,12 +98,15 @@ def bearing_voltage(result: DriveResult, ax: Axes | None = None, *, b: int) -> A
 
 
 # Panels of the figure, from top to bottom.
-VOLTAGE_PANELS = (source_voltage, *(partial(bearing_voltage, b=b) for b in range(2)))
+VOLTAGE_PANELS: tuple[Callable[[DriveResult, Axes], Axes], ...] = (
+    source_voltage,
+    *(partial(bearing_voltage, b=b) for b in range(2)),
+)
 
 
 def legend_of(axes: list[Axes]) -> None:
     """Legend above the first panel, with what any of the panels shows."""
-    found = {}
+    found: dict[str, Artist] = {}
     for ax in axes[1:]:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             if label != "across the films":

@@ -14,7 +14,7 @@ from tests.helpers.drives import small_drive
 
 @pytest.fixture(scope="module")
 def drive():
-    """Drive with coated ceramic-free bearings of two kinds, so that no pair of numbers is equal by chance."""
+    """Drive with two different bearings, and a warning about a file."""
     case = small_drive().replace(
         {"non_drive_end.bearing.radial_load": "500 N", "non_drive_end.bearing.parallel_capacitance": "20 pF"}
     )
