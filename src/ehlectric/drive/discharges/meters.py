@@ -18,7 +18,8 @@ class Meters(NamedTuple):
     edges : ndarray, shape (2,)
         Lowest and highest voltage of the histograms [V], which are doubled where a voltage is beyond them.
     histogram : ndarray, shape (2, bins)
-        Time at the voltages of each bin [s]; an even number of bins, half of them below zero.
+        Time at the voltages of each bin [s]; the number of bins is a multiple of four, and half of them are
+        below zero.
     limits : ndarray, shape (l,)
         Limits of the voltage [V].
     above : ndarray, shape (2, l)
@@ -78,10 +79,11 @@ def _widen(meters: Meters) -> None:
     """Double the width of all bins: each takes the time of two neighbours, from zero outwards."""
     half = meters.histogram.shape[1] // 2
     for b in range(2):
-        merged = np.zeros(2 * half)
-        for k in range(2 * half):
-            merged[half + (k - half) // 2] += meters.histogram[b, k]
-        meters.histogram[b, :] = merged
+        bins = meters.histogram[b]
+        for k in range(half):
+            inside = 2 * k + 1 < half
+            bins[half + k] = bins[half + 2 * k] + bins[half + 2 * k + 1] if inside else 0.0
+            bins[half - 1 - k] = bins[half - 1 - 2 * k] + bins[half - 2 - 2 * k] if inside else 0.0
     meters.edges[0] *= 2.0
     meters.edges[1] *= 2.0
 
@@ -106,6 +108,8 @@ def _fill(meters: Meters, b: int, v: float, w: float, duration: float) -> None:
     if start == end:
         meters.histogram[b, start] += duration
         return
-    for k in range(start, end + 1):
-        from_, to = (low if k == start else float(k)), (high if k == end else k + 1.0)
-        meters.histogram[b, k] += duration * (to - from_) / (high - low)
+    each = duration / (high - low)
+    meters.histogram[b, start] += each * (start + 1.0 - low)
+    for k in range(start + 1, end):
+        meters.histogram[b, k] += each
+    meters.histogram[b, end] += each * (high - end)
