@@ -25,6 +25,10 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("bearing", "bearing_6208.toml", "--contacts", "formula", *_MEASURED),
         ("measured_and_computed.png",),
     ),
+    "drive": (
+        ("drive", "drive.toml"),
+        ("drive_voltages.png", "drive_histogram.png", "drive_discharges.png", "drive_remedies.png"),
+    ),
     "oil_contact": (("run", "oil_contact.toml"), ("meter.png",)),
     "hot_contact": (("run", "hot_contact.toml"), ("temperature.png",)),
     "traction_curve": (("sweep", "traction_curve.toml"), ("lines_film.traction_coefficient.png",)),

@@ -5,6 +5,7 @@ import json
 
 import pytest
 
+from ehlectric.figures.names import DRIVE_FIGURE_FILES, in_formats
 from tests.helpers.places import EXAMPLES
 from tests.unit.cases.test_drive import FILE
 
@@ -31,8 +32,10 @@ def drive(tmp_path):
 
 def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     drive.write_text(SHORT + REMEDY)
-    done = ehlectric("drive", "drive.toml", "-o", "out")
+    done = ehlectric("drive", "drive.toml", "-o", "out", "--format", "svg")
     assert done.returncode == 0, done.stderr
+    written = {path.name for path in (tmp_path / "out").iterdir()}
+    assert written == {"summary.json", "events.csv", "drive.nc", *in_formats(DRIVE_FIGURE_FILES, ["svg"])}
     for text in ("drive end", "non-drive end", "discharges per second", "as it is", "Ceramic"):
         assert text in done.stdout
     summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
@@ -54,9 +57,20 @@ def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     assert 0.0 <= times[0] <= times[-1] <= 0.02
 
 
+def test_a_stored_drive_is_drawn_again(ehlectric, drive, tmp_path):
+    assert ehlectric("drive", drive, "-o", "out", "-q", "--no-plots").returncode == 0
+    assert not list((tmp_path / "out").glob("*.png"))
+    done = ehlectric("plot", "out")
+    assert done.returncode == 0, done.stderr
+    drawn = sorted(path.name for path in (tmp_path / "out").glob("*.png"))
+    assert drawn == sorted(set(DRIVE_FIGURE_FILES) - {"drive_remedies.png"})
+    done = ehlectric("report", "out")
+    assert (done.returncode, "of which there is no report" in done.stderr) == (2, True)
+
+
 def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
     for name in ("one", "two"):
-        assert ehlectric("drive", drive, "-o", name, "-q").returncode == 0
+        assert ehlectric("drive", drive, "-o", name, "-q", "--no-plots").returncode == 0
     one, two = ((tmp_path / name / "events.csv").read_bytes() for name in ("one", "two"))
     assert one == two
 

@@ -12,7 +12,7 @@ from tests.helpers.moving_cases import LINE
 from tests.helpers.places import EXAMPLES
 from tests.helpers.reports import HOSTILE, Page, text_of_pdf
 
-RESULTS = "result.nc, bearing.nc, motion.nc, sweep.sqlite"
+RESULTS = "result.nc, bearing.nc, drive.nc, motion.nc, sweep.sqlite"
 SWEEP = f"""\
 title = "Speeds"
 [vary]

@@ -6,12 +6,14 @@ import numpy as np
 
 from ehlectric.bearing.meter.path import Path
 from ehlectric.cases.drives.breakdown import Breakdown
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.circuit import Circuit
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.modes import modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Segments
+from tests.helpers.places import EXAMPLES
 
 MOTOR = {
     "winding_rotor_capacitance": "50 pF",
@@ -75,12 +77,31 @@ def systems(circuit, bearings, breakdown):
 
 
 def march(
-    circuit, bearings, breakdown, segments, *, seed=0, ring=None, highest=20.0, trace=0.0, limits=(1.0,)
+    circuit,
+    bearings,
+    breakdown,
+    segments,
+    *,
+    seed=0,
+    ring=None,
+    highest=20.0,
+    trace=0.0,
+    limits=(1.0,),
+    at_event=False,
 ):
     """Record of a march through segments of a source, from its begin on."""
     modes = modes_of(systems(circuit, bearings, breakdown), film_nodes(bearings), ring)
     chunks = segments if isinstance(segments, list) else [segments]
     duration = float(sum(np.sum(one.duration) for one in chunks))
-    measuring = Measuring(0.0, duration, highest, limits, trace)
+    measuring = Measuring(0.0, duration, highest, limits, trace, at_event)
     films = films_of(bearings, breakdown)
     return simulate(circuits_of(modes, ring), films, iter(chunks), measuring, seed)
+
+
+def small_drive(**changes):
+    """Example of a drive for a short time, with quick contacts and one remedy, a grounding ring."""
+    table = DriveCase.from_toml(EXAMPLES / "drive.toml").to_dict()
+    remedy, *_ = table["remedies"]
+    short = {"duration": 5e-3, "contacts": "formula"}
+    tables = {**table, "drive": table["drive"] | short, "remedies": [remedy]}
+    return DriveCase.from_dict(tables).replace(changes)

@@ -122,7 +122,9 @@ def plot(
     result: Annotated[
         Path,
         file_argument(
-            "RESULT", "Folder of a result of any kind, or its result.nc, bearing.nc or motion.nc.", ".nc"
+            "RESULT",
+            "Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.",
+            ".nc",
         ),
     ],
     output: Annotated[
@@ -137,8 +139,9 @@ def plot(
 ) -> None:
     """Draw the figures of a result again.
 
-    The result of a contact, of moving roughness, of a bearing or of a sweep. A sweep over one or two keys is
-    drawn as a map and lines, and a Sobol design as its sensitivity; for other sweeps use ehlectric map.
+    The result of a contact, of moving roughness, of a bearing, of a drive or of a sweep. A sweep over one or
+    two keys is drawn as a map and lines, and a Sobol design as its sensitivity; for other sweeps use
+    ehlectric map.
     """
     with user_errors():
         look = figure_options(formats, style)

@@ -10,6 +10,7 @@ from ehlectric.errors import InputError, ResultWarning
 from ehlectric.figures.names import (
     ALL_FIGURES,
     BEARING_FIGURE_FILES,
+    DRIVE_FIGURE_FILES,
     MOTION_FIGURE_FILES,
     SENSITIVITY_FIGURE,
     SPEED_FIGURE_FILES,
@@ -66,6 +67,7 @@ def load_and_draw(
 def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str) -> Files:
     """Draw the figures of a result from its NetCDF file or database."""
     from ehlectric.bearing.result import BearingResult
+    from ehlectric.drive.result import DriveResult
     from ehlectric.motion.stored_run import MOTION, read_motion
     from ehlectric.runs.results import load
     from ehlectric.runtime.stored_warnings import of_attributes
@@ -81,6 +83,8 @@ def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str)
     if isinstance(result, BearingResult):
         names = (*BEARING_FIGURE_FILES, *SPEED_FIGURE_FILES)
         return _draw(result, folder, names, result.warnings, formats, style)
+    if isinstance(result, DriveResult):
+        return _draw(result, folder, DRIVE_FIGURE_FILES, result.warnings, formats, style)
     return _draw(result, folder, ALL_FIGURES, result.warnings, formats, style)
 
 

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ehlectric.commands.options import Json, Output, Quiet, file_argument, one_of
+from ehlectric.commands.options import (
+    Formats,
+    Json,
+    Output,
+    Plots,
+    Quiet,
+    Style,
+    figure_options,
+    file_argument,
+    one_of,
+)
 from ehlectric.commands.terminal import progress_bar, report, user_errors
 
 if TYPE_CHECKING:
@@ -30,12 +40,16 @@ def drive(
             autocompletion=one_of("solved", "atlas", "formula"),
         ),
     ] = "",
+    plots: Plots = True,
+    formats: Formats = None,
+    style: Style = "screen",
     quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
-    """Simulate inverter, motor and both bearings over time; write summary.json and events.csv.
+    """Simulate inverter, motor and both bearings over time; write tables, drive.nc and figures.
 
-    The bearing voltage, the discharges of each bearing with their voltage, charge, energy and current, and
+    The files are summary.json, events.csv with the discharges, drive.nc for ehlectric plot, and figures of
+    the bearing voltage, the discharges of each bearing with their voltage, charge, energy and current, and
     the same for each remedy of the file.
 
     The folder then holds this result alone: files of an earlier result are removed, other files stay. A
@@ -45,13 +59,17 @@ def drive(
     written; or memory ran out, or the process of a contact was killed twice.
     """
     with user_errors():
+        look = figure_options(formats, style)
+
         from ehlectric.runs import by_kind
         from ehlectric.runs.kinds import expect
 
         expect(drive_file, "drive")
         case = by_kind.read_drive(drive_file)
         with progress_bar(shown=not quiet) as progress:
-            outcome = by_kind.run_drive(case, output, progress, contacts=contacts)
+            outcome = by_kind.run_and_draw(
+                "drive", case, output, progress, draw=plots, contacts=contacts, **look
+            )
     report(outcome, _tables, quiet=quiet, as_json=as_json)
 
 

@@ -1,4 +1,4 @@
-"""Run of a drive and the files of its result: summary.json and events.csv."""
+"""Run of a drive and the files of its result: summary.json, events.csv and drive.nc."""
 
 from __future__ import annotations
 
@@ -8,17 +8,22 @@ from typing import TYPE_CHECKING
 
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.drive.keys import EVENT_COLUMNS
+from ehlectric.errors import InputError
+from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+from ehlectric.runtime.netcdf import content_of, load_library, read_dataset
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tables import column_head, csv_of
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from ehlectric.drive.result import DriveResult
 
-SUMMARY, EVENTS = "summary.json", "events.csv"
-FILES = (SUMMARY, EVENTS)
+SUMMARY, EVENTS, NETCDF = "summary.json", "events.csv", "drive.nc"
+FILES = (SUMMARY, EVENTS, NETCDF)
 
 
 def run(
@@ -29,7 +34,7 @@ def run(
     workers: int | None = None,
     others: Sequence[str] = (),
 ) -> RunOutcome[DriveResult]:
-    """Solve a drive, and write summary.json and events.csv.
+    """Solve a drive, and write summary.json, events.csv and drive.nc.
 
     Parameters
     ----------
@@ -55,9 +60,9 @@ def run(
     InputError
         Where the drive cannot be solved, the folder cannot be used, or another command writes into it.
     """
-    # Loads the compiler of the simulation, which the names of the files above do not need.
     from ehlectric.drive.result import solve_drive
 
+    load_library()
     names = (*FILES, *others)
     with alone_in(folder, names) as folder:
         result = solve_drive(case, progress=progress, workers=workers)
@@ -67,7 +72,7 @@ def run(
 
 
 def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
-    """Save the result of a drive: summary.json and events.csv, both or none.
+    """Save the result of a drive: summary.json, events.csv and drive.nc, all or none.
 
     Parameters
     ----------
@@ -92,6 +97,61 @@ def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = (
     contents: dict[str, Content] = {
         SUMMARY: json_of(result.summary()),
         EVENTS: csv_of(heads, (row.values() for row in result.events())),
+        NETCDF: content_of(result.to_xarray()),
     }
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
         return write_together(folder, contents, (*FILES, *replaced))
+
+
+def load(path: str | Path) -> DriveResult:
+    """Load the result of a drive from its NetCDF file.
+
+    Parameters
+    ----------
+    path : str or Path
+        Path of a drive.nc.
+
+    Returns
+    -------
+    DriveResult
+        Result, equal to the one that was saved; it does not have the solved bearings.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or is not the result of a drive.
+    """
+    path = Path(path)
+    return result_of(read_dataset(path), path)
+
+
+def result_of(dataset: xr.Dataset, path: Path) -> DriveResult:
+    """Result of a drive from its dataset.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Contents of a drive.nc.
+    path : Path
+        The file, named in the error.
+
+    Returns
+    -------
+    DriveResult
+        Result, equal to the one that was saved.
+
+    Raises
+    ------
+    InputError
+        Where the dataset is not the result of a drive.
+    DamagedError
+        Where its content is not as it was written.
+    """
+    from ehlectric.drive.result import DriveResult
+    from ehlectric.drive.storage.dataset import SCHEMA, parts_of
+
+    if str(dataset.attrs.get("schema")) != SCHEMA:
+        raise InputError(path, "is not the result of a drive of ehlectric")
+    with refusing(path):
+        solution, remedies, seconds, version = parts_of(dataset)
+        return DriveResult(solution, tuple(remedies), seconds, version)

@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
+from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from ehlectric.drive.keys import EVENT_COLUMNS
-from ehlectric.drive.solver import DriveSolution, solve
-from ehlectric.drive.summary import converged, drive_summary, whole_summary
+from ehlectric.drive.solution import DriveSolution
+from ehlectric.drive.storage.dataset import dataset_of
+from ehlectric.drive.summary import drive_summary, whole_summary
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning
-from ehlectric.runtime.display import headline
+from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
 # Columns of a record, by the names of the table of events.
 _RECORDED = {
@@ -35,7 +37,7 @@ _RECORDED = {
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DriveResult:
+class DriveResult(Shown):
     """Result of a drive: what happened over time, its summary, and its remedies.
 
     Attributes
@@ -46,11 +48,14 @@ class DriveResult:
         Title, changes and solution of each remedy.
     seconds : float
         Computing time [s].
+    version : str
+        Version of ehlectric that solved it.
     """
 
     solution: DriveSolution
     remedies: tuple[tuple[str, dict[str, Any], DriveSolution], ...] = ()
-    seconds: float = 0.0
+    seconds: float = field(default=0.0, compare=False)
+    version: str = __version__
 
     @property
     def case(self) -> DriveCase:
@@ -60,7 +65,7 @@ class DriveResult:
     @property
     def converged(self) -> bool:
         """Whether the films of both bearings are converged."""
-        return converged(self.solution.bearings)
+        return self.solution.converged
 
     @cached_property
     def warnings(self) -> tuple[ResultWarning, ...]:
@@ -71,7 +76,7 @@ class DriveResult:
         """Results nested as in summary.json, SI units; None in place of NaN."""
         told = [(one.code, str(one)) for one in self.warnings]
         remedies = [(title, changes, drive_summary(found)) for title, changes, found in self.remedies]
-        return whole_summary(self.solution, remedies, told, self.seconds, __version__)
+        return whole_summary(self.solution, remedies, told, self.seconds, self.version)
 
     def events(self) -> list[dict[str, Any]]:
         """Table of discharges in the order of time, SI units; the first 200 000 of them.
@@ -94,14 +99,17 @@ class DriveResult:
         frame.attrs["units"] = dict(EVENT_COLUMNS)
         return frame
 
-    def __repr__(self) -> str:
+    def to_xarray(self) -> xr.Dataset:
+        """Dataset of the result, as drive.nc holds it; SI units."""
+        return dataset_of(self.solution, self.remedies, self.seconds, self.version)
+
+    def _headline(self) -> str:
         found = drive_summary(self.solution)
-        line = headline(
+        return headline(
             self.case.title,
             *(f"{end.replace('_', ' ')} {found[end]['events_per_second']:.3g} discharges/s" for end in ENDS),
             "converged" if self.converged else "NOT CONVERGED",
         )
-        return f"<DriveResult {line}>"
 
 
 def solve_drive(
@@ -130,6 +138,9 @@ def solve_drive(
     InputError
         Where a bearing cannot be solved, or lacks a value that discharges need.
     """
+    # Loads the compiler of the simulation, which stored results do not need.
+    from ehlectric.drive.solver import solve
+
     start, report = time.perf_counter(), progress or silent
     solution = solve(case, report, workers=workers)
     remedies = tuple(

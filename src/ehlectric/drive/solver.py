@@ -1,4 +1,4 @@
-"""Solution of a drive: its bearings, its circuit, and what happens over time."""
+"""Solver of a drive: its bearings, its circuit, and what happens over time."""
 
 from __future__ import annotations
 
@@ -14,13 +14,15 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.bearings import BearingElement, bearing_element
 from ehlectric.drive.circuit.modes import Modes, modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
-from ehlectric.drive.discharges.simulation import Measuring, Record, circuits_of, films_of, simulate
+from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Films, Segments
+from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.source.modulation import steps_of
 from ehlectric.drive.source.oscilloscope import read_waveform
 from ehlectric.drive.source.resampling import resample
 from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.source.waveform import Waveform
+from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.runtime.progress import Progress, silent
 
@@ -34,39 +36,8 @@ _WHOLE = 1e-6
 # Voltages whose share of time is told [V]: field experience has discharges from a few volts on.
 LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 
-# Periods of the carrier that a trace covers.
-_TRACED = 10.0
-
-
-@dataclass(frozen=True, eq=False)
-class DriveSolution:
-    """Solved drive.
-
-    Attributes
-    ----------
-    case : DriveCase
-        Case that was solved.
-    bearings : tuple of BearingResult
-        Solved bearings at the drive end and at the other end.
-    elements : tuple of BearingElement
-        The same as elements of the circuit.
-    record : Record
-        What happened over time.
-    divider : tuple of float
-        Voltage across the films of each bearing per volt of the source, right after an edge.
-    highest_source : float
-        Largest absolute voltage of the source [V].
-    told : tuple of ResultWarning
-        Warnings about the file of a measured source.
-    """
-
-    case: DriveCase
-    bearings: tuple[BearingResult, BearingResult]
-    elements: tuple[BearingElement, BearingElement]
-    record: Record
-    divider: tuple[float, float]
-    highest_source: float
-    told: tuple[ResultWarning, ...] = ()
+# Periods of the carrier that a trace covers, and samples of a measured source.
+_TRACED, _SAMPLES = 2.0, 4000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,12 +156,19 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
         circuits_of(ready.modes, None if ready.ringing is None else ready.ringing.rate),
         ready.films,
         _chunks(ready),
-        Measuring(ready.settling, ready.duration, reach, LIMITS, _trace(case)),
+        Measuring(ready.settling, ready.duration, reach, LIMITS, _trace(ready), at_event=True),
         case.drive.seed,
         lambda time: progress(round(100.0 * min(time / whole, 1.0)), 100, "simulating"),
     )
     return DriveSolution(
-        case, ready.bearings, ready.elements, record, ready.divider, ready.highest_source, ready.told
+        case=case,
+        elements=ready.elements,
+        record=record,
+        divider=ready.divider,
+        highest_source=ready.highest_source,
+        converged=all(one.converged for one in ready.bearings),
+        told=(*ready.told, *bearing_warnings(ready.bearings)),
+        bearings=ready.bearings,
     )
 
 
@@ -242,15 +220,17 @@ def _times(case: DriveCase, waveform: Waveform | None) -> tuple[float, float, fl
     return peak, settling, case.drive.duration or _PERIODS / source.fundamental_frequency
 
 
-def _trace(case: DriveCase) -> float:
+def _trace(ready: PreparedDrive) -> float:
     """Time that the trace covers [s]."""
-    source = case.source
-    carrier = source.switching_frequency or source.fundamental_frequency
-    return math.inf if carrier is None else _TRACED / carrier
+    if ready.waveform is not None:
+        return _SAMPLES * ready.waveform.step
+    carrier = ready.case.source.switching_frequency or ready.case.source.fundamental_frequency
+    assert carrier is not None
+    return _TRACED / carrier
 
 
 def _highest(divider: tuple[float, float], highest: float, ringing: Ringing | None) -> float:
-    """Voltage up to which histograms reach [V]: twice the divider's, as discharges shift it by itself."""
+    """About the highest voltage across a film [V]: twice the divider's, as discharges shift it by itself."""
     over = 1.0 if ringing is None else 1.0 + ringing.overshoot
     return 2.0 * over * max(divider) * highest
 

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.discharges.simulation import Record
-from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
-from ehlectric.drive.solver import DriveSolution, PreparedDrive
+from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Record
+from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import event_rate, spread
 from ehlectric.runtime.files import plain
+
+if TYPE_CHECKING:
+    from ehlectric.drive.solver import PreparedDrive
 
 SCHEMA = "ehlectric.drive/1"
 
@@ -28,7 +29,7 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
     """Summary of a drive without its head and its remedies: its source, its circuit and both bearings."""
     case, record = solution.case, solution.record
     ends = {end: end_summary(solution, b) for b, end in enumerate(ENDS)}
-    fundamental, bearing = case.source.fundamental_frequency, solution.bearings[0].case.bearing
+    fundamental, bearing = case.source.fundamental_frequency, case.bearings[0].bearing
     summary: dict[str, Any] = plain(
         {
             "source": {"peak": solution.highest_source, "edges_per_second": edges_per_second(case)},
@@ -203,7 +204,7 @@ def whole_summary(
         "schema": SCHEMA,
         "version": version,
         "title": solution.case.title,
-        "converged": converged(solution.bearings),
+        "converged": solution.converged,
         "warnings": [text for _, text in warnings],
         "warning_codes": [code for code, _ in warnings],
         "verdict": verdict(tables),
@@ -215,8 +216,3 @@ def whole_summary(
         ],
         "seconds": seconds,
     }
-
-
-def converged(bearings: Sequence[BearingResult]) -> bool:
-    """Whether the films of both bearings are converged."""
-    return all(one.converged for one in bearings)

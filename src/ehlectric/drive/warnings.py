@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount
-from ehlectric.drive.solver import DriveSolution
+from ehlectric.drive.solution import DriveSolution
 from ehlectric.errors import ResultWarning
 
 # Events below which a rate is called uncertain.
@@ -31,7 +31,6 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
         Warning with its code.
     """
     yield from solution.told
-    yield from bearing_warnings(solution.bearings)
     yield from machine_warnings(solution.case)
     yield from _of_threshold(solution)
     yield from _of_time(solution)

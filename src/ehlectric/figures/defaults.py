@@ -8,8 +8,10 @@ from typing import Any
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.drive.result import DriveResult
 from ehlectric.errors import InputError
 from ehlectric.figures.bearing.save import bearing_figures_of
+from ehlectric.figures.drive.save import drive_figures_of
 from ehlectric.figures.names import MEASURED_FIGURE, SENSITIVITY_FIGURE, map_files
 from ehlectric.motion.result import MotionResult
 from ehlectric.sweep.breakdown_keys import breakdown_of
@@ -57,6 +59,11 @@ def _of_bearing(result: BearingResult, _options: Mapping[str, Any]) -> _Default:
     if result.breaks()["first_break"] is not None:
         return "breakdown_over_speed.png", {}
     return next(iter(bearing_figures_of(result))), {}
+
+
+def _of_drive(result: DriveResult, _options: Mapping[str, Any]) -> _Default:
+    """Voltages over time, else how long which voltages last."""
+    return next(iter(drive_figures_of(result))), {}
 
 
 def _of_motion(_result: MotionResult, _options: Mapping[str, Any]) -> _Default:
@@ -120,6 +127,7 @@ _CHOICES: Mapping[type, Callable[[Any, Mapping[str, Any]], _Default]] = {
     Result: _of_line,
     PointResult: _of_point,
     BearingResult: _of_bearing,
+    DriveResult: _of_drive,
     MotionResult: _of_motion,
     SweepResults: _of_sweep,
     FilmFactors: lambda _factors, _options: (MEASURED_FIGURE, {}),

@@ -66,6 +66,14 @@ BEARING_FIGURE_FILES = (
 # Figures of bearings over the speed of the shaft.
 SPEED_FIGURE_FILES = ("capacitance_over_speed.png", "breakdown_over_speed.png")
 
+# Figures of drives: voltages over a short time, how long which voltages last, discharges, and remedies.
+DRIVE_FIGURE_FILES = (
+    "drive_voltages.png",
+    "drive_histogram.png",
+    "drive_discharges.png",
+    "drive_remedies.png",
+)
+
 # Figures of an oil.
 OIL_FIGURE_FILES = ("oil_over_pressure.png", "oil_over_temperature.png")
 

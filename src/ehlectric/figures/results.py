@@ -16,10 +16,12 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.table import nearest
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.drive.result import DriveResult
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.figures.bearing import save as bearing
 from ehlectric.figures.contact import save as contact
 from ehlectric.figures.defaults import default_axes
+from ehlectric.figures.drive import save as drive
 from ehlectric.figures.measured import save as measured
 from ehlectric.figures.motion import save as motion
 from ehlectric.figures.names import (
@@ -37,7 +39,9 @@ from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import known_values
 
-AnyResult = Result | PointResult | BearingResult | xr.Dataset | MotionRun | SweepResults | FilmFactors
+AnyResult = (
+    Result | PointResult | BearingResult | DriveResult | xr.Dataset | MotionRun | SweepResults | FilmFactors
+)
 
 
 @dataclass(frozen=True)
@@ -61,8 +65,8 @@ def figure(result: AnyResult, name: str, *, style: str = "screen", **options: An
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, transient contact, sweep or measurement.
+    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, drive, transient contact, sweep or measurement.
     name : str
         Name of its file, such as "film.png" of a line contact, or "film" for short; ``figure_names`` lists
         the names.
@@ -110,8 +114,8 @@ def figure_names(result: AnyResult) -> list[str]:
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, transient contact, sweep or measurement.
+    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, drive, transient contact, sweep or measurement.
 
     Returns
     -------
@@ -128,8 +132,8 @@ def draw_figures(
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, transient contact, sweep or measurement.
+    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, drive, transient contact, sweep or measurement.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
     formats : sequence of str
@@ -161,8 +165,8 @@ def save_figures(
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, transient contact, sweep or measurement.
+    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
+        Result of a contact, bearing, drive, transient contact, sweep or measurement.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
     formats : sequence of str
@@ -201,6 +205,10 @@ def _save_bearing(result: BearingResult, folder: Path, formats: Sequence[str]) -
     files = bearing.save_bearing_figures(result, folder, formats)
     over_speed, left_out = bearing.save_over_speed(result, folder, formats)
     return Drawn((*files, *over_speed), tuple(left_out))
+
+
+def _save_drive(result: DriveResult, folder: Path, formats: Sequence[str]) -> Drawn:
+    return Drawn(tuple(drive.save_drive_figures(result, folder, formats)))
 
 
 def _save_motion(result: xr.Dataset | MotionRun, folder: Path, formats: Sequence[str]) -> Drawn:
@@ -289,6 +297,7 @@ _DRAWS: dict[type, _Draws] = {
     Result: _CONTACT,
     PointResult: _CONTACT,
     BearingResult: _Draws(bearing.figure, _names_of_bearing, _save_bearing),
+    DriveResult: _Draws(drive.figure, drive.drive_figures_of, _save_drive),
     FilmFactors: _Draws(measured.figure, measured.measured_figures_of, _save_measured),
     xr.Dataset: _MOTION,
     MotionRun: _MOTION,

@@ -15,7 +15,8 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.verdict import Verdict
-from ehlectric.errors import ResultWarning, printable
+from ehlectric.drive.result import DriveResult
+from ehlectric.errors import InputError, ResultWarning, printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.report.background import (
     date_of_report,
@@ -100,7 +101,7 @@ def report_of(path: str | Path) -> Report:
     Raises
     ------
     InputError
-        If the folder has no result or several, or the result cannot be read.
+        If the folder has no result or several, or the result cannot be read or is that of a drive.
     """
     date = date_of_report()
     path = stored_result(path)
@@ -109,6 +110,9 @@ def report_of(path: str | Path) -> Report:
         part, case, title = Part(**sweep_part(result)), result.case, result.title or result.case.title
     else:
         result = load(path)
+        if isinstance(result, DriveResult):
+            told = "is the result of a drive, of which there is no report"
+            raise InputError(path, told, takes=f"its figures, as with: ehlectric plot {path.parent}")
         part, case, title = _part(result), result.case, result.case.title
     name = printable(title) or part.kind[0].upper() + part.kind.partition(" over ")[0][1:]
     sections = (

@@ -16,6 +16,7 @@ from ehlectric.errors import InputError
 from ehlectric.figures.names import (
     ALL_FIGURES,
     BEARING_FIGURE_FILES,
+    DRIVE_FIGURE_FILES,
     FORMATS,
     MEASURED_FIGURE,
     MOTION_FIGURE_FILES,
@@ -36,6 +37,7 @@ _FIGURES = (
     *ALL_FIGURES,
     *MOTION_FIGURE_FILES,
     *BEARING_FIGURE_FILES,
+    *DRIVE_FIGURE_FILES,
     *SPEED_FIGURE_FILES,
     SENSITIVITY_FIGURE,
     MEASURED_FIGURE,
@@ -162,8 +164,8 @@ def stored_result(path: str | Path) -> Path:
     Parameters
     ----------
     path : str or Path
-        A result.nc, bearing.nc or motion.nc, which is returned as it is; any other file of a result; or the
-        folder of a result.
+        A result.nc, bearing.nc, drive.nc or motion.nc, which is returned as it is; any other file of a
+        result; or the folder of a result.
 
     Returns
     -------
@@ -177,10 +179,11 @@ def stored_result(path: str | Path) -> Path:
     """
     from ehlectric.bearing.files import NETCDF as BEARING
     from ehlectric.contact.files import NETCDF as CONTACT
+    from ehlectric.drive.files import NETCDF as DRIVE
     from ehlectric.motion.stored_run import MOTION
     from ehlectric.sweep.store import NAME as SWEEP
 
-    path, names = Path(path), (CONTACT, BEARING, MOTION, SWEEP)
+    path, names = Path(path), (CONTACT, BEARING, DRIVE, MOTION, SWEEP)
     if not path.is_dir():
         refuse_unreadable(path)
         beside = path.name in files_of_results(path.parent) and path.name not in names

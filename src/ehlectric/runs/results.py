@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from ehlectric.bearing import files as of_bearings
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.storage.dataset import SCHEMA
+from ehlectric.bearing.storage.dataset import SCHEMA as BEARING
 from ehlectric.contact import files as of_contacts
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.drive import files as of_drives
+from ehlectric.drive.result import DriveResult
+from ehlectric.drive.storage.dataset import SCHEMA as DRIVE
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MOTION, read_motion
@@ -17,21 +21,31 @@ from ehlectric.runs.folders import stored_result
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.sweep.store import NAME as SWEEP
 
-AnyResult: TypeAlias = Result | PointResult | BearingResult | MotionResult
+if TYPE_CHECKING:
+    import xarray as xr
+
+AnyResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | MotionResult
+
+
+# Results of bearings and drives, by the schemas of their files; all others are contacts.
+_OF_SCHEMAS: Mapping[str, Callable[[xr.Dataset, Path], BearingResult | DriveResult]] = {
+    BEARING: of_bearings.result_of,
+    DRIVE: of_drives.result_of,
+}
 
 
 def load(path: str | Path) -> AnyResult:
-    """Load the result of a contact, of a bearing or of a contact with moving roughness.
+    """Load the result of a contact, of a bearing, of a drive or of a contact with moving roughness.
 
     Parameters
     ----------
     path : str or Path
-        A result.nc, bearing.nc or motion.nc, or the folder with this file.
+        A result.nc, bearing.nc, drive.nc or motion.nc, or the folder with this file.
 
     Returns
     -------
-    Result, PointResult, BearingResult or MotionResult
-        Result, equal to the one that was saved.
+    Result, PointResult, BearingResult, DriveResult or MotionResult
+        Result, equal to the one that was saved. That of a drive does not have its solved bearings.
 
     Raises
     ------
@@ -56,19 +70,22 @@ def load(path: str | Path) -> AnyResult:
     if path.name == MOTION:
         return MotionResult.of(read_motion(path))
     dataset = read_dataset(path)
-    if str(dataset.attrs.get("schema", "")).startswith(SCHEMA.partition("/")[0]):
-        return of_bearings.result_of(dataset, path)
+    schema = str(dataset.attrs.get("schema", ""))
+    for known, result_of in _OF_SCHEMAS.items():
+        if schema.startswith(known.partition("/")[0]):
+            return result_of(dataset, path)
     return of_contacts.result_of(dataset, path)
 
 
-def save(result: Result | PointResult | BearingResult, folder: str | Path) -> list[Path]:
-    """Save the result of a contact or of a bearing.
+def save(result: Result | PointResult | BearingResult | DriveResult, folder: str | Path) -> list[Path]:
+    """Save the result of a contact, of a bearing or of a drive.
 
     Parameters
     ----------
-    result : Result, PointResult or BearingResult
+    result : Result, PointResult, BearingResult or DriveResult
         Result of ``solve``. A contact writes summary.json, result.nc and film.csv; a bearing writes
-        summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv.
+        summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv; a drive writes
+        summary.json, events.csv and drive.nc.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
 
@@ -85,6 +102,10 @@ def save(result: Result | PointResult | BearingResult, folder: str | Path) -> li
     """
     if isinstance(result, BearingResult):
         return of_bearings.save(result, folder)
+    if isinstance(result, DriveResult):
+        return of_drives.save(result, folder)
     if isinstance(result, Result | PointResult):
         return of_contacts.save(result, folder)
-    raise InputError("result", got=shown(type(result).__name__), takes="a result of a contact or a bearing")
+    raise InputError(
+        "result", got=shown(type(result).__name__), takes="a result of a contact, a bearing or a drive"
+    )

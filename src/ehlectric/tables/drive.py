@@ -92,6 +92,30 @@ def prepared_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
                 yield Row(name, about[key], unit, bound="≤" if key == "breakdown_voltage" else "")
 
 
+def drive_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of a drive, both bearings below each other.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a drive, as ``DriveResult.summary`` gives it.
+
+    Yields
+    ------
+    Row
+        Values in SI units; the first one is an alarm if a film is not converged.
+    """
+    if not summary["converged"]:
+        yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
+    yield Row("common-mode voltage, peak", summary["source"]["peak"], "V")
+    yield Row("simulated time", summary["drive"]["duration"], "s")
+    for end in _ENDS:
+        yield Row(_NAMES[end] + ":")
+        for name, key, unit in _ROWS:
+            if summary[end][key] is not None:
+                yield Row(name, summary[end][key], unit)
+
+
 def ends_table(summary: Mapping[str, Any]) -> Table:
     """Table of both bearings of a drive, for the terminal.
 

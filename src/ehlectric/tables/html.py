@@ -14,6 +14,7 @@ from ehlectric.cases.changes import flattened
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.row import Row, suited
 from ehlectric.contact.results import ContactResult
+from ehlectric.drive.result import DriveResult
 from ehlectric.errors import ResultWarning, printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.runtime.values import is_number
@@ -24,6 +25,7 @@ from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.warnings import sweep_warnings
 from ehlectric.tables.bearing import total_rows
 from ehlectric.tables.contact import result_rows
+from ehlectric.tables.drive import drive_rows
 from ehlectric.tables.measured import factor_rows
 from ehlectric.tables.motion import run_rows
 from ehlectric.tables.sweep import sweep_rows
@@ -150,6 +152,7 @@ def _sweep_rows(sweep: Sweep) -> Iterator[Row]:
 _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     ContactResult: result_rows,
     BearingResult: lambda result: total_rows(result.summary()),
+    DriveResult: lambda result: drive_rows(result.summary()),
     MotionResult: lambda result: run_rows(result.summary()),
     SweepResults: sweep_rows,
     FilmFactors: factor_rows,

@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from ehlectric import Case, InputError, load, save, solve
+from ehlectric import Case, InputError, load, save, solve, solve_drive
 from ehlectric.bearing import files as of_bearings
 from ehlectric.contact import files as of_contacts
+from ehlectric.drive import files as of_drives
 from ehlectric.errors import DamagedError
 from ehlectric.figures.results import draw_figures
 from ehlectric.motion.content import solved_part
@@ -18,6 +19,7 @@ from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.checks.seal import sealed
 from ehlectric.runtime.netcdf import read_dataset
 from tests.helpers.damage import with_damaged_bytes, with_edited_values
+from tests.helpers.drives import small_drive
 from tests.helpers.moving_cases import moving
 from tests.helpers.share import share
 
@@ -39,7 +41,8 @@ BEARING = {
     },
     "lubricant": {"base": "paper", "viscosity": "20 mPa s"},
 }
-NAMES = {"contact": "result.nc", "motion": "motion.nc", "bearing": "bearing.nc"}
+NAMES = {"contact": "result.nc", "motion": "motion.nc", "bearing": "bearing.nc", "drive": "drive.nc"}
+READERS = {"contact": of_contacts, "bearing": of_bearings, "drive": of_drives}
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +52,7 @@ def stored(tmp_path_factory):
     table = {"contact": CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 65}}
     save(solve(Case.from_dict(table)), folder / "contact")
     save(solve(BEARING), folder / "bearing")
+    save(solve_drive(small_drive(**{"drive.duration": 1e-3}), workers=1), folder / "drive")
     run_motion(moving(motion={"passes": 0.375, "steps": 12, "record": 4}), folder / "motion")
     return {kind: folder / kind / name for kind, name in NAMES.items()}
 
@@ -60,7 +64,7 @@ def result_of(kind, dataset):
         with refusing(path):
             part = solved_part(dataset)
         return MotionResult.of(part), part
-    result = (of_bearings if kind == "bearing" else of_contacts).result_of(dataset, path)
+    result = READERS[kind].result_of(dataset, path)
     return result, result
 
 

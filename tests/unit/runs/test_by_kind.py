@@ -83,7 +83,7 @@ WRITTEN = {
     "contact": ["summary.json", "result.nc", "film.csv"],
     "motion": ["summary.json", "motion.nc"],
     "bearing": ["summary.json", "contacts.csv", "bearing.nc"],
-    "drive": ["summary.json", "events.csv"],
+    "drive": ["summary.json", "events.csv", "drive.nc"],
     "sweep": ["sweep.csv", "sweep.parquet", "sweep.nc"],
 }
 
@@ -193,10 +193,10 @@ def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
     assert run_and_draw("contact", case, tmp_path, draw=False).files == outcome.files[:3]
 
 
-@pytest.mark.parametrize("kind", ["contact", "bearing"])
+@pytest.mark.parametrize("kind", ["contact", "bearing", "drive"])
 def test_a_result_is_loaded_whatever_it_is_of(kind, files, tmp_path):
     outcome = run(files[kind], tmp_path / "out")
-    file = tmp_path / "out" / {"contact": "result.nc", "bearing": "bearing.nc"}[kind]
+    file = tmp_path / "out" / {"contact": "result.nc", "bearing": "bearing.nc", "drive": "drive.nc"}[kind]
     result = load(file)
     assert ehlectric.load is load
     assert type(result) is type(outcome.result)

@@ -185,7 +185,7 @@ def test_saved_results_are_equal(table, tmp_path):
 
 def test_what_is_not_saved(motion, tmp_path):
     with pytest.raises(
-        InputError, match="result: got 'MotionResult'; expected a result of a contact or a bearing"
+        InputError, match="result: got 'MotionResult'; expected a result of a contact, a bearing or a drive"
     ):
         save(motion, tmp_path)
 

@@ -32,17 +32,10 @@ from ehlectric.drive.discharges.pieces import (
     states_at,
     voltage,
 )
+from ehlectric.drive.discharges.record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
 from ehlectric.drive.discharges.states import (
     ARC,
-    CHARGE,
-    COLUMNS,
-    ENERGY,
-    FILM,
     INSULATING,
-    OFF,
-    ON,
-    PEAK,
-    PLACE,
     POSITION,
     RECOVERING,
     RECOVERY,
@@ -50,7 +43,6 @@ from ehlectric.drive.discharges.states import (
     RESERVE,
     TOUCH,
     TOUCHING,
-    VOLTAGE,
     Films,
     Segments,
     State,

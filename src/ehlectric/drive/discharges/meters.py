@@ -16,9 +16,10 @@ class Meters(NamedTuple):
     Attributes
     ----------
     edges : ndarray, shape (2,)
-        Lowest and highest voltage of the histograms [V].
+        Lowest and highest voltage of the histograms [V], which are doubled where a voltage is beyond them.
     histogram : ndarray, shape (2, bins)
-        Time at the voltages of each bin [s]; voltages beyond the edges count in the outer bins.
+        Time at the voltages of each bin [s]; the number of bins is a multiple of four, and half of them are
+        below zero.
     limits : ndarray, shape (l,)
         Limits of the voltage [V].
     above : ndarray, shape (2, l)
@@ -56,6 +57,9 @@ def measure(
     first: tuple[float, float], last: tuple[float, float],
 ) -> None:  # fmt: skip
     """Measure voltages that go straight from first to last values in a duration [s]."""
+    largest = max(max(abs(first[0]), abs(last[0])), max(abs(first[1]), abs(last[1])))
+    while largest > meters.edges[1]:
+        _widen(meters)
     for b in range(2):
         v, w = first[b], last[b]
         meters.peak[b] = max(meters.peak[b], abs(v), abs(w))
@@ -68,6 +72,20 @@ def measure(
         meters.trace[row, 0], meters.trace[row, 1] = now, source
         meters.trace[row, 2], meters.trace[row, 3] = first[0], first[1]
         meters.traced[0] = row + 1
+
+
+@inner
+def _widen(meters: Meters) -> None:
+    """Double the width of all bins: each takes the time of two neighbours, from zero outwards."""
+    half = meters.histogram.shape[1] // 2
+    for b in range(2):
+        bins = meters.histogram[b]
+        for k in range(half):
+            inside = 2 * k + 1 < half
+            bins[half + k] = bins[half + 2 * k] + bins[half + 2 * k + 1] if inside else 0.0
+            bins[half - 1 - k] = bins[half - 1 - 2 * k] + bins[half - 2 - 2 * k] if inside else 0.0
+    meters.edges[0] *= 2.0
+    meters.edges[1] *= 2.0
 
 
 @inner
@@ -90,6 +108,8 @@ def _fill(meters: Meters, b: int, v: float, w: float, duration: float) -> None:
     if start == end:
         meters.histogram[b, start] += duration
         return
-    for k in range(start, end + 1):
-        from_, to = (low if k == start else float(k)), (high if k == end else k + 1.0)
-        meters.histogram[b, k] += duration * (to - from_) / (high - low)
+    each = duration / (high - low)
+    meters.histogram[b, start] += each * (start + 1.0 - low)
+    for k in range(start + 1, end):
+        meters.histogram[b, k] += each
+    meters.histogram[b, end] += each * (high - end)

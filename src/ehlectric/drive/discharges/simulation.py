@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,8 @@ from ehlectric.drive.circuit.modes import Modes
 from ehlectric.drive.discharges.march import advance, start_clocks
 from ehlectric.drive.discharges.meters import Meters
 from ehlectric.drive.discharges.pieces import Circuits
-from ehlectric.drive.discharges.states import COLUMNS, FILM, OFF, ON, Films, Segments, State
+from ehlectric.drive.discharges.record import COLUMNS, FILM, OFF, ON, VOLTAGE, Record
+from ehlectric.drive.discharges.states import Films, Segments, State
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384
@@ -28,62 +30,44 @@ KEPT = 200_000
 BINS, TRACE = 400, 20_000
 _ROUGH, _SILENT = 5e-4, 1e-4
 
+# Voltage up to which a histogram reaches at first, over the highest one; it widens as voltages ask for.
+_NARROWEST = 2.0**-12
+
+# Relative difference of times that are the same.
+_SAME = 1e-9
+
+# First events of which a typical one has the trace.
+_FIRST = 5
+
 # Number of blocks of time in which events are counted, from which their scatter follows.
 BLOCKS = 40
 
 
-@dataclass(frozen=True, eq=False)
-class Record:
-    """What happened in a simulated time.
+@dataclass(frozen=True)
+class Measuring:
+    """What is measured.
 
     Attributes
     ----------
-    duration : float
-        Time that was measured [s].
-    events : ndarray, shape (m, 8)
-        The first events of both films, a row for each with the columns of ``march``; times from the begin of
-        the measured time.
-    counts : ndarray of int, shape (2, blocks)
-        Number of events of each film in equal blocks of time.
-    sums, largest : ndarray, shape (2, 8)
-        Sums, and largest absolute values, of the columns of the events of each film.
-    edges : ndarray, shape (bins + 1,)
-        Edges of the bins of the histogram [V].
-    histogram : ndarray, shape (2, bins)
-        Time at the voltages of each bin [s].
-    limits : ndarray, shape (l,)
+    start, duration : float
+        Time from which on it is measured, and how long [s].
+    highest : float
+        Voltage that is about the highest one [V], of which tolerances are parts.
+    limits : tuple of float
         Limits of the voltage [V].
-    above : ndarray, shape (2, l)
-        Time above each limit [s].
-    peak, rms : ndarray, shape (2,)
-        Largest and root mean square voltage across each film [V].
-    trace : ndarray, shape (m, 4)
-        Time [s], voltage of the source [V], and voltage across both films [V], at the begin.
+    trace : float
+        Time that the trace covers [s].
+    at_event : bool
+        Whether the trace is around a typical one of the first events, where there are any, and not at the
+        begin.
     """
-
-    duration: float
-    events: Array
-    counts: np.ndarray
-    sums: Array
-    largest: Array
-    edges: Array
-    histogram: Array
-    limits: Array
-    above: Array
-    peak: Array
-    rms: Array
-    trace: Array
-
-
-@dataclass(frozen=True)
-class Measuring:
-    """What is measured: from which time on [s], how long [s], limits [V], and the time of the trace [s]."""
 
     start: float
     duration: float
     highest: float
     limits: tuple[float, ...]
     trace: float
+    at_event: bool = False
 
 
 def circuits_of(modes: Modes, ring: complex | None) -> Circuits:
@@ -205,17 +189,57 @@ def simulate(
         start_clocks(films, state, b)
     meters, log = _meters(measuring), _Log(measuring.duration)
     events, begun = np.zeros((_EVENTS, COLUMNS)), measuring.start == 0.0
+    trace: Array | None = None
     for chunk in chunks:
-        if not begun and state.time[0] >= measuring.start * (1.0 - 1e-9):
+        if not begun and state.time[0] >= measuring.start * (1.0 - _SAME):
             meters, begun = _meters(measuring), True
         state.cursor[:] = 0.0
+        seeks = begun and measuring.at_event and trace is None
+        before = deepcopy((state, random)) if seeks else None
         while state.cursor[0] >= 0.0:
             count = advance(circuits, films, chunk, state, meters, events)
             random.fill(state)
             if begun:
                 log.add(events[:count], measuring.start)
+        if before is not None and log.number:
+            trace = _around(circuits, films, chunk, measuring, before, _typical(log))
         progress(float(state.time[0]))
-    return _record(measuring, meters, log)
+    return _record(measuring, meters, log, trace)
+
+
+def _typical(log: _Log) -> float:
+    """Time of the one of the first events whose voltage is the median of theirs [s]."""
+    first = np.vstack(log.kept)[:_FIRST]
+    order = np.argsort(np.abs(first[:, VOLTAGE]), kind="stable")
+    return float(first[order[first.shape[0] // 2], ON])
+
+
+def _around(
+    circuits: Circuits,
+    films: Films,
+    chunk: Segments,
+    measuring: Measuring,
+    before: tuple[State, _Random],
+    event: float,
+) -> Array:
+    """Trace around the time of an event [s], by a second march through the begin of its chunk."""
+    state, random = before
+    start = float(state.time[0])
+    ends = start + np.cumsum(chunk.duration)
+    begin = min(measuring.start + event - 0.5 * measuring.trace, float(ends[-1]) - measuring.trace)
+    begin = max(begin, start)
+    last = int(np.searchsorted(ends, begin + measuring.trace)) + 1
+    meters = _meters(measuring)._replace(until=np.array([begin, begin + measuring.trace]))
+    events, part = np.zeros((_EVENTS, COLUMNS)), _until(chunk, last)
+    while state.cursor[0] >= 0.0:
+        advance(circuits, films, part, state, meters, events)
+        random.fill(state)
+    return _traced(measuring, meters)
+
+
+def _until(chunk: Segments, last: int) -> Segments:
+    """Segments of a chunk before a number of them."""
+    return Segments(chunk.duration[:last], chunk.level[:last], chunk.slope[:last], chunk.ring[:last])
 
 
 def _state(size: int) -> State:
@@ -238,7 +262,7 @@ def _state(size: int) -> State:
 def _meters(measuring: Measuring) -> Meters:
     highest, limits = measuring.highest, np.array(measuring.limits)
     return Meters(
-        edges=np.array([-highest, highest]),
+        edges=_NARROWEST * np.array([-highest, highest]),
         histogram=np.zeros((2, BINS)),
         limits=limits,
         above=np.zeros((2, limits.size)),
@@ -246,25 +270,30 @@ def _meters(measuring: Measuring) -> Meters:
         square=np.zeros(2),
         trace=np.zeros((TRACE, 4)),
         traced=np.zeros(1, dtype=np.int64),
-        until=np.array([measuring.start, measuring.start + measuring.trace]),
+        until=np.array([measuring.start * (1.0 - _SAME), measuring.start + measuring.trace]),
         rough=np.array([_ROUGH * highest, _SILENT * highest]),
     )
 
 
-def _record(measuring: Measuring, meters: Meters, log: _Log) -> Record:
-    trace = meters.trace[: int(meters.traced[0])].copy()
+def _traced(measuring: Measuring, meters: Meters) -> Array:
+    """Rows of the trace that are filled; times from the begin of the measured time."""
+    trace: Array = meters.trace[: int(meters.traced[0])].copy()
     trace[:, 0] -= measuring.start
+    return trace
+
+
+def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None) -> Record:
     return Record(
         duration=measuring.duration,
         events=np.vstack(log.kept) if log.kept else np.zeros((0, COLUMNS)),
         counts=log.counts,
         sums=log.sums,
         largest=log.largest,
-        edges=np.linspace(-measuring.highest, measuring.highest, BINS + 1),
+        edges=np.linspace(meters.edges[0], meters.edges[1], BINS + 1),
         histogram=meters.histogram,
         limits=meters.limits,
         above=meters.above,
         peak=meters.peak,
         rms=np.sqrt(meters.square / measuring.duration),
-        trace=trace,
+        trace=_traced(measuring, meters) if trace is None else trace,
     )

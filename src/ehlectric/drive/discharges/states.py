@@ -20,10 +20,6 @@ INSULATING, ARC, RECOVERING, TOUCHING = range(4)
 # Clocks of a film: time left to the next position, next film, its insulation, and the next touch.
 POSITION, RENEWAL, RECOVERY, TOUCH = range(4)
 
-# Columns of an event.
-ON, OFF, FILM, VOLTAGE, CHARGE, ENERGY, PEAK, PLACE = range(8)
-COLUMNS = 8
-
 # Streams of random numbers of a film; the march stops where one has fewer than the reserve left.
 _THRESHOLDS, _TIMES = range(2)
 RESERVE = 16

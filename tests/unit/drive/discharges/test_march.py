@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from ehlectric.drive.discharges.states import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Segments
+from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
+from ehlectric.drive.discharges.states import Segments
 from tests.helpers.drives import arc, element, march, motor, square
 
 

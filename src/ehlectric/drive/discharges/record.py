@@ -1,0 +1,58 @@
+"""Record of a simulated time: its events, its histograms, and a trace of its voltages. SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.arrays import Array
+
+# Columns of an event: begin and end [s], number of the film, voltage at breakdown [V], charge [C], energy
+# [J], largest current [A], and position of the elements.
+ON, OFF, FILM, VOLTAGE, CHARGE, ENERGY, PEAK, PLACE = range(8)
+COLUMNS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """What happened in a simulated time.
+
+    Attributes
+    ----------
+    duration : float
+        Time that was measured [s].
+    events : ndarray, shape (m, 8)
+        The first events of both films, a row for each with the columns above; times from the begin of
+        the measured time.
+    counts : ndarray of int, shape (2, blocks)
+        Number of events of each film in equal blocks of time.
+    sums, largest : ndarray, shape (2, 8)
+        Sums, and largest absolute values, of the columns of the events of each film.
+    edges : ndarray, shape (bins + 1,)
+        Edges of the bins of the histogram [V].
+    histogram : ndarray, shape (2, bins)
+        Time at the voltages of each bin [s].
+    limits : ndarray, shape (l,)
+        Limits of the voltage [V].
+    above : ndarray, shape (2, l)
+        Time above each limit [s].
+    peak, rms : ndarray, shape (2,)
+        Largest and root mean square voltage across each film [V].
+    trace : ndarray, shape (m, 4)
+        Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
+        stretch; straight between the rows.
+    """
+
+    duration: float
+    events: Array
+    counts: np.ndarray
+    sums: Array
+    largest: Array
+    edges: Array
+    histogram: Array
+    limits: Array
+    above: Array
+    peak: Array
+    rms: Array
+    trace: Array

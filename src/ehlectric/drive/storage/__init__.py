@@ -1,0 +1,1 @@
+"""File of a solved drive: its content, and the result of it."""

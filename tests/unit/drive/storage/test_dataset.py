@@ -1,0 +1,79 @@
+"""File of a drive: what is saved comes back, with the same numbers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric import InputError, load, save, solve_drive
+from ehlectric.drive import files as of_drives
+from ehlectric.drive.result import DriveResult
+from ehlectric.errors import ResultWarning
+from tests.helpers.drives import small_drive
+
+
+@pytest.fixture(scope="module")
+def drive():
+    """Drive with two different bearings, and a warning about a file."""
+    case = small_drive().replace(
+        {"non_drive_end.bearing.radial_load": "500 N", "non_drive_end.bearing.parallel_capacitance": "20 pF"}
+    )
+    result = solve_drive(case, workers=1)
+    told = (ResultWarning("waveform-coarse", "told by hand"), *result.solution.told)
+    return replace(result, solution=replace(result.solution, told=told))
+
+
+def test_a_loaded_result_equals_the_saved_one(drive, tmp_path):
+    files = save(drive, tmp_path)
+    assert [file.name for file in files] == ["summary.json", "events.csv", "drive.nc"]
+    for path in (tmp_path, tmp_path / "drive.nc", tmp_path / "events.csv"):
+        again = load(path)
+        assert again == drive
+        assert again.summary() == drive.summary()
+        assert again.events() == drive.events()
+        assert list(map(str, again.warnings)) == list(map(str, drive.warnings))
+    assert again.solution.bearings == ()
+    assert len(drive.solution.bearings) == 2
+    assert of_drives.load(tmp_path / "drive.nc") == drive
+
+
+def test_a_result_without_discharges_is_loaded_too(drive, tmp_path):
+    _, _, grounded = drive.remedies[0]
+    result = DriveResult(replace(grounded, case=grounded.case.replace({"remedies": []})))
+    save(result, tmp_path)
+    again = load(tmp_path)
+    assert again == result
+    assert len(again.solution.record.events) == 0
+    assert not [name for name in again.to_xarray() if str(name).startswith("event_b")]
+
+
+def test_numbers_that_differ_make_another_result(drive):
+    record = drive.solution.record
+    events = record.events.copy()
+    events[-1, 3] = np.nextafter(events[-1, 3], 0.0)
+    other = replace(drive, solution=replace(drive.solution, record=replace(record, events=events)))
+    assert other != drive
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "says"),
+    [
+        ("event_bearing", lambda values: values + 1, "event_bearing is not 0 or 1"),
+        ("event_count", lambda values: values + 1, "event_count is not the number of values along event"),
+        ("voltage_edge", lambda values: -values, "voltage_edge is not increasing"),
+        ("position_breakdown", lambda values: 0.0 * values, "position_breakdown is not positive or infinite"),
+        ("time_at_voltage", lambda values: values - 1.0, "time_at_voltage is not not negative"),
+    ],
+)
+def test_what_is_wrong_is_named(drive, tmp_path, name, change, says):
+    dataset = drive.to_xarray()
+    changed = dataset.assign({name: (dataset[name].dims, change(dataset[name].values))})
+    with pytest.raises(InputError) as caught:
+        of_drives.result_of(changed, tmp_path / "drive.nc")
+    assert says in str(caught.value)
+
+
+def test_the_file_of_another_result_is_refused(drive, tmp_path):
+    other = drive.to_xarray().assign_attrs(schema="ehlectric.bearing.solution/1")
+    with pytest.raises(InputError, match="is not the result of a drive"):
+        of_drives.result_of(other, tmp_path / "drive.nc")

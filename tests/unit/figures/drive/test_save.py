@@ -1,0 +1,164 @@
+"""Figures of a drive: what they show, and what they leave out."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.text import Text
+
+from ehlectric import InputError, figure, figure_names, save_figures, solve_drive
+from ehlectric.drive.discharges.record import ENERGY, FILM, ON, VOLTAGE
+from ehlectric.drive.result import DriveResult
+from ehlectric.figures.drive.histogram import shares_above
+from ehlectric.figures.names import DRIVE_FIGURE_FILES, FORMATS, in_formats
+from tests.helpers.drives import small_drive
+from tests.helpers.titles import title_of
+
+VOLTAGES, HISTOGRAM, DISCHARGES, REMEDIES = (name.removesuffix(".png") for name in DRIVE_FIGURE_FILES)
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return solve_drive(small_drive(), workers=1)
+
+
+@pytest.fixture(scope="module")
+def grounded(drive):
+    """The drive with a ring, whose bearings do not discharge."""
+    return DriveResult(drive.remedies[0][2])
+
+
+def one_sided(drive):
+    """The drive without the discharges of its drive end."""
+    record = drive.solution.record
+    counts = record.counts * np.array([[0], [1]])
+    own = replace(record, counts=counts, events=record.events[record.events[:, FILM] == 1])
+    return replace(drive, solution=replace(drive.solution, record=own))
+
+
+def markers(ax, label):
+    """Places of the markers of an entry of the legend."""
+    return [line for line in ax.get_lines() if line.get_label() == label]
+
+
+def test_names_are_those_of_the_files(drive, grounded):
+    assert figure_names(drive) == [VOLTAGES, HISTOGRAM, DISCHARGES, REMEDIES]
+    assert figure_names(grounded) == [VOLTAGES, HISTOGRAM]
+    with pytest.raises(InputError, match=r"^figure: got 'drive_remedies'; expected one of drive_voltages"):
+        figure(grounded, REMEDIES)
+    assert title_of(drive.plot()) == title_of(figure(drive, VOLTAGES))
+
+
+def test_a_file_of_each_format_is_written(drive, tmp_path):
+    files = save_figures(drive, tmp_path, FORMATS)
+    assert [file.name for file in files] == list(in_formats(DRIVE_FIGURE_FILES, FORMATS))
+    assert all(file.stat().st_size > 5000 for file in files)
+
+
+def test_a_figure_of_a_journal_has_the_width_of_its_column(drive):
+    assert figure(drive, VOLTAGES, style="journal").get_figwidth() == pytest.approx(84.0 / 25.4)
+
+
+def test_discharges_are_marked_where_they_happen(drive):
+    source, *panels = figure(drive, VOLTAGES).axes
+    trace = drive.solution.record.trace
+    assert source.get_lines()[0].get_ydata() == pytest.approx(trace[:, 1])
+    begin, end = trace[0, 0], trace[-1, 0]
+    events = drive.solution.record.events
+    here = events[(events[:, ON] >= begin) & (events[:, ON] <= end)]
+    assert len(here) > 2
+    for b, ax in enumerate(panels):
+        own = here[here[:, FILM] == b]
+        (dots,) = markers(ax, "discharge")
+        assert dots.get_ydata() == pytest.approx(own[:, VOLTAGE])
+        assert dots.get_xdata() == pytest.approx(1e6 * (own[:, ON] - begin), abs=1e-6)
+        (threshold,) = markers(ax, "breakdown, weakest position (63 %)")
+        assert threshold.get_ydata()[0] == pytest.approx(
+            np.min(drive.solution.elements[b].breakdown), rel=1e-12
+        )
+    title = " ".join(title_of(figure(drive, VOLTAGES)))
+    assert f"mean {drive.summary()['drive_end']['voltage_mean']:.2g}"[:8] in title
+    assert "3000 rpm" in title
+
+
+def test_no_discharge_is_said(grounded):
+    drawn = figure(grounded, VOLTAGES)
+    assert not any(markers(ax, "discharge") for ax in drawn.axes)
+    assert title_of(drawn)[0].startswith("No discharge in 5 ms: at most 9")
+    assert "mV" in drawn.axes[1].get_ylabel()
+    assert title_of(figure(grounded, HISTOGRAM))[0].startswith("Low bearing voltage: at most 9")
+
+
+def test_shares_of_time_are_those_of_the_summary(drive):
+    upper, lower = figure(drive, HISTOGRAM).axes
+    assert (upper.get_yscale(), lower.get_yscale()) == ("log", "log")
+    record = drive.solution.record
+    edges, shares = shares_above(drive)
+    assert shares[:, 0] == pytest.approx(np.full(2, 100.0))
+    for b, end in enumerate(("drive_end", "non_drive_end")):
+        told = {float(limit): 100.0 * share for limit, share in drive.summary()[end]["time_above"].items()}
+        dots = [line for line in lower.get_lines() if line.get_marker() == "os"[b]]
+        drawn = dict(zip(*(map(float, values) for values in dots[0].get_data()), strict=True))
+        assert drawn == pytest.approx({limit: share for limit, share in told.items() if share > 0.0})
+        # Between two edges of bins, the share is between those above both of them.
+        for limit, share in told.items():
+            if limit < record.edges[-1]:
+                k = int(np.searchsorted(edges, limit))
+                assert shares[b, k] - 1e-9 <= share <= shares[b, k - 1] + 1e-9
+
+
+def test_distributions_hold_every_discharge(drive):
+    drawn = figure(drive, DISCHARGES)
+    assert [ax.get_xlabel().partition(" [")[0] for ax in drawn.axes] == [
+        "voltage at breakdown", "charge", "energy in the arc", "peak current",
+    ]  # fmt: skip
+    events = drive.solution.record.events
+    for ax in drawn.axes:
+        outlines = [patch.get_data() for patch in ax.patches if not patch.get_fill()]
+        assert [float(np.sum(one.values)) for one in outlines] == pytest.approx([100.0, 100.0])
+    energies = drawn.axes[2].patches[-1].get_data()
+    middles = 0.5 * (energies.edges[1:] + energies.edges[:-1])
+    mean = 1e9 * float(np.mean(events[events[:, FILM] == 1, ENERGY]))
+    width = float(np.max(np.diff(energies.edges)))
+    assert float(np.sum(0.01 * energies.values * middles)) == pytest.approx(mean, abs=width)
+
+
+def test_a_bearing_without_discharges_is_left_out(drive):
+    drawn = figure(one_sided(drive), DISCHARGES)
+    (entry,) = drawn.axes[0].get_legend().get_texts()
+    assert entry.get_text().startswith("non-drive end: ")
+    assert "none (drive end)" in title_of(drawn)[0]
+
+
+def test_many_discharges_are_drawn(drive):
+    record = drive.solution.record
+    events = np.tile(record.events, (100_000 // len(record.events) + 1, 1))
+    result = replace(drive, solution=replace(drive.solution, record=replace(record, events=events)))
+    for name in (VOLTAGES, DISCHARGES):
+        drawn = figure(result, name)
+        assert drawn.axes
+        assert sum(len(ax.patches) for ax in drawn.axes) < 20
+
+
+def test_remedies_are_beside_the_drive_as_it_is(drive):
+    rates, energies = figure(drive, REMEDIES).axes
+    assert [label.get_text() for label in rates.get_yticklabels()] == ["as it is", "Grounding ring"]
+    summary = drive.summary()
+    drawn = [line.get_xdata()[0] for line in rates.get_lines() if line.get_marker() in ("o", "s")]
+    ends = ("drive_end", "non_drive_end")
+    assert drawn == pytest.approx([summary[end]["events_per_second"] for end in ends])
+    bounds = [line.get_xdata() for line in rates.get_lines() if line.get_marker() == "<"]
+    assert [one[0] for one in bounds] == pytest.approx(
+        [summary["remedies"][0][end]["events_per_second_high"] for end in ends]
+    )
+    means = [line.get_xdata()[0] for line in energies.get_lines() if line.get_marker() in ("o", "s")]
+    assert means == pytest.approx([1e9 * summary[end]["energy_mean"] for end in ends])
+    assert "no discharge" in [text.get_text() for text in energies.findobj(Text)]
+    assert title_of(figure(drive, REMEDIES))[0].startswith("No discharge with Grounding ring; ")
+
+
+def test_a_drive_that_is_not_converged_says_so(drive):
+    result = replace(drive, solution=replace(drive.solution, converged=False))
+    assert title_of(figure(result, HISTOGRAM))[0] == "NOT CONVERGED"
+    assert "NOT CONVERGED" in repr(result)
+    assert "NOT CONVERGED" in result._repr_html_()
