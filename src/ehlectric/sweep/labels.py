@@ -20,8 +20,8 @@ from ehlectric.contact.keys import CONTACT_KEYS
 from ehlectric.drive.keys import DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.motion.keys import MOTION_KEYS
 
-# Units without prefixes: none, angles, absolute temperatures and their inverse.
-_PLAIN = ("", "deg", "K", "rad", "1/K")
+# Units without prefixes: none, angles, absolute temperatures and their inverse, and events per second.
+_PLAIN = ("", "deg", "K", "rad", "1/K", "1/s")
 
 
 @dataclass(frozen=True)

@@ -59,12 +59,20 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     """Check a key of a drive."""
     end, own = end_and_key(key)
     if not is_of_drive(key):
-        # A key of a bearing file is one of both bearings.
-        of_bearing = nearest_key(key, BearingCase)
-        raise InputError.unknown(key, _REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}"))
+        raise InputError.unknown(key, _nearest(key))
+    if key == BOTH:
+        raise InputError(key, "is a table", takes=f"one of its keys, as {BOTH}.bearing.radial_load")
     input_field(key)
     if end and own.partition(".")[0] in _NOT_VARIED:
         raise InputError.worded(key, "cannot vary", takes="a key of the bearing")
     above = _REPLACED.get(own) if end else None
     if above is not None and (above in varied or getattr(case.drive, above.partition(".")[2]) is not None):
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
+
+
+def _nearest(key: str) -> str:
+    """Key of a drive that is nearest to a key of another kind of file; one of a bearing is that of both."""
+    if key.partition(".")[0] not in BearingCase.known_keys():
+        return nearest_key(key, DriveCase)
+    of_bearing = nearest_key(key, BearingCase)
+    return _REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}")
