@@ -6,12 +6,14 @@ import numpy as np
 
 from ehlectric.bearing.meter.path import Path
 from ehlectric.cases.drives.breakdown import Breakdown
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.circuit import Circuit
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.modes import modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Segments
+from tests.helpers.places import EXAMPLES
 
 MOTOR = {
     "winding_rotor_capacitance": "50 pF",
@@ -19,6 +21,13 @@ MOTOR = {
     "winding_frame_capacitance": "5 nF",
 }
 ARC = {"arc_resistance": 10.0, "extinction_voltage": 0.5, "recovery_time": 0.0}
+
+
+def small_drive(**changes):
+    """The example for a few periods of its carrier, with contacts by formula and without remedies."""
+    drive = DriveCase.from_toml(EXAMPLES / "drive.toml")
+    quick = {"drive.contacts": "formula", "drive.duration": "3 ms", "drive.temperature": "40 degC"}
+    return drive.replace({"remedies": []} | quick | changes)
 
 
 def element(capacitance=300e-12, *, breakdown=math.inf, conductance=0.0, shape=math.inf, step=math.inf,

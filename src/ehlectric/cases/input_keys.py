@@ -266,6 +266,18 @@ def end_and_key(key: str) -> tuple[str, str]:
     return (first, rest) if first in (*ENDS, BOTH) and rest else ("", key)
 
 
+def of_both_ends(key: str) -> tuple[str, ...]:
+    """Dotted keys of a case that a key stands for: two for a key of both bearings of a drive, else itself.
+
+    Examples
+    --------
+    >>> of_both_ends("bearings.bearing.temperature")
+    ('drive_end.bearing.temperature', 'non_drive_end.bearing.temperature')
+    """
+    end, own = end_and_key(key)
+    return tuple(f"{one}.{own}" for one in ENDS) if end == BOTH else (key,)
+
+
 def _in_a_table(key: str) -> bool:
     """Whether a key begins with the name of a table; the search for the nearest key takes milliseconds."""
     end, own = end_and_key(key)

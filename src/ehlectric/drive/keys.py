@@ -74,7 +74,9 @@ _END: Keys = {
         "V",
         "breakdown voltage",
     ),
-    "weibull_shape": ResultKey("shape of Weibull's law of that voltage; null without scatter"),
+    "weibull_shape": ResultKey(
+        "shape of Weibull's law of that voltage; null without scatter", "", "Weibull shape"
+    ),
     "renewal_time": ResultKey(
         "mean time after which other oil, with another threshold, is in them", "s", "renewal time"
     ),
@@ -102,8 +104,12 @@ _END: Keys = {
     },
     "events": ResultKey("number of discharges", "", "discharges"),
     "events_per_second": ResultKey("discharges in a second", "1/s", "discharges per second"),
-    "events_per_second_low": ResultKey("lower bound of that rate, at 95 %", "1/s"),
-    "events_per_second_high": ResultKey("upper bound of that rate, at 95 %", "1/s"),
+    "events_per_second_low": ResultKey(
+        "lower bound of that rate, at 95 %", "1/s", "discharges per second, lower bound"
+    ),
+    "events_per_second_high": ResultKey(
+        "upper bound of that rate, at 95 %", "1/s", "discharges per second, upper bound"
+    ),
     "events_per_edge": ResultKey("discharges over edges of the source", "", "discharges per edge"),
     "power": ResultKey("energy of the discharges in a second", "W", "power of the discharges"),
     **{
