@@ -46,13 +46,14 @@ class Sweep(Tabled, Table):
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
     It is made from lists, arrays, or tables of ``from``, ``to``, ``count`` and optionally ``spacing``.
     Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key replaces its alternative
-    in the base case, as a load replaces a Hertz pressure.
+    in the base case, as a load replaces a Hertz pressure. In a drive "bearings" before a key of a bearing file
+    stands for both bearings, as in "bearings.bearing.radial_load".
 
     Examples
     --------
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
-    >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
     >>> vary = {"contact.entrainment_speed": ["1 m/s", "2 m/s"], "grid.nodes": [1601, 3201]}
     >>> sweep = Sweep.from_dict({"case": case, "vary": vary})
     >>> sweep.size, list(sweep.points())[1]
