@@ -99,8 +99,8 @@ WRONG = [
     ),
     pytest.param(
         ("init", "new.toml", "--kind", "bearings"),
-        "--kind: got 'bearings'; expected one of line, point, rough, moving, discharge, bearing, sweep, "
-        "uncertainty",
+        "--kind: got 'bearings'; expected one of line, point, rough, moving, discharge, bearing, drive, "
+        "sweep, uncertainty",
         id="E10-kind",
     ),
     pytest.param(

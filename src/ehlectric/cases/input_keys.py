@@ -110,7 +110,8 @@ def describe(key: str) -> str:
     Parameters
     ----------
     key : str
-        Dotted key. The number of a rough surface may stand in it; keys of a sweep file begin with "sweep".
+        Dotted key. The number of a rough surface may stand in it; keys of a sweep file begin with "sweep",
+        those of a bearing of a drive with "drive_end", "non_drive_end" or "bearings".
 
     Returns
     -------
@@ -129,7 +130,8 @@ def describe(key: str) -> str:
     >>> describe("bearing.radial_load")
     'radial load, F_r [N]'
     """
-    *names, leaf = [name for name in key.split(".") if not name.isdecimal()] or [key]
+    _, own = end_and_key(key)
+    *names, leaf = [name for name in own.split(".") if not name.isdecimal()] or [key]
     table = ".".join("body" if name in ("body_1", "body_2") else name for name in names)
     known = descriptions(table) if table in _texts() else {}
     if leaf not in known:
@@ -139,7 +141,7 @@ def describe(key: str) -> str:
         _plain(known[leaf]),
         unit_of(_numbered(key)).replace("**2", "²").replace("**3", "³").replace("*", " "),
     )
-    name = INPUT_NAMES.get(key, (leaf.replace("_", " ") if _NAMELESS.match(known[leaf]) else "", ""))[0]
+    name = INPUT_NAMES.get(own, (leaf.replace("_", " ") if _NAMELESS.match(known[leaf]) else "", ""))[0]
     whole = text if text.startswith(name) else f"{name}, {text}"
     return f"{whole} [{unit}]" if unit else whole
 
