@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drives.case import BOTH, DriveCase
+from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
 from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.input_keys import end_and_key, input_field, is_of_drive
 from ehlectric.cases.table import Table, nearest_key
@@ -58,7 +58,7 @@ def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> Non
 def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     """Check a key of a drive."""
     end, own = end_and_key(key)
-    if not is_of_drive(key):
+    if not is_of_drive(key) and key != "title":
         raise InputError.unknown(key, _nearest(key))
     if key == BOTH:
         raise InputError(key, "is a table", takes=f"one of its keys, as {BOTH}.bearing.radial_load")
@@ -68,6 +68,9 @@ def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
     above = _REPLACED.get(own) if end else None
     if above is not None and (above in varied or getattr(case.drive, above.partition(".")[2]) is not None):
         raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
+    both = f"{BOTH}.{own}"
+    if end in ENDS and both in varied:
+        raise InputError.worded(key, f"varies beside {both}; vary one of them, or both ends", takes=both)
 
 
 def _nearest(key: str) -> str:

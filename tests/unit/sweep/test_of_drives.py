@@ -161,6 +161,14 @@ def test_keys_of_drives_are_none_of_contacts_and_bearings(key):
         over({key: [1.0, 2.0]}, case=contact())
 
 
+def test_one_end_does_not_vary_beside_both():
+    """The order of the keys would decide which of the values counts."""
+    one = "drive_end.bearing.radial_load"
+    with pytest.raises(InputError, match=rf"^vary\.{one}: varies beside {LOAD}"):
+        over({LOAD: [1e3, 2e3], one: [1e3, 2e3]})
+    assert over({one: [1e3, 2e3], "non_drive_end.bearing.radial_load": [1e3], "title": ["A"]}).size == 2
+
+
 def test_values_are_read_with_their_units():
     drive = small_drive(**{"breakdown.extinction_current": "10 mA"})
     sweep = over(
