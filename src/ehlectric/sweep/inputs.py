@@ -46,8 +46,8 @@ class Sweep(Tabled, Table):
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
     It is made from lists, arrays, or tables of ``from``, ``to``, ``count`` and optionally ``spacing``.
     Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key replaces its alternative
-    in the base case, as a load replaces a Hertz pressure. In a drive "bearings" before a key of a bearing file
-    stands for both bearings, as in "bearings.bearing.radial_load".
+    in the base case, as a load replaces a Hertz pressure. In a drive "bearings" before a key of a bearing
+    file stands for both bearings, as in "bearings.bearing.radial_load".
 
     Examples
     --------
