@@ -125,6 +125,9 @@ figures: $(VENV)/.run
 	$(BIN)/ehlectric sweep examples/bearing_regime_map.toml -o results/regimes --quiet
 	$(BIN)/ehlectric map results/regimes --x bearing.inner_speed --y bearing.temperature --value bearing.contact_time_share --quiet
 	cp results/regimes/map_bearing.contact_time_share.png docs/figures/bearing_regimes.png
+	$(BIN)/ehlectric sweep examples/drive_map.toml -o results/drive_map --quiet
+	$(BIN)/ehlectric map results/drive_map --x drive.speed --y drive.temperature --quiet
+	cp results/drive_map/map_drive.events_per_second.png docs/figures/drive_map.png
 
 screenshots: $(VENV)/.test
 	EHLECTRIC_SCREENSHOTS=$(CURDIR)/docs/figures/app EHLECTRIC_BROWSER=required \

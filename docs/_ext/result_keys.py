@@ -7,13 +7,16 @@ from collections.abc import Iterable
 from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.cases.result_key import Keys
 from ehlectric.contact import keys as contact
+from ehlectric.drive.keys import DRIVE_KEYS
 from ehlectric.motion import keys as motion
 
 _DISCHARGE, _METER, _SURFACES = "discharge", "meter", "rough"
+# Tables of a drive that repeat the keys of its drive end.
+_OTHER_END, _REMEDIES = "non_drive_end", "remedies"
 
 
 def summary_pages() -> dict[str, str]:
-    """Text of each table by the name of its file: of contacts, discharge, meter, bearings and motions."""
+    """Text of each table by the name of its file, for results of every kind."""
     line, point = (
         _without(_without(keys, _DISCHARGE), _METER) for keys in (contact.LINE_KEYS, contact.POINT_KEYS)
     )
@@ -27,6 +30,7 @@ def summary_pages() -> dict[str, str]:
         "summary_discharge": _table(*discharges),
         "summary_meter": _table(_within(contact.POINT_KEYS, _METER)),
         "summary_bearing": _table(BEARING_KEYS),
+        "summary_drive": _table(_without(_without(DRIVE_KEYS, _OTHER_END), _REMEDIES)),
         "summary_motion": _table(*motions),
     }
 

@@ -1,7 +1,7 @@
 """No input makes a command break, hang or write elsewhere, and no kill loses or mixes results.
 
-The seed is fixed, and each run takes a twentieth of the inputs and a tenth of the kills: ``make thorough`` takes
-all. ``python -m tests.attack --seed N --hours H`` draws others.
+The seed is fixed, and each run takes a twentieth of the inputs and a tenth of the kills: ``make thorough``
+takes all. ``python -m tests.attack --seed N --hours H`` draws others.
 """
 
 from itertools import chain

@@ -99,8 +99,8 @@ WRONG = [
     ),
     pytest.param(
         ("init", "new.toml", "--kind", "bearings"),
-        "--kind: got 'bearings'; expected one of line, point, rough, moving, discharge, bearing, sweep, "
-        "uncertainty",
+        "--kind: got 'bearings'; expected one of line, point, rough, moving, discharge, bearing, drive, "
+        "sweep, uncertainty",
         id="E10-kind",
     ),
     pytest.param(
@@ -116,9 +116,9 @@ WRONG = [
     pytest.param(
         ("examples", "bering"),
         "examples: got 'bering'; expected one of ball_bearing, ball_contact, bearing_6208, "
-        "bearing_greased, bearing_regime_map, bearing_thin_oil, discharge, drive, hot_contact, line_contact, "
-        "mixed_contact, moving_roughness, oil_contact, roller_bearing, rough_contact, starved_contact, "
-        "sweep, traction_curve, uncertainty",
+        "bearing_greased, bearing_regime_map, bearing_thin_oil, discharge, drive, drive_map, hot_contact, "
+        "line_contact, mixed_contact, moving_roughness, oil_contact, roller_bearing, rough_contact, "
+        "starved_contact, sweep, traction_curve, uncertainty",
         id="examples",
     ),
 ]

@@ -23,6 +23,13 @@ MOTOR = {
 ARC = {"arc_resistance": 10.0, "extinction_voltage": 0.5, "recovery_time": 0.0}
 
 
+def small_drive(**changes):
+    """The example for a few periods of its carrier, with contacts by formula and without remedies."""
+    drive = DriveCase.from_toml(EXAMPLES / "drive.toml")
+    quick = {"drive.contacts": "formula", "drive.duration": "3 ms", "drive.temperature": "40 degC"}
+    return drive.replace({"remedies": []} | quick | changes)
+
+
 def element(capacitance=300e-12, *, breakdown=math.inf, conductance=0.0, shape=math.inf, step=math.inf,
             path=None, touching=0.0, touch_resistance=math.inf, transit=1e-4):  # fmt: skip
     """Bearing of given capacitance and breakdown voltage at its positions."""
@@ -98,7 +105,7 @@ def march(
     return simulate(circuits_of(modes, ring), films, iter(chunks), measuring, seed)
 
 
-def small_drive(**changes):
+def drive_with_remedy(**changes):
     """Example of a drive for a short time, with quick contacts and one remedy, a grounding ring."""
     table = DriveCase.from_toml(EXAMPLES / "drive.toml").to_dict()
     remedy, *_ = table["remedies"]

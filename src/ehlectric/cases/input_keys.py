@@ -20,6 +20,7 @@ from ehlectric.cases.bearings.summits import Summits
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
+from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
 from ehlectric.cases.films.inlet import Inlet, LayerTable
 from ehlectric.cases.films.physics import FilmPhysics
 from ehlectric.cases.grid import Electric, Grid, Solver
@@ -37,6 +38,9 @@ from ehlectric.errors import InputError
 
 # Tables and keys that only a bearing file has.
 _OF_BEARINGS = ("bearing", "motor", "contacts")
+
+# Tables that only a drive file has, beside those of its bearings.
+_OF_DRIVES = ("drive", "source", "circuit", "breakdown")
 
 # Tables of case and bearing files by the names under which keys.toml describes their keys. The table of sweep
 # files, "sweep", is in the package sweep.
@@ -106,7 +110,8 @@ def describe(key: str) -> str:
     Parameters
     ----------
     key : str
-        Dotted key. The number of a rough surface may stand in it; keys of a sweep file begin with "sweep".
+        Dotted key. The number of a rough surface may stand in it; keys of a sweep file begin with "sweep",
+        those of a bearing of a drive with "drive_end", "non_drive_end" or "bearings".
 
     Returns
     -------
@@ -125,7 +130,8 @@ def describe(key: str) -> str:
     >>> describe("bearing.radial_load")
     'radial load, F_r [N]'
     """
-    *names, leaf = [name for name in key.split(".") if not name.isdecimal()] or [key]
+    _, own = end_and_key(key)
+    *names, leaf = [name for name in own.split(".") if not name.isdecimal()] or [key]
     table = ".".join("body" if name in ("body_1", "body_2") else name for name in names)
     known = descriptions(table) if table in _texts() else {}
     if leaf not in known:
@@ -135,7 +141,7 @@ def describe(key: str) -> str:
         _plain(known[leaf]),
         unit_of(_numbered(key)).replace("**2", "²").replace("**3", "³").replace("*", " "),
     )
-    name = INPUT_NAMES.get(key, (leaf.replace("_", " ") if _NAMELESS.match(known[leaf]) else "", ""))[0]
+    name = INPUT_NAMES.get(own, (leaf.replace("_", " ") if _NAMELESS.match(known[leaf]) else "", ""))[0]
     whole = text if text.startswith(name) else f"{name}, {text}"
     return f"{whole} [{unit}]" if unit else whole
 
@@ -187,6 +193,7 @@ def input_field(key: str) -> FieldInfo:
     ----------
     key : str
         Dotted key of the case; the key of a rough surface has its number, as in "roughness.1.rescale_rq".
+        Keys of a bearing of a drive follow "drive_end", "non_drive_end" or, for both, "bearings".
 
     Returns
     -------
@@ -203,8 +210,9 @@ def input_field(key: str) -> FieldInfo:
     >>> input_field("contact.entrainment_speed").is_required()
     False
     """
-    names = key.split(".")
-    model: type[Table] = BearingCase if names[0] in _OF_BEARINGS else Case
+    end, own = end_and_key(key)
+    names, before = own.split("."), f"{end}." if end else ""
+    model = BearingCase if end else _model_of(names[0])
     within: list[str] = []
     if names[0] == "roughness":
         if len(names) < 3 or not names[1].isdecimal():
@@ -219,7 +227,7 @@ def input_field(key: str) -> FieldInfo:
         if field is None:
             known = nearest_key(".".join(names), model).split(".")
             known[1:1] = within if known[0] == "roughness" and len(known) > 1 else []
-            raise InputError.unknown(key, ".".join(known))
+            raise InputError.unknown(key, before + ".".join(known))
         inner = table_of(field.annotation)
     if field is None or inner is not None:
         raise InputError(
@@ -228,10 +236,57 @@ def input_field(key: str) -> FieldInfo:
     return field
 
 
+def _model_of(name: str) -> type[Table]:
+    """Case that has a table or key of this name."""
+    if name in _OF_BEARINGS:
+        return BearingCase
+    return DriveCase if name in (*_OF_DRIVES, *ENDS) else Case
+
+
+def is_of_drive(key: str) -> bool:
+    """Whether a dotted key is in a table that only drive files have.
+
+    Examples
+    --------
+    >>> is_of_drive("source.dc_link"), is_of_drive("bearings.bearing.radial_load")
+    (True, True)
+    >>> is_of_drive("bearing.radial_load")
+    False
+    """
+    return key.partition(".")[0] in (*_OF_DRIVES, *ENDS, BOTH)
+
+
+def end_and_key(key: str) -> tuple[str, str]:
+    """Name of the bearing of a drive before a dotted key, and the key in a bearing file.
+
+    Examples
+    --------
+    >>> end_and_key("drive_end.bearing.temperature"), end_and_key("source.dc_link")
+    (('drive_end', 'bearing.temperature'), ('', 'source.dc_link'))
+    """
+    first, _, rest = key.partition(".")
+    return (first, rest) if first in (*ENDS, BOTH) and rest else ("", key)
+
+
+def of_both_ends(key: str) -> tuple[str, ...]:
+    """Dotted keys of a case that a key stands for: two for a key of both bearings of a drive, else itself.
+
+    Examples
+    --------
+    >>> of_both_ends("bearings.bearing.temperature")
+    ('drive_end.bearing.temperature', 'non_drive_end.bearing.temperature')
+    """
+    end, own = end_and_key(key)
+    return tuple(f"{one}.{own}" for one in ENDS) if end == BOTH else (key,)
+
+
 def _in_a_table(key: str) -> bool:
     """Whether a key begins with the name of a table; the search for the nearest key takes milliseconds."""
-    name = key.partition(".")[0]
-    return name in Case.known_keys() or name in BearingCase.known_keys()
+    end, own = end_and_key(key)
+    name = own.partition(".")[0]
+    if end:
+        return name in BearingCase.known_keys()
+    return any(name in model.known_keys() for model in (Case, BearingCase, DriveCase))
 
 
 def number_of(field: FieldInfo) -> Quantity | Count | None:

@@ -32,8 +32,8 @@ class ResultKey:
     symbol: str = ""
 
 
-# Keys of a summary, or of one of its tables. An item of a list has the key of the list; ``*`` stands for any
-# single name.
+# Keys of a summary, or of one of its tables. An item of a list has the key of the list, if it has none of its
+# own; ``*`` stands for any single name.
 Keys = Mapping[str, ResultKey]
 
 
@@ -84,7 +84,7 @@ def key_of(keys: Keys, dotted: str) -> ResultKey | None:
     'source of a number'
     """
     parts = [part for part in dotted.split(".") if not part.isdigit()]
-    entry = keys.get(".".join(parts))
+    entry = keys.get(dotted) or keys.get(".".join(parts))
     for k in range(1, len(parts)):
         entry = entry or keys.get(".".join([*parts[:k], "*", *parts[k + 1 :]]))
     return entry

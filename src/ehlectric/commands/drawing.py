@@ -109,12 +109,12 @@ def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequen
     from ehlectric.figures.style import style as styled
     from ehlectric.figures.sweep.save import save_maps, save_speeds
     from ehlectric.figures.sweep.sensitivity import save_sensitivity
-    from ehlectric.sweep.breakdown_keys import breakdown_of
+    from ehlectric.sweep.breakdown_keys import main_value
     from ehlectric.sweep.sensitivity import sensitivity
     from ehlectric.sweep.slices import take
     from ehlectric.sweep.warnings import sensitivity_warnings
 
-    value = breakdown_of(results.case).value
+    value = main_value(results.case)
     if results.ranges:
         indices = sensitivity(results, value)
         prepare(folder, in_formats([SENSITIVITY_FIGURE], formats))

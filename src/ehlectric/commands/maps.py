@@ -90,12 +90,12 @@ def draw_maps(
         from ehlectric.figures.style import style as styled
         from ehlectric.figures.sweep.save import save_maps, save_speeds
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-        from ehlectric.sweep.breakdown_keys import breakdown_of
+        from ehlectric.sweep.breakdown_keys import main_value
         from ehlectric.sweep.slices import take
         from ehlectric.sweep.store import read_sweep
 
         results, forms = read_sweep(folder), look["formats"]
-        value = value or breakdown_of(results.case).value
+        value = value or main_value(results.case)
         taken = take(results, x, y, value, held)
         names = in_formats(
             (*map_files(value, held), *(of_cut(name, held) for name in SPEED_FIGURE_FILES)), forms
@@ -132,12 +132,12 @@ def sensitivity(
         from ehlectric.runs.folders import SENSITIVITY
         from ehlectric.runtime.files import write_json
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-        from ehlectric.sweep.breakdown_keys import breakdown_of
+        from ehlectric.sweep.breakdown_keys import main_value
         from ehlectric.sweep.sensitivity import sensitivity as sensitivity_of
         from ehlectric.sweep.store import read_sweep
 
         results = read_sweep(folder)
-        indices = sensitivity_of(results, value or breakdown_of(results.case).value)
+        indices = sensitivity_of(results, value or main_value(results.case))
         names = in_formats([SENSITIVITY_FIGURE], look["formats"])
         with alone_in(output or folder, (SENSITIVITY, *names), locks=[FIGURE_LOCK]) as target, styled(style):
             write_json(target / SENSITIVITY, indices.to_dict())

@@ -2,7 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+from types import MappingProxyType
+
 from ehlectric.cases.result_key import Keys, ResultKey, under
+
+# Voltages whose share of time is told [V]: field experience has discharges from a few volts on.
+LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
+
+# Names of the bearings in labels, by the names of their tables.
+NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
+    {"drive_end": "drive end", "non_drive_end": "non-drive end"}
+)
 
 _ABOUT: Keys = {
     "schema": ResultKey("name of the format"),
@@ -62,7 +74,9 @@ _END: Keys = {
         "V",
         "breakdown voltage",
     ),
-    "weibull_shape": ResultKey("shape of Weibull's law of that voltage; null without scatter"),
+    "weibull_shape": ResultKey(
+        "shape of Weibull's law of that voltage; null without scatter", "", "Weibull shape"
+    ),
     "renewal_time": ResultKey(
         "mean time after which other oil, with another threshold, is in them", "s", "renewal time"
     ),
@@ -82,11 +96,20 @@ _END: Keys = {
     "peak_voltage": ResultKey("largest voltage across the films", "V", "largest bearing voltage"),
     "rms_voltage": ResultKey("root mean square of the voltage across the films", "V", "rms bearing voltage"),
     "time_above": ResultKey("share of time above each of the voltages, by the voltage in volts"),
-    "time_above.*": ResultKey("share of time above this voltage", "", "share of time above a voltage"),
+    **{
+        f"time_above.{limit:g}": ResultKey(
+            f"share of time above {limit:g} V", "", f"share of time above {limit:g} V"
+        )
+        for limit in LIMITS
+    },
     "events": ResultKey("number of discharges", "", "discharges"),
     "events_per_second": ResultKey("discharges in a second", "1/s", "discharges per second"),
-    "events_per_second_low": ResultKey("lower bound of that rate, at 95 %", "1/s"),
-    "events_per_second_high": ResultKey("upper bound of that rate, at 95 %", "1/s"),
+    "events_per_second_low": ResultKey(
+        "lower bound of that rate, at 95 %", "1/s", "discharges per second, lower bound"
+    ),
+    "events_per_second_high": ResultKey(
+        "upper bound of that rate, at 95 %", "1/s", "discharges per second, upper bound"
+    ),
     "events_per_edge": ResultKey("discharges over edges of the source", "", "discharges per edge"),
     "power": ResultKey("energy of the discharges in a second", "W", "power of the discharges"),
     **{
@@ -107,11 +130,16 @@ _END: Keys = {
     ),
     "current_density_limits": ResultKey("published limits of the current density", "A/m**2"),
 }
+_ENDS: Keys = {
+    f"{end}.{name}": replace(key, name=f"{key.name}, {words}" if key.name else "")
+    for end, words in NAMES_OF_ENDS.items()
+    for name, key in _END.items()
+}
 _REMEDY: Keys = {
     "title": ResultKey("title of the remedy"),
     "changes": ResultKey("what it changes, by dotted key"),
     "changes.*": ResultKey("new value of a key of the drive file"),
-    **{f"{end}.{name}": key for end in ("drive_end", "non_drive_end") for name, key in _END.items()},
+    **_ENDS,
 }
 
 DRIVE_KEYS: Keys = {
@@ -119,8 +147,7 @@ DRIVE_KEYS: Keys = {
     **under("source", _SOURCE),
     **under("circuit", _CIRCUIT),
     **under("drive", _DRIVE),
-    **under("drive_end", _END),
-    **under("non_drive_end", _END),
+    **_ENDS,
     **under("remedies", _REMEDY),
     "seconds": ResultKey("computing time", "s", "computing time"),
 }

@@ -16,6 +16,7 @@ from ehlectric.drive.circuit.modes import Modes, modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Films, Segments
+from ehlectric.drive.keys import LIMITS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.source.modulation import steps_of
 from ehlectric.drive.source.oscilloscope import read_waveform
@@ -32,9 +33,6 @@ _PERIODS, _SETTLING = 50.0, 1.0
 
 # Part of a period by which a whole number of periods may be rounded.
 _WHOLE = 1e-6
-
-# Voltages whose share of time is told [V]: field experience has discharges from a few volts on.
-LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 
 # Periods of the carrier that a trace covers, and samples of a measured source.
 _TRACED, _SAMPLES = 2.0, 4000.0

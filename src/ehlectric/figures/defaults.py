@@ -14,7 +14,7 @@ from ehlectric.figures.bearing.save import bearing_figures_of
 from ehlectric.figures.drive.save import drive_figures_of
 from ehlectric.figures.names import MEASURED_FIGURE, SENSITIVITY_FIGURE, map_files
 from ehlectric.motion.result import MotionResult
-from ehlectric.sweep.breakdown_keys import breakdown_of
+from ehlectric.sweep.breakdown_keys import main_value
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import known_values
 
@@ -109,7 +109,7 @@ def default_axes(results: SweepResults, options: Mapping[str, Any]) -> dict[str,
 
 def _value_of(results: SweepResults) -> str:
     """Breakdown voltage, where there is one, else the film or the capacitance."""
-    known, breakdown = known_values(results), breakdown_of(results.case).value
+    known, breakdown = known_values(results), main_value(results.case)
     for value in (breakdown, *_VALUES, *known):
         if value in known:
             return value

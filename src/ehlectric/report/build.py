@@ -12,6 +12,7 @@ from typing import Any
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.case import Case
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.verdict import Verdict
@@ -107,6 +108,9 @@ def report_of(path: str | Path) -> Report:
     path = stored_result(path)
     if path.name == SWEEP:
         result: Any = read_sweep(path.parent)
+        if isinstance(result.case, DriveCase):
+            takes = "the result of a contact, a bearing, or a sweep of them; ehlectric map draws this one"
+            raise InputError(path.parent, "is a sweep of a drive", takes=takes)
         part, case, title = Part(**sweep_part(result)), result.case, result.title or result.case.title
     else:
         result = load(path)

@@ -16,7 +16,7 @@ from ehlectric.report.content import Block, Section, Table, Text
 from ehlectric.report.drawn import pictures_of, swept_names
 from ehlectric.report.facts import cell_table, row_tables
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.breakdown_keys import breakdown_of
+from ehlectric.sweep.breakdown_keys import breakdown_of, main_value
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.results import SweepResults
@@ -79,7 +79,7 @@ def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
 
 
 def _pictures(results: SweepResults) -> Iterator[Block]:
-    names = swept_names(results, breakdown_of(results.case).value)
+    names = swept_names(results, main_value(results.case))
     yield from pictures_of(results, converged=True, names=names)
     yield Text(
         "Other values and other varied inputs along the axes are drawn by: ehlectric map FOLDER --x KEY"
@@ -103,7 +103,7 @@ def _sections(results: SweepResults) -> Iterator[Section]:
 
 def _sensitivity(results: SweepResults) -> Iterator[Block]:
     try:
-        indices = sensitivity(results, breakdown_of(results.case).value)
+        indices = sensitivity(results, main_value(results.case))
     except InputError as error:
         yield Text(f"There are no sensitivity indices: {error.text}.")
         return
@@ -114,7 +114,7 @@ def _sensitivity(results: SweepResults) -> Iterator[Block]:
 def _points(results: SweepResults) -> Iterator[Block]:
     """Table of the points with their varied inputs, their status, and some results."""
     breakdown = breakdown_of(results.case)
-    wanted = (breakdown.value, breakdown.margin, *_RESULTS)
+    wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *_RESULTS))
     values = [key for key in wanted if any(is_number(_value(point, key)) for point in results.points)]
     inputs = [
         _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied

@@ -92,10 +92,12 @@ def _maps(folder: Path) -> Iterator[str]:
     from ehlectric.bearing.keys import BEARING_KEYS
     from ehlectric.cases.result_key import key_of
     from ehlectric.contact.keys import CONTACT_KEYS
+    from ehlectric.drive.keys import DRIVE_KEYS
 
+    known = (*CONTACT_KEYS.values(), BEARING_KEYS, DRIVE_KEYS)
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         match = _MAP.fullmatch(path.name)
-        of_map = match and any(key_of(keys, match["key"]) for keys in (*CONTACT_KEYS.values(), BEARING_KEYS))
+        of_map = match and any(key_of(keys, match["key"]) for keys in known)
         if of_map or _SPEED.fullmatch(path.name):
             yield path.name
 

@@ -341,9 +341,13 @@ def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> I
             "time, estimated", whole, "s", f", {HOW[sweep.case.contacts]} on {cores()} cores", digits=".2g"
         )
     else:
-        command = "bearing" if isinstance(sweep.case, BearingCase) else "run"
+        command = _COMMANDS.get(type(sweep.case), "run")
         note = f"that of {sweep.size} times ehlectric {command}, divided by {cores()} cores"
         yield Row("time", note=note)
+
+
+# Commands that solve base cases other than contacts.
+_COMMANDS = {BearingCase: "bearing", DriveCase: "drive"}
 
 
 def _shown(key: str, value: Mapping[str, Any], sweep: Sweep) -> tuple[str, str, str]:

@@ -7,14 +7,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.sweep.results import SweepResults
 
 
 @dataclass(frozen=True)
 class Breakdown:
     """Keys and names of a breakdown voltage, the applied voltage and the margin between them.
+
+    All keys are empty for a drive: its films are charged and discharged, and no single voltage is applied.
 
     Attributes
     ----------
@@ -41,6 +44,10 @@ class Breakdown:
         """Dotted keys of the breakdown voltage and of the margin."""
         return self.value, self.margin
 
+    def voltages(self, results: SweepResults) -> Array:
+        """Applied voltage of every point of a sweep [V], shape (points,); NaN where a point has none."""
+        return results.values(self.voltage) if self.voltage else np.full(len(results.points), np.nan)
+
     def margins(self, results: SweepResults) -> Array:
         """Breakdown voltage divided by applied voltage of every point of a sweep.
 
@@ -55,6 +62,8 @@ class Breakdown:
             Margin of each point, from its summary or, where that has none, from the two voltages; NaN where a
             point has no breakdown voltage.
         """
+        if not self.margin:
+            return np.full(len(results.points), np.nan)
         margin = results.values(self.margin)
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = results.values(self.value) / results.values(self.voltage)
@@ -82,12 +91,32 @@ _COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")
 _COATED_THROUGH = replace(THROUGH, value="bearing.shaft_through_breakdown")
 
 
-def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
+# Of a drive no applied voltage stands beside the breakdown voltage of a film.
+_NONE = Breakdown("", "", "")
+
+
+def main_value(case: SweptCase) -> str:
+    """Key of the summary that figures of a sweep show first.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Base case of the sweep.
+
+    Returns
+    -------
+    str
+        Breakdown voltage of a contact, first breakdown of a bearing, or discharges per second of a drive.
+    """
+    return breakdown_of(case).value or "drive.events_per_second"
+
+
+def breakdown_of(case: SweptCase, value: str | None = None) -> Breakdown:
     """Breakdown voltage that a value of a summary belongs to.
 
     Parameters
     ----------
-    case : Case or BearingCase
+    case : Case, BearingCase or DriveCase
         Base case of the sweep.
     value : str, optional
         Dotted key of the value.
@@ -96,8 +125,10 @@ def breakdown_of(case: AnyCase, value: str | None = None) -> Breakdown:
     -------
     Breakdown
         Breakdown of a contact. For a bearing, the first breakdown of one of its contacts, except if ``value``
-        is a key of the ring-to-ring breakdown.
+        is a key of the ring-to-ring breakdown. Without keys for a drive.
     """
+    if isinstance(case, DriveCase):
+        return _NONE
     if not isinstance(case, BearingCase):
         return CONTACT
     if case.bearing.coating is not None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.cases.input_keys import kind_of
+from ehlectric.cases.input_keys import kind_of, of_both_ends
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.points import SweepPoints, as_number, flat
@@ -80,7 +80,7 @@ def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
     rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
     keys = dict.fromkeys(key for row in rows for key in row)
     columns = {key: [row.get(key) for row in rows] for key in keys}
-    varied = {f"inputs.{key}" for key in results.varied}
+    varied = {f"inputs.{key}" for one in results.varied for key in of_both_ends(one)}
     return {
         key: values
         for key, values in columns.items()

@@ -11,7 +11,7 @@ from itertools import zip_longest
 from types import MappingProxyType
 from typing import Any, get_args
 
-from ehlectric.cases.any_case import AnyCase, case_of_dict
+from ehlectric.cases.drives.swept import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.errors import InputError
 from ehlectric.runtime.checks.schema import UnfitError, case_of, is_list, is_number, is_table, is_text
@@ -126,7 +126,7 @@ def results_of(file: sqlite3.Connection) -> SweepResults:
     rows = file.execute(
         f"SELECT {_COLUMNS_OF_POINTS} FROM points LEFT JOIN results USING (key) ORDER BY number"
     ).fetchall()
-    case = case_of(settings, case_of_dict)
+    case = case_of(settings, swept_case_of_dict)
     axes = {key: tuple(values) for key, values in settings["axes"].items()}
     ranges = {key: Range(**over) for key, over in settings["ranges"].items()}
     points = tuple(_points(rows, case))
@@ -231,7 +231,7 @@ def _check_design(
             raise UnfitError(f"inputs of point {point.number} are not as they were written")
 
 
-def _points(rows: Sequence[tuple[Any, ...]], case: AnyCase) -> Iterator[Point]:
+def _points(rows: Sequence[tuple[Any, ...]], case: SweptCase) -> Iterator[Point]:
     """Points from rows of the joined tables, checked."""
     for (number, _, refused, status, reason, seconds, version, _), (inputs, summary) in zip(
         rows, _parsed(rows), strict=True

@@ -5,14 +5,17 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.swept import swept_case_of_dict
 from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, MemoryLimitError
 from ehlectric.runtime.files import now
@@ -65,17 +68,39 @@ def _attempt(table: Mapping[str, Any]) -> tuple[Status, str, bool, dict[str, Any
 
 def _solved(table: Mapping[str, Any]) -> tuple[bool, dict[str, Any], str]:
     """Whether a case converged, its summary, and the reason if it did not."""
-    case = case_of_dict(table)
-    if isinstance(case, BearingCase):
-        bearing = solve_bearing(case, workers=1)
-        # Without the analysis of the margin, which would solve twenty bearings for every point.
-        summary = summary_of(bearing.solution)
-        del summary["contacts"]  # with columns for every contact, the table would be too wide
-        return bearing.converged, summary, "a contact of the bearing is not converged"
+    case = swept_case_of_dict(table)
+    return _SOLVERS[type(case)](case)
+
+
+def _solve_contact(case: Case) -> tuple[bool, dict[str, Any], str]:
     result = solve(case)
     # This warning says what residual was reached and what to try.
     reasons = (warning.text for warning in result.warnings if warning.code == "not-converged")
     return result.converged, result.summary(), next(reasons, result.film.status)
+
+
+def _solve_bearing(case: BearingCase) -> tuple[bool, dict[str, Any], str]:
+    bearing = solve_bearing(case, workers=1)
+    # Without the analysis of the margin, which would solve twenty bearings for every point.
+    summary = summary_of(bearing.solution)
+    del summary["contacts"]  # with columns for every contact, the table would be too wide
+    return bearing.converged, summary, "a contact of the bearing is not converged"
+
+
+def _solve_drive(case: DriveCase) -> tuple[bool, dict[str, Any], str]:
+    # Imported here because it loads the compiler of the simulation, which other sweeps do not need.
+    from ehlectric.drive.result import solve_drive
+
+    drive = solve_drive(case, workers=1)
+    summary = drive.summary()
+    del summary["remedies"]  # a point has none
+    return drive.converged, summary, "a contact of a bearing is not converged"
+
+
+# Solution of a case of each kind: whether it converged, its summary, and the reason if it did not.
+_SOLVERS: Mapping[type, Callable[[Any], tuple[bool, dict[str, Any], str]]] = MappingProxyType(
+    {Case: _solve_contact, BearingCase: _solve_bearing, DriveCase: _solve_drive}
+)
 
 
 def run_points(

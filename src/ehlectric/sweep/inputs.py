@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -12,23 +13,30 @@ import numpy as np
 from pydantic import ValidationInfo, create_model, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
-from ehlectric.cases.any_case import AnyCase, case_of_dict, case_of_file
-from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.swept import (
+    SweptCase,
+    swept_case_of_dict,
+    swept_case_of_file,
+    with_found_files,
+)
 from ehlectric.cases.input_keys import input_field, kind_of, number_of
 from ehlectric.cases.quantity import WRITTEN, Count, Quantity
-from ehlectric.cases.roughness import find_files
-from ehlectric.cases.table import Table, nearest, nearest_key, read_toml
+from ehlectric.cases.table import Table, nearest, read_toml
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, printable, short, shown
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.results import Range
+from ehlectric.sweep.varied import check_varied
 
 # Summaries and tables take about 20 kB of memory per point, thus 4 GB for this number of points.
 MOST_POINTS = 200_000
 _RANGE_KEYS = ("from", "to", "count", "spacing")
 _SPACINGS = ("linear", "log")
+# Keys whose values are names of files.
+_FILE = re.compile(r"roughness\..*\.file|source\.file")
 _RANGE = "a list of values, or a table of from, to, count and optionally spacing"
 
 
@@ -38,13 +46,14 @@ class Sweep(Tabled, Table):
     ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
     It is made from lists, arrays, or tables of ``from``, ``to``, ``count`` and optionally ``spacing``.
     Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key replaces its alternative
-    in the base case, as a load replaces a Hertz pressure.
+    in the base case, as a load replaces a Hertz pressure. In a drive "bearings" before a key of a bearing
+    file stands for both bearings, as in "bearings.bearing.radial_load".
 
     Examples
     --------
     >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
-    >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
     >>> vary = {"contact.entrainment_speed": ["1 m/s", "2 m/s"], "grid.nodes": [1601, 3201]}
     >>> sweep = Sweep.from_dict({"case": case, "vary": vary})
     >>> sweep.size, list(sweep.points())[1]
@@ -52,11 +61,18 @@ class Sweep(Tabled, Table):
     """
 
     title: Title = ""
-    case: AnyCase
+    case: SweptCase
     design: Literal["grid", "paired", "sobol"] = "grid"
     vary: Mapping[str, Any]
     samples: Annotated[int, Count(2, 2**16, "rows of each matrix of a sobol design")] | None = None
     seed: Annotated[int, Count(0, 2**32, "of the random numbers of a sobol design")] = 0
+
+    @field_validator("case")
+    @classmethod
+    def _alone(cls, case: SweptCase) -> SweptCase:
+        """Case without remedies, which a sweep does not solve: what they change may vary."""
+        remedied = isinstance(case, DriveCase) and case.remedies
+        return case.replace(remedies=()) if remedied else case
 
     @field_validator("vary", mode="before")
     @classmethod
@@ -70,7 +86,7 @@ class Sweep(Tabled, Table):
             raise InputError(got="no key", takes="at least one key of the case with its values or its range")
         written = bool(info.context and info.context.get(WRITTEN))
         for key in flat:
-            _check_known(key, case)
+            check_varied(key, case, flat)
         return {key: _axis(key, value, design, written=written) for key, value in flat.items()}
 
     @model_validator(mode="after")
@@ -123,7 +139,7 @@ class Sweep(Tabled, Table):
             case str(name):
                 table["case"] = str(folder / name)
             case dict(inner):
-                find_files(inner, folder)
+                table["case"] = with_found_files(inner, folder)
         if isinstance(table.get("vary"), dict):
             _locate(table["vary"], folder)
         return cls.from_written(table)
@@ -135,7 +151,8 @@ class Sweep(Tabled, Table):
         Parameters
         ----------
         table : mapping
-            Tables of the sweep. Its ``case`` is a Case, the tables of a case, or the path of a case file.
+            Tables of the sweep. Its ``case`` is a Case, BearingCase or DriveCase, the tables of one, or the
+            path of its file.
 
         Returns
         -------
@@ -206,10 +223,10 @@ def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
     case = table.get("case")
     try:
         if isinstance(case, str | Path):
-            return {**table, "case": case_of_file(case)}
+            return {**table, "case": swept_case_of_file(case)}
         if isinstance(case, Mapping):
-            return {**table, "case": case_of_dict(case, written=written)}
-        if case is not None and not isinstance(case, AnyCase):
+            return {**table, "case": swept_case_of_dict(case, written=written)}
+        if case is not None and not isinstance(case, SweptCase):
             raise InputError("case", got=shown(case), takes="a table or the name of a file")
     except InputError as error:
         if error.key in ("case", printable(str(case)) if isinstance(case, str | Path) else None):
@@ -218,16 +235,6 @@ def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
             raise error.retold(str(case), str(error)) from None
         raise error.under("case") from None
     return table
-
-
-def _check_known(key: str, case: AnyCase) -> None:
-    """Raise an InputError for a key that no case has, with the nearest key of a case of this kind."""
-    try:
-        input_field(key)
-    except InputError as error:
-        if isinstance(case, BearingCase) and "unknown key" in error.text:
-            raise InputError.unknown(key, nearest_key(key, BearingCase)) from None
-        raise
 
 
 def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -254,7 +261,7 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
         key = prefix + name
         if isinstance(value, dict):
             _locate(value, folder, f"{key}.")
-        elif isinstance(value, list) and key.startswith("roughness.") and key.endswith(".file"):
+        elif isinstance(value, list) and _FILE.fullmatch(key):
             tables[name] = [str((folder / v).absolute()) if isinstance(v, str) else v for v in value]
 
 

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from scipy.spatial import Delaunay, QhullError
 
 from ehlectric.arrays import Array, IntArray, Mask
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.case import Case
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
@@ -204,9 +204,9 @@ def applied_at(results: SweepResults, selection: Slice, along: Array, across: An
     -------
     ndarray or None
         Applied voltage [V], at least the 1e-6 V that a case allows. None if neither key is a potential, or
-        the sweep is of a bearing; the voltage is then interpolated between the points.
+        the sweep is one of bearings or drives; the voltage is then interpolated between the points.
     """
-    if isinstance(results.case, BearingCase) or not {selection.x, selection.y} & set(_POTENTIALS):
+    if not isinstance(results.case, Case) or not {selection.x, selection.y} & set(_POTENTIALS):
         return None
     there: dict[Any, Any] = {**selection.at, selection.x: along, selection.y: across}
     electric = results.case.electric

@@ -9,17 +9,19 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.keys import BEARING_KEYS
-from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.input_keys import kind_of, unit_of
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.swept import SweptCase
+from ehlectric.cases.input_keys import end_and_key, kind_of, unit_of
 from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.oils.laws import law_parameters
 from ehlectric.cases.result_key import Keys, key_of
 from ehlectric.contact.keys import CONTACT_KEYS
+from ehlectric.drive.keys import DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.motion.keys import MOTION_KEYS
 
-# Units without prefixes: none, angles, absolute temperatures and their inverse.
-_PLAIN = ("", "deg", "K", "rad", "1/K")
+# Units without prefixes: none, angles, absolute temperatures and their inverse, and events per second.
+_PLAIN = ("", "deg", "K", "rad", "1/K", "1/s")
 
 
 @dataclass(frozen=True)
@@ -97,7 +99,7 @@ _OWN = {
 }
 
 
-def label_of(key: str, case: AnyCase) -> Label:
+def label_of(key: str, case: SweptCase) -> Label:
     """Name, symbol and unit of a varied key or of a value of the summary.
 
     Parameters
@@ -105,8 +107,8 @@ def label_of(key: str, case: AnyCase) -> Label:
     key : str
         Dotted key of the case or of the summary. A key of the case may have the prefix "inputs.", as in the
         summary.
-    case : Case or BearingCase
-        Case of a line or point contact, with or without motion, or of a bearing.
+    case : Case, BearingCase or DriveCase
+        Case of a line or point contact, with or without motion, of a bearing or of a drive.
 
     Returns
     -------
@@ -115,32 +117,42 @@ def label_of(key: str, case: AnyCase) -> Label:
         unit.
     """
     own = key.removeprefix("inputs.")
-    if kind_of(own) is not None or own in INPUT_NAMES:
-        parameter = law_parameters().get(own.removeprefix("lubricant."))
-        if parameter is not None and parameter.title:
-            return Label(parameter.title, parameter.symbol, unit_of(own))
-        return Label(*INPUT_NAMES.get(own, (own, "")), unit_of(own))
+    end, input_key = end_and_key(own)
+    if kind_of(own) is not None or input_key in INPUT_NAMES:
+        return _of_input(input_key, unit_of(own), NAMES_OF_ENDS.get(end, ""))
     if own != key:
         return Label(key, "", unit_of(own))
     result = key_of(result_keys(case), key)
     return Label(key, "", "") if result is None else Label(result.name or key, result.symbol, result.unit)
 
 
-def result_keys(case: AnyCase) -> Keys:
+def _of_input(key: str, unit: str, end: str) -> Label:
+    """Label of an input, with the end of a drive at which its bearing is."""
+    parameter = law_parameters().get(key.removeprefix("lubricant."))
+    if parameter is not None and parameter.title:
+        name, symbol = parameter.title, parameter.symbol
+    else:
+        name, symbol = INPUT_NAMES.get(key, (key, ""))
+    return Label(f"{name}, {end}" if end else name, symbol, unit)
+
+
+def result_keys(case: SweptCase) -> Keys:
     """Documented keys of the summary of a case.
 
     Parameters
     ----------
-    case : Case or BearingCase
-        Case of a contact or of a bearing.
+    case : Case, BearingCase or DriveCase
+        Case of a contact, of a bearing or of a drive.
 
     Returns
     -------
     mapping of str to ResultKey
-        Keys of a line or point contact, stationary or transient, or of a bearing.
+        Keys of a line or point contact, stationary or transient, of a bearing or of a drive.
     """
     if isinstance(case, BearingCase):
         return BEARING_KEYS
+    if isinstance(case, DriveCase):
+        return DRIVE_KEYS
     return (CONTACT_KEYS if case.motion is None else MOTION_KEYS)[case.contact.geometry]
 
 

@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ehlectric.cases.any_case import AnyCase
+from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.errors import InputError
 from ehlectric.runtime.reading import regular
 from ehlectric.sweep.inputs import Sweep
@@ -78,7 +78,7 @@ class Outcome:
     date: str = ""
 
 
-def case_key(case: AnyCase) -> str:
+def case_key(case: SweptCase) -> str:
     """Hash of everything that the solution of a case depends on.
 
     The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
@@ -86,7 +86,7 @@ def case_key(case: AnyCase) -> str:
 
     Parameters
     ----------
-    case : Case or BearingCase
+    case : Case, BearingCase or DriveCase
         A valid case.
 
     Returns
@@ -110,12 +110,13 @@ def case_key(case: AnyCase) -> str:
     """
     table = case.to_dict()
     del table["title"]
-    for surface in table.get("roughness", ()):
-        if "file" in surface:
-            path = Path(surface["file"])
+    # Rough surfaces, and the measured voltage of a drive.
+    for holder in (*table.get("roughness", ()), table.get("source", {})):
+        if "file" in holder:
+            path = Path(holder["file"])
             with regular(path) as file:
                 status = os.fstat(file.fileno())
-            surface["file"] = _contents(path, status.st_mtime_ns, status.st_size)
+            holder["file"] = _contents(path, status.st_mtime_ns, status.st_size)
     text = json.dumps(table, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()
 

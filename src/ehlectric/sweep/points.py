@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ehlectric.arrays import Mask
-from ehlectric.cases.any_case import AnyCase
+from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.stored_warnings import warnings_of
 from ehlectric.runtime.values import Values
@@ -97,7 +97,7 @@ class SweepPoints(Values):
 
     Attributes
     ----------
-    case : Case or BearingCase
+    case : Case, BearingCase or DriveCase
         Base case of the sweep.
     design : str
         "grid", "paired" or "sobol".
@@ -116,7 +116,7 @@ class SweepPoints(Values):
         Title of the sweep, for figures.
     """
 
-    case: AnyCase
+    case: SweptCase
     design: str
     axes: Mapping[str, tuple[Any, ...]]
     ranges: Mapping[str, Range]

@@ -33,7 +33,7 @@ class SweepResults(Shown, SweepPoints):
 
     Attributes
     ----------
-    case : Case or BearingCase
+    case : Case, BearingCase or DriveCase
         Base case of the sweep.
     design : str
         "grid", "paired" or "sobol".

@@ -11,13 +11,14 @@ import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.row import value_at
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, short, shown
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
+from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of, main_value
 from ehlectric.sweep.results import Point, Status, SweepResults, as_number, flat
 
 # Largest number of names or values that a message lists.
@@ -234,7 +235,7 @@ def take(
         along=np.array([as_number(point.inputs[x]) for point in points]),
         across=across,
         values=values,
-        voltage=usable * results.values(breakdown.voltage)[chosen],
+        voltage=usable * breakdown.voltages(results)[chosen],
         margin=usable * breakdown.margins(results)[chosen],
     )
 
@@ -297,6 +298,8 @@ def _lacking(results: SweepResults, value: str, known: Sequence[str]) -> str:
     """Why a sweep has no number of the table ``discharge``; empty for another table."""
     if not value.startswith("discharge.") or any(key.startswith("discharge.") for key in known):
         return ""
+    if isinstance(results.case, DriveCase):
+        return f"; a drive has {main_value(results.case)}"
     if isinstance(results.case, BearingCase):
         keys = [key for key in ("bearing.first_break", "bearing.margin") if key in known]
         names = " and ".join(keys)

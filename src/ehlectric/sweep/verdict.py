@@ -12,9 +12,10 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing.accuracy import percent
 from ehlectric.bearing.quick.errors import formula_factor
-from ehlectric.cases.any_case import AnyCase
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import QUICK
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.row import value_at
 from ehlectric.discharge.verdict import (
     DOUBTS,
@@ -49,8 +50,10 @@ def sweep_verdict(results: SweepPoints) -> Verdict | None:
         the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by
         its warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces
         touch at all points of a bearing with a motor, yellow where they touch at some or without a motor, and
-        None where they touch at none.
+        None where they touch at none, and None for drives.
     """
+    if isinstance(results.case, DriveCase):
+        return None  # it is a number of discharges whose harm depends on the bearing, not on a margin
     usable = _margins(results)
     known = usable[np.isfinite(usable)]
     if not known.size:
@@ -132,7 +135,7 @@ def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
         yield f"At {doubtful} of the points warnings say that the margin may be lower."
 
 
-def _film_error(point: Point, case: AnyCase) -> float:
+def _film_error(point: Point, case: SweptCase) -> float:
     """Relative error of the films of a bearing that is not solved; 0 of other points."""
     summary = point.summary or {}
     contacts = value_at(summary, "bearing.contacts")
@@ -149,7 +152,9 @@ def _strength_varies(results: SweepPoints) -> bool:
 
 
 def _assumptions(results: SweepPoints) -> Iterator[str]:
-    """Sentence about the assumptions behind the margins."""
+    """Sentence about the assumptions behind the margins, which drives have not."""
+    if isinstance(results.case, DriveCase):
+        return
     bound = ""
     factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
     if not isinstance(results.case, BearingCase):
@@ -246,7 +251,7 @@ def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
     return math.exp(found) if logarithmic else found
 
 
-def value_text(key: str, value: Any, case: AnyCase) -> str:
+def value_text(key: str, value: Any, case: SweptCase) -> str:
     """Value of an input in the unit that is printed, with three digits; temperatures in degrees Celsius."""
     label = label_of(key, case)
     if label.unit == "K":

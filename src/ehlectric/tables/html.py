@@ -11,6 +11,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
+from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.row import Row, suited
 from ehlectric.contact.results import ContactResult
@@ -123,7 +124,7 @@ def input_row(case: Case | BearingCase, key: str, value: Any) -> Row:
     return Row(key, f"{scale.of(value):.6g}", scale.unit)
 
 
-def _scale(key: str, case: Case | BearingCase, values: Sequence[float]) -> Scale:
+def _scale(key: str, case: SweptCase, values: Sequence[float]) -> Scale:
     """Unit that suits all of some values of an input: °C, rpm, per GPa, or with a prefix that it lacks."""
     unit, largest = label_of(key, case).unit, max(map(abs, values))
     if unit == "K":

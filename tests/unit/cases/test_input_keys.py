@@ -36,6 +36,7 @@ def test_a_key_that_can_be_varied_can_be_described():
     for key in INPUT_NAMES:
         input_field(key)
         assert describe(key)
+    assert describe("bearings.bearing.radial_load") == describe("bearing.radial_load")
     assert describe("contact.body_2.radius_x") == describe("contact.body_1.radius_x")
     assert describe("roughness.rq") == describe("roughness.1.rq")
 

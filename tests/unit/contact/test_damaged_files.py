@@ -19,7 +19,7 @@ from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.checks.seal import sealed
 from ehlectric.runtime.netcdf import read_dataset
 from tests.helpers.damage import with_damaged_bytes, with_edited_values
-from tests.helpers.drives import small_drive
+from tests.helpers.drives import drive_with_remedy
 from tests.helpers.moving_cases import moving
 from tests.helpers.share import share
 
@@ -52,7 +52,7 @@ def stored(tmp_path_factory):
     table = {"contact": CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 65}}
     save(solve(Case.from_dict(table)), folder / "contact")
     save(solve(BEARING), folder / "bearing")
-    save(solve_drive(small_drive(**{"drive.duration": 1e-3}), workers=1), folder / "drive")
+    save(solve_drive(drive_with_remedy(**{"drive.duration": 1e-3}), workers=1), folder / "drive")
     run_motion(moving(motion={"passes": 0.375, "steps": 12, "record": 4}), folder / "motion")
     return {kind: folder / kind / name for kind, name in NAMES.items()}
 

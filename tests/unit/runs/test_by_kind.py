@@ -131,6 +131,7 @@ def test_kinds_of_the_examples():
         "bearing_regime_map": "sweep",
         "bearing_thin_oil": "bearing",
         "drive": "drive",
+        "drive_map": "sweep",
         "moving_roughness": "motion",
         "sweep": "sweep",
         "traction_curve": "sweep",

@@ -15,9 +15,11 @@ from ehlectric.contact.heat.keys import heat_keys
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
+from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.labels import label_of, result_keys, scale_for
 from ehlectric.sweep.results import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.drives import small_drive
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.moving_cases import TABLES, moving
 
@@ -28,7 +30,7 @@ EVERYTHING = {
 }  # fmt: skip
 LENGTHS = {"line": {"length": "10 mm"}, "point": {}}
 METER = {"fill": "oil", "coating": {"thickness": "1 um", "relative_permittivity": 9}}
-KINDS = ["line", "point", "balls", "rollers", "moving line", "moving point"]
+KINDS = ["line", "point", "balls", "rollers", "drive", "moving line", "moving point"]
 # Keys within the table film of a summary of heat and shear; both kinds of contact have the same ones.
 HEAT = {f"film.{key}" for key in heat_keys("W")}
 DATA = Path(__file__).parent / "labels.csv"
@@ -52,6 +54,8 @@ def case_of(kind):
         return contact(kind)
     if kind in ("balls", "rollers"):
         return bearing_case(BALLS if kind == "balls" else ROLLERS, contacts="formula")
+    if kind == "drive":
+        return small_drive()
     few = {"motion.steps": 24, "discharge": {"dielectric_strength": "15 V/um"}}
     return moving(TABLES[kind.removeprefix("moving ")], few, inlet={"oil_layer": "200 nm"})
 
@@ -62,6 +66,8 @@ def summary(kind, folder):
         return solve(case).summary()
     if kind in ("balls", "rollers"):
         return solve_bearing(case).summary()
+    if kind == "drive":
+        return solve_point(case.to_dict()).summary
     run_motion(case, folder)
     return summary_of(read_motion(folder))
 
@@ -93,14 +99,15 @@ def test_every_entry_is_a_key_of_a_summary(summaries, kind):
     """An entry without a number behind it says something about results that is not so.
 
     A list of the summary has an entry for the documentation. Statistics of a measured profile that is
-    extended to a map, voltages of a Weibull law, heat and shear stand in other summaries.
+    extended to a map, voltages of a Weibull law, heat, shear and remedies stand in other summaries.
     """
     keys = result_keys(case_of(kind))
     parts = {".".join(part for part in key.split(".") if not part.isdigit()) for key in summaries(kind)}
     lists = {"discharge", "stationary", "beside_stationary", "contacts", "rough", "inputs", "margin.effects"}
+    lists |= {"drive_end.time_above", "non_drive_end.time_above"}
     lists |= {"roughness.surfaces", "roughness.surfaces.steps", "rough.steps", "discharge.sources"} | HEAT
-    missing = {key for key in keys if "*" not in key} - parts - lists
-    assert {key for key in missing if ".steps." not in key} == set()
+    missing = {key for key in keys if "*" not in key} - parts - {*summaries(kind)} - lists
+    assert {key for key in missing if ".steps." not in key and not key.startswith("remedies.")} == set()
 
 
 def test_keys_of_heat_and_shear_are_those_of_a_summary():

@@ -12,6 +12,7 @@ from typing import Any
 
 from ehlectric.app.uploads import own_file
 from ehlectric.cases.any_case import AnyCase, case_of_dict
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.errors import InputError, shown
 from ehlectric.runs.kinds import FileKind, kind_of_tables
 from ehlectric.sweep.inputs import Sweep
@@ -48,9 +49,13 @@ def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
     Raises
     ------
     InputError
-        If the tables are no valid sweep, or name another file.
+        If the tables are no valid sweep, name another file, or vary a drive, which has no page.
     """
-    return Sweep.from_written(with_own_files(table, folder))
+    sweep = Sweep.from_written(with_own_files(table, folder))
+    if isinstance(sweep.case, DriveCase):
+        takes = "the case of a contact or a bearing; ehlectric sweep varies drives"
+        raise InputError("case", "is a drive", takes=takes)
+    return sweep
 
 
 def kind_of(table: Mapping[str, Any]) -> FileKind:

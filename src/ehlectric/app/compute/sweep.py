@@ -19,6 +19,7 @@ from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.cases.any_case import AnyCase, case_of_dict
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
+from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.quantity import Count, Quantity
@@ -143,7 +144,7 @@ def _variables(table: Mapping[str, Any], case: AnyCase) -> Iterator[Variable]:
             yield Variable(key, label, *ends, log=slider is not None and slider.log)
 
 
-def named(key: str, case: AnyCase) -> str:
+def named(key: str, case: SweptCase) -> str:
     """Name of an input or a result; one without a name has the last part of its key."""
     name = _NAMES.get(key) or label_of(key, case).name
     if name == key:
@@ -229,7 +230,7 @@ def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
     return SweepPlan(sweep.size, seconds, workers, len(refused), len(corners), next(iter(refused), ""))
 
 
-def _seconds(case: AnyCase) -> float:
+def _seconds(case: SweptCase) -> float:
     """Time of a point that is not solved [s]: the shortest of a few, as the first one takes longer."""
     table = case.to_dict()
     found = [solve_point(table).seconds]
@@ -289,7 +290,10 @@ def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:
 
 
 def point_table(
-    case: AnyCase, table: Mapping[str, Any], inputs: Mapping[str, Any], units: Mapping[str, str] | None = None
+    case: SweptCase,
+    table: Mapping[str, Any],
+    inputs: Mapping[str, Any],
+    units: Mapping[str, str] | None = None,
 ) -> dict[str, Any]:
     """Tables of a file with the case of a point.
 

@@ -143,14 +143,7 @@ class DriveCase(Tabled, Table):
         InputError
             If a file cannot be read, is not TOML, or is not valid.
         """
-        table, folder = read_toml(path), Path(path).parent
-        for end in ENDS:
-            if isinstance(table.get(end), Mapping) and "file" in table[end]:
-                table[end] = _bearing_of(table[end], folder, end)
-        source = table.get("source")
-        if isinstance(source, dict) and isinstance(source.get("file"), str):
-            source["file"] = str(folder / source["file"])
-        return cls.from_written(table)
+        return cls.from_written(with_files(read_toml(path), Path(path).parent))
 
     def to_dict(self) -> dict[str, Any]:
         """Return all values that are set as nested tables, in SI units."""
@@ -205,6 +198,36 @@ class DriveCase(Tabled, Table):
             except InputError as error:
                 raise error.under(end) from None
         return self.from_dict(table)
+
+
+def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Tables of a drive file with the bearings of the files that it names, and the path of its waveform.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a file in the folder. Tables of other kinds of cases are returned unchanged.
+    folder : Path
+        Folder to which the names of files are relative.
+
+    Returns
+    -------
+    dict
+        Tables that name no bearing file; the name of the waveform is absolute.
+
+    Raises
+    ------
+    InputError
+        If a bearing file cannot be read or is not valid.
+    """
+    found, source = dict(table), table.get("source")
+    for end in ENDS:
+        if isinstance(found.get(end), Mapping) and "file" in found[end]:
+            found[end] = _bearing_of(found[end], folder, end)
+    if isinstance(source, Mapping) and isinstance(source.get("file"), str):
+        # It then stays valid where the case is written to another folder.
+        found["source"] = {**source, "file": str((folder / source["file"]).absolute())}
+    return found
 
 
 def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:

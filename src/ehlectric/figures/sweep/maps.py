@@ -172,6 +172,19 @@ class _Between:
         return Triangulation(x, y, self.surface.triangles, mask=~whole)
 
 
+def _rounded(values: Array) -> Array:
+    """Interpolated values without their rounding errors, by which a plateau at a level would be speckled.
+
+    Examples
+    --------
+    >>> _rounded(np.array([60000.00000000001, 0.04999999999999998, 0.0, -1e-9])).tolist()
+    [60000.0, 0.05, 0.0, -1e-09]
+    """
+    sizes = np.abs(values)
+    factors = 10.0 ** (11.0 - np.floor(np.log10(sizes, out=np.zeros_like(sizes), where=sizes > 0.0)))
+    return np.asarray(np.rint(values * factors) / factors)
+
+
 def _fill(between: _Between, ax: Axes) -> list[Artist]:
     """Colour the map between round levels, and add the colour bar and, of a discharge, the breakdown line.
 
@@ -188,7 +201,7 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
     nodes, whole = between.values()
     handles = _intermittent(between, whole, ax)
     if np.any(whole):
-        drawn = between.triangles(whole), scale.of(nodes)
+        drawn = between.triangles(whole), _rounded(scale.of(nodes))
         # A value equal to the last level, such as a probability of 1, would be outside the colour scale.
         bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
         ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=colours)

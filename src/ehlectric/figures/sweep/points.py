@@ -68,6 +68,8 @@ LESS_ACCURATE = frozenset(
         "clearance-taken-up",
         "shoulder-reached",
         "capacitance-bound",
+        # Drives with a rate of few events
+        "few-discharges",
         # Warnings of other versions, whose meaning is not known
         "unclassified",
     }

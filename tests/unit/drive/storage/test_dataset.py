@@ -9,13 +9,13 @@ from ehlectric import InputError, load, save, solve_drive
 from ehlectric.drive import files as of_drives
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import ResultWarning
-from tests.helpers.drives import small_drive
+from tests.helpers.drives import drive_with_remedy
 
 
 @pytest.fixture(scope="module")
 def drive():
     """Drive with two different bearings, and a warning about a file."""
-    case = small_drive().replace(
+    case = drive_with_remedy().replace(
         {"non_drive_end.bearing.radial_load": "500 N", "non_drive_end.bearing.parallel_capacitance": "20 pF"}
     )
     result = solve_drive(case, workers=1)

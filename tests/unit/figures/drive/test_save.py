@@ -11,7 +11,7 @@ from ehlectric.drive.discharges.record import ENERGY, FILM, ON, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive.histogram import shares_above
 from ehlectric.figures.names import DRIVE_FIGURE_FILES, FORMATS, in_formats
-from tests.helpers.drives import small_drive
+from tests.helpers.drives import drive_with_remedy
 from tests.helpers.titles import title_of
 
 VOLTAGES, HISTOGRAM, DISCHARGES, REMEDIES = (name.removesuffix(".png") for name in DRIVE_FIGURE_FILES)
@@ -19,7 +19,7 @@ VOLTAGES, HISTOGRAM, DISCHARGES, REMEDIES = (name.removesuffix(".png") for name 
 
 @pytest.fixture(scope="module")
 def drive():
-    return solve_drive(small_drive(), workers=1)
+    return solve_drive(drive_with_remedy(), workers=1)
 
 
 @pytest.fixture(scope="module")
