@@ -11,6 +11,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.row import Row, suited
@@ -98,7 +99,7 @@ def _warnings(shown: Any) -> Iterable[ResultWarning]:
     return warnings
 
 
-def input_rows(case: Case | BearingCase) -> Iterator[Row]:
+def input_rows(case: Case | BearingCase | DriveCase) -> Iterator[Row]:
     """Rows of the inputs of a case that are given, without defaults."""
     given = flattened(case.model_dump(mode="json", exclude_none=True, exclude_unset=True))
     for key, value in given.items():
@@ -106,12 +107,12 @@ def input_rows(case: Case | BearingCase) -> Iterator[Row]:
             yield input_row(case, key, value)
 
 
-def input_row(case: Case | BearingCase, key: str, value: Any) -> Row:
+def input_row(case: Case | BearingCase | DriveCase, key: str, value: Any) -> Row:
     """Row of an input: its dotted key, and its value in a unit that suits it.
 
     Parameters
     ----------
-    case : Case or BearingCase
+    case : Case, BearingCase or DriveCase
         Case with the input.
     key : str
         Dotted key of the input.
@@ -159,5 +160,6 @@ _ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
     FilmFactors: factor_rows,
     Case: input_rows,
     BearingCase: input_rows,
+    DriveCase: input_rows,
     Sweep: _sweep_rows,
 }

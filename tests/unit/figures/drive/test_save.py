@@ -162,3 +162,10 @@ def test_a_drive_that_is_not_converged_says_so(drive):
     assert title_of(figure(result, HISTOGRAM))[0] == "NOT CONVERGED"
     assert "NOT CONVERGED" in repr(result)
     assert "NOT CONVERGED" in result._repr_html_()
+
+
+def test_a_notebook_shows_a_drive_and_its_case_as_tables(drive):
+    shown = drive._repr_html_()
+    assert "discharges per second" in shown
+    assert "peak current of a discharge, mean" in shown
+    assert "source.dc_link" in drive.case._repr_html_()
