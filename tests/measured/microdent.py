@@ -98,7 +98,7 @@ def passage(dent, folder, *, nodes=129):
     tables["contact"]["slide_to_roll_ratio"] = 2.0 * (dent.speed - 1.0)
     tables["roughness"] = [{"surface": 1, "file": str(path), "extend": "flat"}]
     steps = round(dent.passes * (nodes - 1))
-    tables["motion"] = {"passes": dent.passes, "steps": steps, "record": steps + 1}
+    tables["motion"] = {"passes": dent.passes, "steps": steps, "record": steps // 2 + 1}
     result = solve_motion(Case.from_dict(tables))
     assert result.converged
     data = result.dataset

@@ -188,13 +188,16 @@ class _Model:
 
 
 class _BallReaction:
-    """Force of the balls over the ring's displacement; each call starts from the seats of the last."""
+    """Force of the balls over the ring's displacement; each call starts from the seats of the last one.
 
-    def __init__(self, model: _Model, grooves: Grooves) -> None:
+    The first call starts from ``seats``, where they are given.
+    """
+
+    def __init__(self, model: _Model, grooves: Grooves, seats: Seats | None = None) -> None:
         self._model, self._grooves = model, grooves
         self._basis = model.basis
         self._ring = np.full(3, np.nan)
-        self._seats: Seats | None = None
+        self._seats = seats
 
     def __call__(self, ring: Array) -> tuple[Array, Array]:
         """Force on the ring at a displacement, and its derivative, as ``balance`` needs them."""
@@ -221,12 +224,17 @@ class _State:
     residual: float
 
     @classmethod
-    def solved(cls, model: _Model, grooves: Grooves, ring: Array, aim: float) -> tuple[_State, int]:
-        """State balanced to ``aim``, from an initial displacement, and the number of Newton steps."""
+    def solved(
+        cls, model: _Model, grooves: Grooves, ring: Array, aim: float, seats: Seats | None = None
+    ) -> tuple[_State, int]:
+        """State balanced to ``aim``, and the number of Newton steps.
+
+        The initial guess is a displacement, and seats where those of nearly the same stiffnesses are known.
+        """
         # Rounding errors scale with contact forces, and the centrifugal force may exceed a light load.
         scale = float(np.linalg.norm(model.load)) + grooves.outward
         reach = _REACH * model.bearing.groove_distance
-        reaction = _BallReaction(model, grooves)
+        reaction = _BallReaction(model, grooves, seats)
         ring, residual, steps = balance(reaction, model.load, ring, reach, scale, aim)
         seats = reaction.seats(ring)
         imbalance = seats.inner.force - seats.outer.force
@@ -248,7 +256,9 @@ def _solve(model: _Model) -> tuple[_State, int]:
         outward = centrifugal_force(mass, bearing.pitch_diameter, cage)
         # Forces that balance far better than the angles are known are not worth their steps.
         aim = max(AIM, _ROUGH * change)
-        settled, steps = _State.solved(model, model.grooves(state.angles, outward), state.ring, aim)
+        settled, steps = _State.solved(
+            model, model.grooves(state.angles, outward), state.ring, aim, state.seats
+        )
         iterations += steps
         change, state = settled.angles.change(state.angles), settled
         if change <= _SETTLED and aim == AIM:
