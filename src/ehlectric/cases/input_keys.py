@@ -20,7 +20,11 @@ from ehlectric.cases.bearings.summits import Summits
 from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
-from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
+from ehlectric.cases.drives.breakdown import Breakdown
+from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase, Operation, Remedy
+from ehlectric.cases.drives.circuit import Circuit
+from ehlectric.cases.drives.machine import Geometry
+from ehlectric.cases.drives.source import Source
 from ehlectric.cases.films.inlet import Inlet, LayerTable
 from ehlectric.cases.films.physics import FilmPhysics
 from ehlectric.cases.grid import Electric, Grid, Solver
@@ -70,6 +74,13 @@ TABLES: Mapping[str, type[Table]] = {
     "lubricant.permittivity_table": PermittivityTable,
     "lubricant.conductivity_table": ConductivityTable,
     "motor": Motor,
+    "drive_file": DriveCase,
+    "drive": Operation,
+    "source": Source,
+    "circuit": Circuit,
+    "circuit.machine": Geometry,
+    "breakdown": Breakdown,
+    "remedies": Remedy,
 }
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -35,8 +34,6 @@ from ehlectric.sweep.varied import check_varied
 MOST_POINTS = 200_000
 _RANGE_KEYS = ("from", "to", "count", "spacing")
 _SPACINGS = ("linear", "log")
-# Keys whose values are names of files.
-_FILE = re.compile(r"roughness\..*\.file|source\.file")
 _RANGE = "a list of values, or a table of from, to, count and optionally spacing"
 
 
@@ -261,8 +258,13 @@ def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
         key = prefix + name
         if isinstance(value, dict):
             _locate(value, folder, f"{key}.")
-        elif isinstance(value, list) and _FILE.fullmatch(key):
+        elif isinstance(value, list) and _names_a_file(key):
             tables[name] = [str((folder / v).absolute()) if isinstance(v, str) else v for v in value]
+
+
+def _names_a_file(key: str) -> bool:
+    """Whether the values of a key are names of files."""
+    return key == "source.file" or (key.startswith("roughness.") and key.endswith(".file"))
 
 
 def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...] | Range:

@@ -1,0 +1,40 @@
+"""Compiled functions on the disk belong to the sources of all functions that they call."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+
+from ehlectric.drive.discharges import compiled, march
+from ehlectric.drive.discharges.compiled import contents_of
+
+SOURCE = Path(compiled.__file__).parent
+
+
+def test_a_change_in_any_file_is_another_folder(tmp_path):
+    for name in ("a.py", "b.py"):
+        (tmp_path / name).write_text("one = 1\n")
+    before = contents_of(tmp_path)
+    assert contents_of(tmp_path) == before
+    (tmp_path / "b.py").write_text("one = 2\n")
+    assert contents_of(tmp_path) != before
+
+
+def test_the_folder_is_that_of_the_sources():
+    folder = Path(march.advance.stats.cache_path)
+    assert f"compiled-{contents_of(SOURCE)}" in folder.parts
+    assert contents_of(SOURCE) not in str(numba.config.CACHE_DIR)
+
+
+def test_a_folder_of_the_user_is_kept(tmp_path):
+    code = (
+        "import numba; from ehlectric.drive.discharges import march;"
+        "print(march.advance.stats.cache_path, numba.config.CACHE_DIR, sep='\\n')"
+    )
+    environment = {"NUMBA_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(SOURCE.parents[2])}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    at, after = done.stdout.splitlines()
+    assert Path(at).is_relative_to(tmp_path / f"compiled-{contents_of(SOURCE)}")
+    assert after == str(tmp_path)
