@@ -345,6 +345,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
         "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
         "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
+        "arc-burns-on": Cause("An arc of a drive burns for much of the time."),
         "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),
         # Files of other versions
         "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),

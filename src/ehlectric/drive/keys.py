@@ -95,6 +95,11 @@ _END: Keys = {
     ),
     "peak_voltage": ResultKey("largest voltage across the films", "V", "largest bearing voltage"),
     "rms_voltage": ResultKey("root mean square of the voltage across the films", "V", "rms bearing voltage"),
+    "burning_time_share": ResultKey(
+        "part of the time for which an arc burns; also of arcs that have not gone out at the end",
+        "",
+        "share of time with a burning arc",
+    ),
     "time_above": ResultKey("share of time above each of the voltages, by the voltage in volts"),
     **{
         f"time_above.{limit:g}": ResultKey(

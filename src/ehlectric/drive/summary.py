@@ -69,6 +69,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
         "waveform_ratio": peak / solution.highest_source,
         "peak_voltage": peak,
         "rms_voltage": float(record.rms[b]),
+        "burning_time_share": float(record.burning[b]) / record.duration,
         "time_above": {
             f"{limit:g}": float(time) / record.duration
             for limit, time in zip(record.limits, record.above[b], strict=True)

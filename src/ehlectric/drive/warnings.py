@@ -13,6 +13,9 @@ from ehlectric.cases.row import amount
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.errors import ResultWarning
 
+# Share of time from which an arc is said to burn on.
+_MOSTLY = 0.2
+
 # Events below which a rate is called uncertain.
 _FEW = 20
 
@@ -34,6 +37,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     yield from machine_warnings(solution.case)
     yield from _of_threshold(solution)
     yield from _of_time(solution)
+    yield from _of_arcs(solution)
 
 
 def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[ResultWarning]:
@@ -81,4 +85,16 @@ def _of_time(solution: DriveSolution) -> Iterator[ResultWarning]:
                 "few-discharges",
                 f"{end} discharges {number} times in {amount(solution.record.duration, 's')}: its rate is "
                 "uncertain; give a longer drive.duration",
+            )
+
+
+def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Warning of arcs that burn for most of the time: they are hardly discharges."""
+    for end, burning in zip(ENDS, solution.record.burning, strict=True):
+        share = float(burning) / solution.record.duration
+        if share > _MOSTLY:
+            yield ResultWarning(
+                "arc-burns-on",
+                f"an arc burns in {end} for {100.0 * share:.3g} % of the time: the source feeds it above "
+                "breakdown.extinction_current or extinction_voltage, so that few discharges are counted",
             )

@@ -25,6 +25,7 @@ _ROWS = (
     ("bearing voltage ratio, waveform", "waveform_ratio", "%"),
     ("largest bearing voltage", "peak_voltage", "V"),
     ("rms bearing voltage", "rms_voltage", "V"),
+    ("share of time with a burning arc", "burning_time_share", "%"),
     ("discharges per second", "events_per_second", "1/s"),
     ("  lower bound, 95 %", "events_per_second_low", "1/s"),
     ("  upper bound, 95 %", "events_per_second_high", "1/s"),

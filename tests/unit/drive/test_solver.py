@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.drive.discharges.record import FILM, OFF, ON
+from ehlectric.drive.result import solve_drive
 from ehlectric.drive.solver import solve
 from tests.helpers.places import EXAMPLES
 from tests.unit.cases.test_drive import TABLE
@@ -42,3 +44,24 @@ def test_a_measured_square_wave_is_the_computed_one(case, tmp_path):
     assert solution.record.duration == pytest.approx(2e-4)
     assert solution.record.peak == pytest.approx(200.0 * np.array(solution.divider), rel=1e-3)
     assert len(solution.record.events) == 0
+
+
+def test_time_with_a_burning_arc_is_that_of_the_discharges(case):
+    """Up to those that burn at the begin and at the end."""
+    weak = case.replace({"bearings.discharge.dielectric_strength": "5 V/um", "drive.duration": "3 ms"})
+    record = solve(weak, workers=1).record
+    for b in range(2):
+        own = record.events[record.events[:, FILM] == b]
+        lasting = own[:, OFF] - own[:, ON]
+        assert len(own) > 10
+        assert record.burning[b] == pytest.approx(np.sum(lasting), abs=2.0 * np.max(lasting))
+
+
+def test_an_arc_that_never_recovers_is_told(case):
+    """Edges feed it again before its film insulates: there are hardly any discharges to be counted."""
+    weak = {"bearings.discharge.dielectric_strength": "5 V/um", "drive.duration": "3 ms"}
+    result = solve_drive(case.replace({**weak, "breakdown.recovery_time": "1 ms"}), workers=1)
+    shares = [result.summary()[end]["burning_time_share"] for end in ENDS]
+    assert max(shares) == pytest.approx(1.0, abs=0.05)
+    assert result.summary()["drive"]["events"] < 10
+    assert "arc-burns-on" in [warning.code for warning in result.warnings]

@@ -94,6 +94,7 @@ UNSTORED = {
     "edges-unresolved",
     "capacitances-estimated",
     "threshold-constant",
+    "arc-burns-on",
     "few-discharges",
 }
 

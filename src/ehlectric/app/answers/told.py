@@ -61,6 +61,7 @@ WITHOUT_PLACE = (
     "edges-unresolved",
     "capacitances-estimated",
     "threshold-constant",
+    "arc-burns-on",
     "few-discharges",
     "unclassified",
 )

@@ -35,12 +35,13 @@ def inner(function: F) -> F:
 
 def _compiled(function: Any, **options: Any) -> Any:
     # The folder is chosen when a function is decorated. Other packages keep theirs.
-    before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(_folder(before))
+    config: Any = numba.config
+    before = config.CACHE_DIR
+    config.CACHE_DIR = str(_folder(before))
     try:
         return numba.njit(**options)(function)
     finally:
-        numba.config.CACHE_DIR = before
+        config.CACHE_DIR = before
 
 
 @cache

@@ -39,6 +39,8 @@ class Record:
         Time above each limit [s].
     peak, rms : ndarray, shape (2,)
         Largest and root mean square voltage across each film [V].
+    burning : ndarray, shape (2,)
+        Time for which an arc burnt in each film, with arcs that burnt before and after [s].
     trace : ndarray, shape (m, 4)
         Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
         stretch; straight between the rows.
@@ -55,4 +57,5 @@ class Record:
     above: Array
     peak: Array
     rms: Array
+    burning: Array
     trace: Array

@@ -17,7 +17,7 @@ from ehlectric.drive.discharges.march import advance, start_clocks
 from ehlectric.drive.discharges.meters import Meters
 from ehlectric.drive.discharges.pieces import Circuits
 from ehlectric.drive.discharges.record import COLUMNS, FILM, OFF, ON, VOLTAGE, Record
-from ehlectric.drive.discharges.states import Films, Segments, State
+from ehlectric.drive.discharges.states import ARC, RECOVERING, Films, Segments, State
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384
@@ -134,9 +134,12 @@ class _Log:
         self.number = 0
         self.counts = np.zeros((2, BLOCKS), dtype=np.int64)
         self.sums, self.largest = np.zeros((2, COLUMNS)), np.zeros((2, COLUMNS))
+        self.burning = np.zeros(2)
 
     def add(self, events: Array, start: float) -> None:
-        """Add events that began after a time [s]."""
+        """Add events that began after a time [s], and all of the time for which arcs burnt after it."""
+        lasting = events[:, OFF] - np.maximum(events[:, ON], start)
+        self.burning += np.bincount(events[:, FILM].astype(int), np.maximum(lasting, 0.0), minlength=2)
         events = events[events[:, ON] >= start].copy()
         events[:, [ON, OFF]] -= start
         block = np.minimum((events[:, ON] / self.duration * BLOCKS).astype(int), BLOCKS - 1)
@@ -150,6 +153,13 @@ class _Log:
         if self.number < KEPT:
             self.kept.append(events[: KEPT - self.number])
             self.number += self.kept[-1].shape[0]
+
+    def end(self, state: State, start: float) -> None:
+        """Add the time for which arcs have burnt that still burn at the end."""
+        now = float(np.sum(state.time))
+        for b in range(2):
+            if state.phase[b] in (ARC, RECOVERING):
+                self.burning[b] += now - max(float(state.event[b, ON]), start)
 
 
 def simulate(
@@ -204,6 +214,7 @@ def simulate(
         if before is not None and log.number:
             trace = _around(circuits, films, chunk, measuring, before, _typical(log))
         progress(float(state.time[0]))
+    log.end(state, measuring.start)
     return _record(measuring, meters, log, trace)
 
 
@@ -295,5 +306,6 @@ def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None
         above=meters.above,
         peak=meters.peak,
         rms=np.sqrt(meters.square / measuring.duration),
+        burning=log.burning,
         trace=_traced(measuring, meters) if trace is None else trace,
     )

@@ -92,6 +92,7 @@ RULES = {
     "time_above": Rule((*_BOTH, "limit"), "not negative", "s"),
     "peak_voltage": Rule(_BOTH, "not negative", "V"),
     "rms_voltage": Rule(_BOTH, "not negative", "V"),
+    "burning_time": Rule(_BOTH, "not negative", "s"),
 }
 
 

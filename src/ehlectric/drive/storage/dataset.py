@@ -76,6 +76,7 @@ def dataset_of(solution: DriveSolution, remedies: Remedies, seconds: float, vers
         "time_above": [one.above for one in records],
         "peak_voltage": [one.peak for one in records],
         "rms_voltage": [one.rms for one in records],
+        "burning_time": [one.burning for one in records],
     }
     for name in ELEMENTS:
         values[f"element_{name}"] = [[getattr(one, name) for one in pair] for pair in elements]
@@ -193,6 +194,7 @@ def _record_of(arrays: dict[str, np.ndarray], k: int) -> Record:
         above=arrays["time_above"][k],
         peak=arrays["peak_voltage"][k],
         rms=arrays["rms_voltage"][k],
+        burning=arrays["burning_time"][k],
         trace=_columns(arrays, SAMPLES, 4, _part(arrays, "sample", k)),
     )
 
