@@ -136,15 +136,18 @@ def solve_drive(
     Raises
     ------
     InputError
-        Where a bearing cannot be solved, or lacks a value that discharges need.
+        Where a bearing cannot be solved, or lacks a value that discharges need; or where a remedy changes a
+        key that does not exist.
     """
     # Loads the compiler of the simulation, which stored results do not need.
     from ehlectric.drive.solver import solve
 
     start, report = time.perf_counter(), progress or silent
+    # A mistake in a remedy is told before the drive itself takes its time.
+    variants = case.variants()
     solution = solve(case, report, workers=workers)
     remedies = tuple(
-        (one.title, dict(one.changes), solve(case.replace(one.changes), report, workers=workers))
-        for one in case.remedies
+        (one.title, dict(one.changes), solve(variant, report, workers=workers))
+        for one, variant in zip(case.remedies, variants, strict=True)
     )
     return replace(DriveResult(solution, remedies), seconds=time.perf_counter() - start)

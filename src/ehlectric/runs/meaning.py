@@ -222,6 +222,7 @@ def _check_drive(case: DriveCase) -> Meaning:
     from ehlectric.drive.warnings import bearing_warnings, machine_warnings
     from ehlectric.tables.drive import prepared_rows
 
+    case.variants()
     films = {}
     for end, bearing in zip(ENDS, case.bearings, strict=True):
         judged, refused = quick_case(bearing)

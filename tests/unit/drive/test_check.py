@@ -2,7 +2,7 @@
 
 import pytest
 
-from ehlectric import DriveCase, InputError
+from ehlectric import DriveCase, InputError, solve_drive
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import drive_summary
@@ -42,3 +42,19 @@ def test_a_strength_that_needs_the_field_is_told(drive):
     oil = drive.replace({"bearings.lubricant.viscosity_law": "constant"})
     (row,) = check(oil).rows
     assert "drive_end.lubricant.viscosity_law: needs solved contacts" in row.note
+
+
+@pytest.mark.parametrize("look", [check, solve_drive])
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"circuit.grounding_rng": 1.0}, r"^remedies\.2\.changes\.circuit\.grounding_rng: unknown key; "),
+        ({"source.rise_time": "-1 ns"}, r"^remedies\.2\.changes\.source\.rise_time: got '-1 ns'; "),
+    ],
+)
+def test_a_wrong_remedy_is_refused_before_anything_is_solved(drive, look, changes, message, monkeypatch):
+    monkeypatch.setattr("ehlectric.drive.solver.solve", lambda *_, **__: pytest.fail("was solved"))
+    fine, *_ = drive.remedies
+    remedies = [{"title": fine.title, "changes": fine.changes}, {"title": "wrong", "changes": changes}]
+    with pytest.raises(InputError, match=message):
+        look(drive.replace({"remedies": remedies}))

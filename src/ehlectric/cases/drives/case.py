@@ -115,6 +115,22 @@ class DriveCase(Tabled, Table):
         )
         return first, second
 
+    def variants(self) -> tuple[Self, ...]:
+        """Changed copies of the drive, one for each of its remedies.
+
+        Raises
+        ------
+        InputError
+            If a remedy changes a key that does not exist, or gives it a value that is not allowed.
+        """
+        return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
+
+    def _changed(self, number: int, remedy: Remedy) -> Self:
+        try:
+            return self.replace(remedy.changes)
+        except InputError as error:
+            raise error.under(f"remedies.{number}.changes") from None
+
     def _headline(self) -> str:
         bearing = self.bearings[0].bearing
         return headline(

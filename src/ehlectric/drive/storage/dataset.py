@@ -138,7 +138,7 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
     case = case_of(attributes, DriveCase.from_dict)
     check(dataset, 1 + len(case.remedies))
     arrays = {str(name): np.asarray(dataset[name].values) for name in dataset.variables}
-    cases = [case, *(case.replace(one.changes) for one in case.remedies)]
+    cases = [case, *case.variants()]
     told = [warnings_of(one) for one in json.loads(attributes[TEXTS])]
     solutions = [
         DriveSolution(
