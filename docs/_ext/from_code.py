@@ -99,7 +99,7 @@ def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
             return item
     if get_origin(annotation) is Literal:
         return get_args(annotation)
-    if get_origin(annotation) is Mapping:
+    if get_origin(annotation) in (Mapping, dict):
         return validation.Table
     if isinstance(annotation, type) and issubclass(annotation, validation.Table):
         return annotation
@@ -139,7 +139,7 @@ def _default(field: Any) -> str:
     if field.is_required():
         return "required"
     value = field.default
-    if value is None:
+    if value is None or isinstance(value, validation.Table):
         return "–"
     if isinstance(value, tuple):
         return f"`[{', '.join(map(_number, value))}]`"
