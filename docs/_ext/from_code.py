@@ -122,6 +122,8 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
         return ", ".join(f'`"{name}"`' for name in _NAMES[name])
     if name == "film_factor":
         return '`"none"`, `"inlet-shear"`, `"solved"`, or a number above 0 and at most 1'
+    if name in ("column", "time_column"):
+        return "a string, or a whole number from 1"
     if isinstance(found, Grade):
         return f'{found.takes}, as `46` or `"ISO VG 46"`'
     if isinstance(found, Quantities):
@@ -153,7 +155,8 @@ def _keys(table: str, model: type[validation.Table]) -> Iterator[list[str]]:
     for name, field in model.known_keys().items():
         found = _find(field.annotation, field.metadata)
         takes = _takes(name, found, pair=get_origin(field.annotation) is tuple)
-        yield [f"`{name}`", meanings[name], takes, _default(field)]
+        default = "–" if name == "non_drive_end" else _default(field)
+        yield [f"`{name}`", meanings[name], takes, default]
 
 
 def _word(argument: Any) -> str:

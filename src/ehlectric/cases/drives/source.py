@@ -57,7 +57,7 @@ class Source(Table):
     step: Annotated[float, _Time] | None = None
     time_unit: str | None = None
     value_unit: str | None = None
-    scale: Annotated[float, Quantity("", reason="such as that of a probe")] = 1.0
+    scale: Annotated[float, Quantity("", least=-1e9, most=1e9, reason="such as that of a probe")] = 1.0
     resample: Annotated[float, _Time] | None = None
 
     @property
