@@ -106,9 +106,7 @@ def march(
 
 
 def drive_with_remedy(**changes):
-    """Example of a drive for a short time, with quick contacts and one remedy, a grounding ring."""
-    table = DriveCase.from_toml(EXAMPLES / "drive.toml").to_dict()
-    remedy, *_ = table["remedies"]
-    short = {"duration": 5e-3, "contacts": "formula"}
-    tables = {**table, "drive": table["drive"] | short, "remedies": [remedy]}
-    return DriveCase.from_dict(tables).replace(changes)
+    """The example for a short time, with contacts by formula and one remedy, a grounding ring."""
+    drive = DriveCase.from_toml(EXAMPLES / "drive.toml")
+    quick = {"drive.contacts": "formula", "drive.duration": "5 ms"}
+    return drive.replace({"remedies": drive.remedies[:1]} | quick | changes)

@@ -81,6 +81,7 @@ def init(
         if geometry and geometry not in _GEOMETRIES:
             takes = f"{' or '.join(_GEOMETRIES)}; other kinds are written with --kind"
             raise InputError("--geometry", got=shown(geometry), takes=takes)
+        from ehlectric.runs.kinds import command_of_file
         from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special
 
         source = template(geometry or kind)
@@ -89,7 +90,7 @@ def init(
             raise InputError(path, "already exists; use --force to overwrite")
         clear_left_behind(prepare(path.parent))
         _copy(source, path)
-        command = _command(path)
+        command = command_of_file(path)
     if not quiet:
         say(f"written: {path}")
         say(f"  check it with: ehlectric check {path}")
@@ -187,11 +188,3 @@ def _copy(source: Path, target: Path) -> None:
     from ehlectric.runtime.files import write
 
     write(target, source.read_bytes())
-
-
-def _command(path: Path) -> str:
-    """Command that solves a file."""
-    from ehlectric.runs.kinds import kind_of_file
-
-    kind = kind_of_file(path)
-    return kind if kind in ("bearing", "drive", "sweep") else "run"

@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
-from ehlectric.drive.keys import EVENT_COLUMNS
+from ehlectric.drive.keys import EVENT_COLUMNS, NAMES_OF_ENDS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.storage.dataset import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
@@ -107,7 +107,10 @@ class DriveResult(Shown):
         found = drive_summary(self.solution)
         return headline(
             self.case.title,
-            *(f"{end.replace('_', ' ')} {found[end]['events_per_second']:.3g} discharges/s" for end in ENDS),
+            *(
+                f"{name} {found[end]['events_per_second']:.3g} discharges/s"
+                for end, name in NAMES_OF_ENDS.items()
+            ),
             "converged" if self.converged else "NOT CONVERGED",
         )
 

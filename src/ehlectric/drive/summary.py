@@ -12,6 +12,7 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Record
+from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import event_rate, spread
 from ehlectric.runtime.files import plain
@@ -80,7 +81,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
 
 
 def prepared_summary(ready: PreparedDrive) -> dict[str, Any]:
-    """What is known of a drive without its simulation: its source, its circuit and both bearings."""
+    """Summary of a drive that is not simulated: its source, its circuit and both bearings."""
     case = ready.case
     bearing = ready.bearings[0].case.bearing
     summary: dict[str, Any] = plain(
@@ -158,15 +159,11 @@ def _densities(record: Record, one: BearingElement, b: int) -> dict[str, Any]:
 
 def verdict(summary: dict[str, Any]) -> str:
     """Answer in a sentence, from a summary of both bearings."""
-    told = [
-        _told(name, summary[end])
-        for name, end in (("drive end", "drive_end"), ("non-drive end", "non_drive_end"))
-    ]
-    return "; ".join(told) + "."
+    return "; ".join(_told(name, summary[end]) for end, name in NAMES_OF_ENDS.items()) + "."
 
 
 def _told(name: str, end: dict[str, Any]) -> str:
-    """What happens at one end, in words."""
+    """Clause about the discharges and the largest voltage of one bearing."""
     largest = f"largest voltage {end['peak_voltage']:.3g} V"
     if not end["events"]:
         return f"{name}: no discharge, at most {end['events_per_second_high']:.3g} a second; {largest}"

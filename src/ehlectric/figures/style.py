@@ -261,6 +261,37 @@ def _broken(figure: Figure, line: str, size: float) -> list[str]:
     return parts
 
 
+def titled(ax: Axes, title: str, *, converged: bool) -> Figure:
+    """Figure of axes with a title over all of its panels, whose first line says if it is not converged.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes of one of the panels.
+    title : str
+        Lines of the title; a converged result may have none.
+    converged : bool
+        Whether the result is converged.
+
+    Returns
+    -------
+    Figure
+        The figure.
+    """
+    text = title if converged else f"NOT CONVERGED\n{title}"
+    if text:
+        name_over(ax, text, converged=converged)
+    return figure_of(ax)
+
+
+def share_below(axes: Sequence[Axes]) -> None:
+    """Remove the labels of the common axis from all stacked panels but the lowest."""
+    for ax in axes[:-1]:
+        ax.set_xlabel("")
+        ax.tick_params(labelbottom=False)
+    figure_of(axes[0]).align_ylabels(axes)
+
+
 def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
     """Write a figure as a file of each format; an interrupted write leaves no partial file.
 

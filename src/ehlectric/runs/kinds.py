@@ -92,6 +92,22 @@ def expect(path: Path, *kinds: FileKind) -> FileKind:
     return kind
 
 
+def command_of_file(path: str | Path) -> str:
+    """Command that solves a TOML file: "run", "bearing", "drive" or "sweep".
+
+    Parameters
+    ----------
+    path : str or Path
+        A case file, bearing file, drive file or sweep file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not TOML.
+    """
+    return _NAMES[kind_of_file(path)][1]
+
+
 def refuse_input(path: Path) -> None:
     """Refuse a TOML file where a result is expected, and name the command that solves it.
 

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.accuracy import percent
 from ehlectric.cases.bearings.ways import HOW
+from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.row import UNITS, Row
+from ehlectric.drive.keys import DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.errors import printable
 
 if TYPE_CHECKING:
     from rich.table import Table
-
-_NAMES = {"drive_end": "drive end", "non_drive_end": "non-drive end"}
-_ENDS = tuple(_NAMES)
 
 # Rows of the table of both ends: name, key, and unit in which it is shown.
 _ROWS = (
@@ -40,13 +39,6 @@ _ROWS = (
     ("power of the discharges", "power", "µW"),
     ("current density, one element", "element_current_density", "A/mm²"),
 )
-
-# Capacitances of the machine, by their keys.
-_CIRCUIT = {
-    "winding_rotor_capacitance": "winding to rotor",
-    "rotor_frame_capacitance": "rotor to frame",
-    "winding_frame_capacitance": "winding to frame",
-}
 
 # Rows of a bearing before the simulation.
 _PREPARED = (
@@ -81,13 +73,13 @@ def prepared_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     if summary["source"]["edges_per_second"] is not None:
         yield Row("edges per second", summary["source"]["edges_per_second"], "1/s")
     for key, value in summary["circuit"].items():
-        yield Row(f"capacitance {_CIRCUIT[key]}", value, "pF")
+        yield Row(f"capacitance {DRIVE_KEYS[f'circuit.{key}'].name}", value, "pF")
     yield Row("simulated time", summary["drive"]["duration"], "s")
     yield Row("remedies computed beside it", str(summary["drive"]["remedies"]))
-    for end in _ENDS:
+    for end, place in NAMES_OF_ENDS.items():
         about = summary[end]
         note = f"contacts {HOW[about['films']]}: films may be {percent(about['films_error'])} off"
-        yield Row(_NAMES[end] + ":", note=note)
+        yield Row(f"{place}:", note=note)
         for name, key, unit in _PREPARED:
             if about[key] is not None:
                 yield Row(name, about[key], unit, bound="≤" if key == "breakdown_voltage" else "")
@@ -110,8 +102,8 @@ def drive_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
         yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
     yield Row("common-mode voltage, peak", summary["source"]["peak"], "V")
     yield Row("simulated time", summary["drive"]["duration"], "s")
-    for end in _ENDS:
-        yield Row(_NAMES[end] + ":")
+    for end, place in NAMES_OF_ENDS.items():
+        yield Row(f"{place}:")
         for name, key, unit in _ROWS:
             if summary[end][key] is not None:
                 yield Row(name, summary[end][key], unit)
@@ -130,8 +122,8 @@ def ends_table(summary: Mapping[str, Any]) -> Table:
     rich.table.Table
         A row for each quantity, a column for each end, and one for the unit.
     """
-    head = [printable(summary["title"]), *_NAMES.values(), ""]
-    rows = ([name, *(_shown(summary[end][key], unit) for end in _ENDS), unit] for name, key, unit in _ROWS)
+    head = [printable(summary["title"]), *NAMES_OF_ENDS.values(), ""]
+    rows = ([name, *(_shown(summary[end][key], unit) for end in ENDS), unit] for name, key, unit in _ROWS)
     return _table(head, rows)
 
 
@@ -159,7 +151,7 @@ def _drives(summary: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]
 
 
 def _remedy(title: str, ends: Mapping[str, Any]) -> list[str]:
-    worse = max((ends[end] for end in _ENDS), key=lambda end: (end["power"], end["peak_voltage"]))
+    worse = max((ends[end] for end in ENDS), key=lambda end: (end["power"], end["peak_voltage"]))
     return [title, *(_shown(worse[key], unit) for _, key, unit in _COLUMNS)]
 
 

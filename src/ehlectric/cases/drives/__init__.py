@@ -1,1 +1,1 @@
-"""What a drive file may say: source, circuit, bearings and breakdown."""
+"""Inputs of a drive file: source, circuit, bearings and breakdown."""

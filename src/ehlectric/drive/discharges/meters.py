@@ -1,4 +1,4 @@
-"""What is measured while time goes on: histograms of voltage, time above limits, and a trace; compiled."""
+"""Measurements while time goes on: histograms of voltage, time above limits, and a trace; compiled."""
 
 from __future__ import annotations
 

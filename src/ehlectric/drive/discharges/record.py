@@ -16,7 +16,7 @@ COLUMNS = 8
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What happened in a simulated time.
+    """Record of a simulated time.
 
     Attributes
     ----------

@@ -45,7 +45,7 @@ BLOCKS = 40
 
 @dataclass(frozen=True)
 class Measuring:
-    """What is measured.
+    """Settings of a measurement.
 
     Attributes
     ----------

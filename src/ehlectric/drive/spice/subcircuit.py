@@ -281,7 +281,7 @@ def _check_arc(found: Sequence[Equivalent], arc: Arc) -> None:
 
 
 def _notes(result: BearingResult, found: Sequence[Equivalent], arc: Arc | None) -> Iterator[str]:
-    """What the circuit leaves out, or stands for."""
+    """Notes about the limits of the circuit: effects that it leaves out, and values that are bounds."""
     one, case, path = found[0], result.case, shaft_path(result.solution)
     if one.state == "ceramic":
         bound = capacitance_is_bound(result.solution)

@@ -28,7 +28,7 @@ from ehlectric.figures.bearing.pitch import (
 from ehlectric.figures.bearing.polar import film_around, load_around, new_polar
 from ehlectric.figures.bearing.speeds import breakdown_over_speed, breaks_anywhere, capacitance_over_speed
 from ehlectric.figures.names import in_formats, of_cut
-from ehlectric.figures.style import drawing_of, figure_of, name_over, new_panels, save_figure, style
+from ehlectric.figures.style import drawing_of, new_panels, save_figure, share_below, style, titled
 
 Draw = Callable[[BearingResult, Axes], Axes]
 
@@ -147,8 +147,8 @@ def figure(result: BearingResult, name: str) -> Figure:
         for draw, ax in zip(panels, axes, strict=True):
             draw(result, ax)
         if not polar:
-            _share_below(axes)
-        return _named(axes[0], title, converged=result.converged)
+            share_below(axes)
+        return titled(axes[0], title, converged=result.converged)
 
 
 def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | None = None) -> Figure:
@@ -181,7 +181,7 @@ def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | Non
     title = "\n".join(filter(None, lines))
     with style():
         ax = drawing.draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
-        return _named(ax, title, converged=all(summary["converged"] for _, summary in points))
+        return titled(ax, title, converged=all(summary["converged"] for _, summary in points))
 
 
 def save_bearing_figures(
@@ -297,19 +297,3 @@ def _lines_over_speed(result: BearingResult) -> str:
 def _stack(panels: int) -> list[Axes]:
     """Axes of panels below each other."""
     return new_panels(panels, 1, (_WIDTH, _HEIGHT * panels + _TITLE))
-
-
-def _share_below(axes: Sequence[Axes]) -> None:
-    """Remove the labels of the common axis from all stacked panels but the lowest."""
-    for ax in axes[:-1]:
-        ax.set_xlabel("")
-        ax.tick_params(labelbottom=False)
-    figure_of(axes[0]).align_ylabels(axes)
-
-
-def _named(ax: Axes, title: str, *, converged: bool) -> Figure:
-    """Figure of axes, with a title over all of its panels."""
-    text = title if converged else f"NOT CONVERGED\n{title}"
-    if text:
-        name_over(ax, text, converged=converged)
-    return figure_of(ax)

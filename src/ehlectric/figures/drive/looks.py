@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.quantity import unit_for
 from ehlectric.drive.discharges.record import FILM
+from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.style import BLUE, ORANGE
 
 # Names of both bearings in titles and legends, and their colours.
-NAMES = tuple(end.replace("non_", "non-").replace("_", " ") for end in ENDS)
+NAMES = tuple(NAMES_OF_ENDS.values())
 COLOURS = (BLUE, ORANGE)
 
 # Line of a breakdown voltage.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import discharges, findings, remedies, voltages
 from ehlectric.figures.drive.histogram import time_above, time_at_voltage
 from ehlectric.figures.names import DRIVE_FIGURE_FILES
-from ehlectric.figures.style import drawing_of, figure_of, name_over, new_panels, save_figure, style
+from ehlectric.figures.style import drawing_of, new_panels, save_figure, share_below, style, titled
 
 Draw = Callable[[DriveResult, Axes], Axes]
 
@@ -88,11 +88,8 @@ def figure(result: DriveResult, name: str) -> Figure:
             draw(result, ax)
         drawing.legend(axes)
         if drawing.shared:
-            _share_below(axes)
-        title = "\n".join(lines)
-        text = title if result.converged else f"NOT CONVERGED\n{title}"
-        name_over(axes[0], text, converged=result.converged)
-        return figure_of(axes[0])
+            share_below(axes)
+        return titled(axes[0], "\n".join(lines), converged=result.converged)
 
 
 def save_drive_figures(result: DriveResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
@@ -112,13 +109,5 @@ def save_drive_figures(result: DriveResult, folder: Path, formats: Sequence[str]
     list of Path
         Files written: those of ``drive_figures_of``.
     """
-    drawings: Mapping[str, _Drawing] = drive_figures_of(result)
-    return [file for name in drawings for file in save_figure(figure(result, name), folder / name, formats)]
-
-
-def _share_below(axes: Sequence[Axes]) -> None:
-    """Remove the labels of the common axis from all stacked panels but the lowest."""
-    for ax in axes[:-1]:
-        ax.set_xlabel("")
-        ax.tick_params(labelbottom=False)
-    figure_of(axes[0]).align_ylabels(axes)
+    names = drive_figures_of(result)
+    return [file for name in names for file in save_figure(figure(result, name), folder / name, formats)]

@@ -1,4 +1,4 @@
-"""What the lines above the numbers state: sampling interval, start, length and units."""
+"""Statements of the lines above the numbers: sampling interval, start, length and units."""
 
 from __future__ import annotations
 
