@@ -54,6 +54,9 @@ class BearingElement:
         The largest of them [m^2].
     transit : float
         Time in which oil passes the most loaded contact with the inner ring [s].
+    real_area : float
+        Real area of contact of an element that touches both rings [m^2]; 0 where it is not known, or nothing
+        touches.
     """
 
     capacitance: Array
@@ -67,6 +70,7 @@ class BearingElement:
     hertz_area: float
     largest_area: float
     transit: float
+    real_area: float = 0.0
 
     @property
     def mean_capacitance(self) -> float:
@@ -98,8 +102,8 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
     """
     solution = result.solution
     bearing, ceramic = solution.case.bearing, solution.conditions.ceramic
-    touching = duty_of(solution).contact_time_share
-    touching = touching if touching > _NEVER else 0.0
+    duty = duty_of(solution)
+    touching = duty.contact_time_share if duty.contact_time_share > _NEVER else 0.0
     if touching and bearing.contact_resistance is None:
         raise InputError(
             f"{end}.bearing.contact_resistance",
@@ -128,4 +132,5 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
         hertz_area=float(np.sum(areas)),
         largest_area=float(np.max(areas)),
         transit=2.0 * float(np.max(first.inner.values.semi_axis_x)) / solution.inner.speed,
+        real_area=(duty.real_area or 0.0) if touching else 0.0,
     )

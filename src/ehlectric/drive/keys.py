@@ -122,11 +122,29 @@ _END: Keys = {
         for name, (meaning, unit, label) in _SPREADS.items()
         for short, statistic in _STATISTICS.items()
     },
+    "contact_current": ResultKey(
+        "largest current through asperities that touch; 0 where none do",
+        "A",
+        "peak current through asperities",
+    ),
+    "real_area": ResultKey(
+        "real area of contact of an element whose asperities touch both rings, mean over the elements by how "
+        "often each does; null without `[bearing.summits]` of the bearing file, and where nothing touches",
+        "m**2",
+        "real area of contact",
+    ),
+    "real_current_density": ResultKey(
+        "contact_current over real_area; published limits are for Hertz areas",
+        "A/m**2",
+        "current density, real area",
+    ),
     "hertz_area": ResultKey(
         "dry contact areas through which a current can flow, together", "m**2", "Hertz area"
     ),
     "current_density": ResultKey(
-        "largest current over all Hertz areas; null without discharges", "A/m**2", "current density"
+        "largest current, of an arc or through asperities, over all Hertz areas; null without a current",
+        "A/m**2",
+        "current density",
     ),
     "element_current_density": ResultKey(
         "largest current over the Hertz area of the most loaded element, through which an arc flows alone",

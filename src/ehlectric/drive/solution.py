@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.discharges.record import Record
+from ehlectric.drive.discharges.record import PEAK, Record
 from ehlectric.errors import ResultWarning
 
 
@@ -43,3 +43,11 @@ class DriveSolution:
     converged: bool = True
     told: tuple[ResultWarning, ...] = ()
     bearings: tuple[BearingResult, ...] = field(default=(), compare=False)
+
+    def contact_current(self, b: int) -> float:
+        """Largest current through asperities of a bearing that touch [A]."""
+        return float(self.record.touching[b]) / self.elements[b].touch_resistance
+
+    def largest_current(self, b: int) -> float:
+        """Largest current through the films of a bearing, by an arc or through asperities [A]."""
+        return max(float(self.record.largest[b, PEAK]), self.contact_current(b))

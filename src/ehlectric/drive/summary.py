@@ -76,7 +76,7 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
             for limit, time in zip(record.limits, record.above[b], strict=True)
         },
         **_events(record, b, edges_per_second(case)),
-        **_densities(record, one, b),
+        **_densities(solution, b),
     }
 
 
@@ -146,10 +146,14 @@ def _spread(name: str, values: np.ndarray, mean: float, largest: float) -> dict[
     return {f"{name}_{key}": getattr(one, key) for key in ("mean", "median", "high", "largest")}
 
 
-def _densities(record: Record, one: BearingElement, b: int) -> dict[str, Any]:
-    """Current densities of the largest current of a film."""
-    peak = float(record.largest[b, PEAK])
+def _densities(solution: DriveSolution, b: int) -> dict[str, Any]:
+    """Largest currents of a film, and their current densities."""
+    one = solution.elements[b]
+    peak, through = solution.largest_current(b), solution.contact_current(b)
     return {
+        "contact_current": through,
+        "real_area": one.real_area or None,
+        "real_current_density": through / one.real_area if through and one.real_area else None,
         "hertz_area": one.hertz_area,
         "current_density": peak / one.hertz_area if peak and one.hertz_area else None,
         "element_current_density": peak / one.largest_area if peak and one.largest_area else None,

@@ -10,6 +10,7 @@ import numpy as np
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount
+from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.errors import ResultWarning
 
@@ -38,6 +39,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     yield from _of_threshold(solution)
     yield from _of_time(solution)
     yield from _of_arcs(solution)
+    yield from _of_currents(solution)
 
 
 def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[ResultWarning]:
@@ -97,4 +99,17 @@ def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
                 "arc-burns-on",
                 f"an arc burns in {end} for {100.0 * share:.3g} % of the time: the source feeds it above "
                 "breakdown.extinction_current or extinction_voltage, so that few discharges are counted",
+            )
+
+
+def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Warning of largest currents whose density is above published limits."""
+    low, high = (1e-6 * CURRENT_DENSITY_LIMITS[k] for k in (0, -1))
+    for b, (end, one) in enumerate(zip(ENDS, solution.elements, strict=True)):
+        density = solution.largest_current(b) / one.hertz_area if one.hertz_area else 0.0
+        if density > CURRENT_DENSITY_LIMITS[0]:
+            yield ResultWarning(
+                "current-density-high",
+                f"{end}: the apparent current density is {1e-6 * density:.3g} A/mm², the largest current over "
+                f"the Hertz areas; published limits for bearings are {low:g} to {high:g} A/mm²",
             )

@@ -37,7 +37,10 @@ _ROWS = (
     ("peak current of a discharge, mean", "peak_current_mean", "mA"),
     ("  largest", "peak_current_largest", "mA"),
     ("power of the discharges", "power", "µW"),
-    ("current density, one element", "element_current_density", "A/mm²"),
+    ("peak current through asperities", "contact_current", "mA"),
+    ("current density, all elements", "current_density", "A/mm²"),
+    ("  one element", "element_current_density", "A/mm²"),
+    ("  real area of contact", "real_current_density", "A/mm²"),
 )
 
 # Rows of a bearing before the simulation.

@@ -10,10 +10,20 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.solution import BearingSolution, RingState, lubrication
 from ehlectric.cases.bearings.bearing import ROLLERS
 from ehlectric.formulas.asperities.integrals import LOWEST_SEPARATION, separation_of_gap
-from ehlectric.formulas.asperities.intermittency import bearing_time_share, contact_time_share, expected_spots
+from ehlectric.formulas.asperities.intermittency import (
+    area_while_touching,
+    bearing_time_share,
+    contact_time_share,
+    expected_spots,
+)
 from ehlectric.formulas.asperities.shares import LOAD_SHARE, contact_probability, johnson_end, load_shares
 from ehlectric.formulas.asperities.spectrum import SpectralMoments
-from ehlectric.formulas.asperities.statistical import Summits, greenwood_williamson, summit_separation
+from ehlectric.formulas.asperities.statistical import (
+    AsperityContact,
+    Summits,
+    greenwood_williamson,
+    summit_separation,
+)
 
 # Law of ``LOAD_SHARE`` whose asperity load share is given; the others are its spread. It is one of the two
 # that are models of a load share at any lambda: Clarke's is a share of time, Johnson's ends near lambda 2.
@@ -44,6 +54,8 @@ class RingDuty:
         Expected number of simultaneous spots in the Hertz area; None without summits.
     contact_time_share : ndarray, shape (n,)
         Share of time with metallic contact: from the expected spots, or by Clarke's fit without summits.
+    real_area : ndarray, shape (n,), or None
+        Mean area of the spots together, while there are any [m^2]; None without summits.
     """
 
     central_lambda_ratio: Array
@@ -53,6 +65,7 @@ class RingDuty:
     contact_probability: Array
     expected_spots: Array | None
     contact_time_share: Array
+    real_area: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +99,22 @@ class BearingDuty:
     def contact_time_share(self) -> float:
         """Share of time in which the bearing conducts from shaft to housing by metallic contact."""
         return 0.0 if self.insulated else self.touching_time_share
+
+    @property
+    def real_area(self) -> float | None:
+        """Real area of contact of an element that touches both rings [m^2]; None where nothing says it.
+
+        The smaller one of its two contacts, mean over elements and positions by how often each touches both
+        rings. None without summits, and where nothing touches.
+        """
+        weights = areas = 0.0
+        for inner, outer in self.rings:
+            if inner.real_area is None or outer.real_area is None:
+                return None
+            weight = inner.contact_time_share * outer.contact_time_share
+            weights += float(np.sum(weight))
+            areas += float(np.sum(weight * np.minimum(inner.real_area, outer.real_area)))
+        return areas / weights if weights else None
 
 
 def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDuty:
@@ -168,12 +197,14 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
     ratio = film / bearing.composite_rq
     shares, probability = load_shares(ratio), contact_probability(ratio)
     low = np.min([_in_range(name, share, ratio) for name, share in shares.items()], axis=0)
-    spots, time_share = None, probability
+    spots, real, time_share = None, None, probability
     if bearing.summits is not None:
         factor = 4.0 if bearing.kind == ROLLERS else np.pi
         area = factor * ring.values.semi_axis_x[loaded] * ring.values.semi_axis_y[loaded]
-        spots = whole(expected_spots(_spots_per_area(solution, film), area))
-        time_share = contact_time_share(spots[loaded])
+        touching = _touching(solution, film)
+        number = expected_spots(touching.spots_per_area, area)
+        time_share = contact_time_share(number)
+        spots, real = whole(number), whole(area_while_touching(touching, area))
     return RingDuty(
         central_lambda_ratio=whole(ratio, np.inf),
         asperity_share=whole(shares[DEFAULT_SHARE]),
@@ -182,6 +213,7 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
         contact_probability=whole(probability),
         expected_spots=spots,
         contact_time_share=whole(time_share),
+        real_area=real,
     )
 
 
@@ -191,8 +223,8 @@ def _in_range(name: str, share: Array, ratio: Array) -> Array:
     return np.where(ratio < johnson_end(), share, np.inf) if name == "johnson" else share
 
 
-def _spots_per_area(solution: BearingSolution, film: Array) -> Array:
-    """Spots per area [1/m^2] of contacts with a central film [m], after Greenwood and Williamson."""
+def _touching(solution: BearingSolution, film: Array) -> AsperityContact:
+    """Asperities of contacts with a central film [m], after Greenwood and Williamson."""
     bearing = solution.case.bearing
     given, rq = bearing.summits, bearing.composite_rq
     assert given is not None
@@ -205,4 +237,4 @@ def _spots_per_area(solution: BearingSolution, film: Array) -> Array:
     summits = Summits(density=given.density, radius=given.radius, height_deviation=deviation, highest=highest)
     # Summits of nearly one height all touch from a separation on that is below the range of the integrals.
     level = np.maximum(separation, LOWEST_SEPARATION * deviation)
-    return greenwood_williamson(level, summits, solution.conditions.modulus).spots_per_area
+    return greenwood_williamson(level, summits, solution.conditions.modulus)

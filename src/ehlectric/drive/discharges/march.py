@@ -158,6 +158,9 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
             move(piece, end)
             last = (voltage(piece, 0), voltage(piece, 1))
         measure(meters, now + t, end - t, source.level + source.slope * t, first, last)
+        for b in range(2):
+            if state.phase[b] == TOUCHING:
+                meters.touching[b] = max(meters.touching[b], abs(first[b]), abs(last[b]))
         if burns:
             _burn(piece, films, state, t, end - t, first)
         t, first = end, last

@@ -26,6 +26,8 @@ class Meters(NamedTuple):
         Time at which the absolute voltage is above each limit [s].
     peak : ndarray, shape (2,)
         Largest absolute voltage [V].
+    touching : ndarray, shape (2,)
+        Largest absolute voltage while asperities touch [V].
     square : ndarray, shape (2,)
         Integral of the squared voltage over time [V^2 s].
     trace : ndarray, shape (m, 4)
@@ -44,6 +46,7 @@ class Meters(NamedTuple):
     limits: Array
     above: Array
     peak: Array
+    touching: Array
     square: Array
     trace: Array
     traced: Array

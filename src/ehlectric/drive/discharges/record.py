@@ -39,6 +39,8 @@ class Record:
         Time above each limit [s].
     peak, rms : ndarray, shape (2,)
         Largest and root mean square voltage across each film [V].
+    touching : ndarray, shape (2,)
+        Largest voltage across each film while its asperities touch [V].
     burning : ndarray, shape (2,)
         Time for which an arc burnt in each film, with arcs that burnt before and after [s].
     trace : ndarray, shape (m, 4)
@@ -57,5 +59,6 @@ class Record:
     above: Array
     peak: Array
     rms: Array
+    touching: Array
     burning: Array
     trace: Array

@@ -51,7 +51,11 @@ ELEMENTS = {
     "hertz_area": ("not negative", "m**2"),
     "largest_area": ("not negative", "m**2"),
     "transit": ("positive", "s"),
+    "real_area": ("not negative", "m**2"),
 }
+
+# Variables that files of earlier versions lack; their values are zero there.
+LATER = ("element_real_area", "touching_voltage")
 
 # Numbers of what lies beside the films; a breakdown voltage that a coating does not have is NaN.
 PATHS = {
@@ -69,7 +73,10 @@ COUNTS = {"event": "event_count", "sample": "sample_count", "position": "positio
 
 RULES = {
     **{name: Rule(("event",), values, unit, needed=False) for name, (values, unit) in EVENTS.items()},
-    **{f"element_{name}": Rule(_BOTH, values, unit) for name, (values, unit) in ELEMENTS.items()},
+    **{
+        f"element_{name}": Rule(_BOTH, values, unit, needed=f"element_{name}" not in LATER)
+        for name, (values, unit) in ELEMENTS.items()
+    },
     **{f"path_{name}": Rule(_BOTH, values, unit) for name, (values, unit) in PATHS.items()},
     "position_capacitance": Rule(("position",), "positive", "F"),
     "position_breakdown": Rule(("position",), "positive or infinite", "V"),
@@ -93,6 +100,7 @@ RULES = {
     "peak_voltage": Rule(_BOTH, "not negative", "V"),
     "rms_voltage": Rule(_BOTH, "not negative", "V"),
     "burning_time": Rule(_BOTH, "not negative", "s"),
+    "touching_voltage": Rule(_BOTH, "not negative", "V", needed=False),
 }
 
 

@@ -14,7 +14,7 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import COLUMNS, FILM, PLACE, Record
 from ehlectric.drive.solution import DriveSolution
-from ehlectric.drive.storage.content import COUNTS, ELEMENTS, END, EVENTS, PATHS, RULES, SAMPLES, check
+from ehlectric.drive.storage.content import COUNTS, ELEMENTS, END, EVENTS, LATER, PATHS, RULES, SAMPLES, check
 from ehlectric.runtime.checks.schema import UnfitError, case_of
 from ehlectric.runtime.stored_warnings import TEXTS, texts_and_codes, warnings_of
 
@@ -77,6 +77,7 @@ def dataset_of(solution: DriveSolution, remedies: Remedies, seconds: float, vers
         "peak_voltage": [one.peak for one in records],
         "rms_voltage": [one.rms for one in records],
         "burning_time": [one.burning for one in records],
+        "touching_voltage": [one.touching for one in records],
     }
     for name in ELEMENTS:
         values[f"element_{name}"] = [[getattr(one, name) for one in pair] for pair in elements]
@@ -137,7 +138,8 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
         raise UnfitError("it has another format")
     case = case_of(attributes, DriveCase.from_dict)
     check(dataset, 1 + len(case.remedies))
-    arrays = {str(name): np.asarray(dataset[name].values) for name in dataset.variables}
+    arrays = dict.fromkeys(LATER, np.zeros((1 + len(case.remedies), 2)))
+    arrays |= {str(name): np.asarray(dataset[name].values) for name in dataset.variables}
     cases = [case, *case.variants()]
     told = [warnings_of(one) for one in json.loads(attributes[TEXTS])]
     solutions = [
@@ -195,6 +197,7 @@ def _record_of(arrays: dict[str, np.ndarray], k: int) -> Record:
         peak=arrays["peak_voltage"][k],
         rms=arrays["rms_voltage"][k],
         burning=arrays["burning_time"][k],
+        touching=arrays["touching_voltage"][k],
         trace=_columns(arrays, SAMPLES, 4, _part(arrays, "sample", k)),
     )
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
+from ehlectric.formulas.asperities.statistical import AsperityContact
 
 
 def expected_spots(spots_per_area: ArrayLike, area: ArrayLike) -> Array:
@@ -63,6 +64,41 @@ def contact_time_share(expected: ArrayLike) -> Array:
         raise ValueError("the expected number of spots is at least 0")
     share: Array = -np.expm1(-number)
     return share
+
+
+def area_while_touching(contact: AsperityContact, area: ArrayLike) -> Array:
+    """Mean real area of contact while there is at least one spot, A f/(1 - exp(-N)).
+
+    With the real area fraction f and the number N = n A of spots that are expected in the nominal area A. Of
+    few expected spots it is the mean area of one, f/n; of many it is A f.
+
+    Parameters
+    ----------
+    contact : AsperityContact
+        Real area fraction and spots per area, shape (...).
+    area : array_like, shape (...)
+        Nominal area, such as that of the Hertz ellipse [m^2], >= 0.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Real area [m^2]; 0 where no spot is expected.
+
+    Examples
+    --------
+    Spots of 1e-13 m^2 each, of which a millionth, and of which a hundred are expected:
+
+    >>> from ehlectric.formulas.asperities.statistical import AsperityContact
+    >>> density = np.array([1e3, 1e11])
+    >>> spots = AsperityContact(pressure=np.zeros(2), area_fraction=1e-13 * density, spots_per_area=density)
+    >>> area_while_touching(spots, 1e-9).round(18).tolist()
+    [1e-13, 1e-11]
+    """
+    nominal = np.asarray(area, dtype=float)
+    share = contact_time_share(expected_spots(contact.spots_per_area, nominal))
+    real = contact.area_fraction * nominal
+    found: Array = np.divide(real, share, out=np.zeros(np.broadcast(real, share).shape), where=share > 0.0)
+    return found
 
 
 def bearing_time_share(inner: ArrayLike, outer: ArrayLike, axis: int = -1) -> Array:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.stats import norm
 
 from ehlectric.bearing.intermittency.duty import CAPACITIVE, RESISTIVE, duty_of, regime_of
 from ehlectric.bearing.solver import solve_bearing
@@ -217,3 +218,40 @@ def test_summits_that_touch_a_full_film_leave_no_green_verdict():
     assert "partial-film" not in plain.summary()["warning_codes"]
     assert (plain.verdict.level, touched.verdict.level) == ("green", "yellow")
     assert "An element touches both rings" in touched.verdict.text
+
+
+def test_real_area_of_elements_that_touch():
+    """Hertz area times pi n beta Rq F_1(l), while at least one spot is there, of the smaller contact."""
+    solution = solved(bearing__composite_rq="0.1 um", **SUMMITS)
+    duty, weights, areas = duty_of(solution), [], []
+    for position, rings in zip(solution.positions, duty.rings, strict=True):
+        pairs, loaded = [], position.inner.solved & position.outer.solved
+        for ring, found in zip(position.rings, rings, strict=True):
+            hertz = math.pi * (ring.values.semi_axis_x * ring.values.semi_axis_y)[loaded]
+            spots = found.expected_spots[loaded]
+            level = norm.isf(spots / (2e9 * hertz))
+            overlap = norm.pdf(level) - level * norm.sf(level)
+            share = -np.expm1(-spots)
+            pairs.append((share, hertz * math.pi * 2e9 * 50e-6 * 1e-7 * overlap / share))
+        (inner, first), (outer, second) = pairs
+        weights.extend(inner * outer)
+        areas.extend(np.minimum(first, second))
+    expected = np.average(areas, weights=weights)
+    assert duty.real_area == pytest.approx(expected, rel=1e-6, abs=0.0)
+    assert 0.0 < duty.real_area < 0.1 * np.max(hertz)
+
+
+def test_rare_spots_are_met_one_at_a_time():
+    """Far apart, spots have the mean area pi beta Rq F_1/F_0, whatever their number."""
+    few, fewer = (
+        duty_of(
+            solved(
+                bearing__composite_rq="0.02 um",
+                bearing__summits={"density": density, "radius": "50 um"},
+            )
+        )
+        for density in ("1e7 1/m^2", "1e6 1/m^2")
+    )
+    assert 0.0 < few.rings[0][0].expected_spots[0] < 2e-3
+    assert few.real_area == pytest.approx(fewer.real_area, rel=1e-3, abs=0.0)
+    assert duty_of(solved()).real_area is None

@@ -247,3 +247,13 @@ def test_touching_films_conduct_for_their_share_of_time():
     record = march(circuit, bearings, arc(), square_wave, seed=1, limits=(0.5,))
     # While it insulates, the voltage swings between zero, at which contact left it, and twice the amplitude.
     assert record.above[0, 0] / record.duration == pytest.approx(0.5 * (1.0 - 0.3), abs=0.03)
+
+
+def test_largest_voltage_while_asperities_touch():
+    """Without edges it is the voltage at which they close: that of the divider, if nothing else happens."""
+    circuit = motor()
+    bearings = [element(touching=0.3, touch_resistance=1.0, transit=1e-5), element()]
+    record = march(circuit, bearings, arc(), level(100.0, 1e-3, 10), seed=1)
+    beside = circuit.winding_rotor_capacitance + circuit.rotor_frame_capacitance + 600e-12
+    divider = 100.0 * circuit.winding_rotor_capacitance / beside
+    assert record.touching == pytest.approx([divider, 0.0], rel=1e-9)
