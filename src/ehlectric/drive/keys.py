@@ -29,6 +29,16 @@ _ABOUT: Keys = {
 _SOURCE: Keys = {
     "peak": ResultKey("largest absolute common-mode voltage, without ringing", "V", "common-mode voltage"),
     "edges_per_second": ResultKey("steps of the common-mode voltage", "1/s", "edges of the source"),
+    "fundamental_frequency": ResultKey(
+        "frequency of the fundamental at this speed; null for a measured source",
+        "Hz",
+        "fundamental frequency",
+    ),
+    "modulation_index": ResultKey(
+        "modulation index at this speed; null for six-step modulation and a measured source",
+        "",
+        "modulation index",
+    ),
 }
 _CIRCUIT: Keys = {
     "winding_rotor_capacitance": ResultKey(

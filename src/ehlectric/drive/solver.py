@@ -116,7 +116,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
         bearing_element(results[1], case.breakdown, ENDS[1]),
     )
     _check_extinction(case, elements)
-    films, ringing = films_of(elements, case.breakdown), ringing_of(case.source)
+    films, ringing = films_of(elements, case.breakdown), ringing_of(case.running_source)
     systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
     modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
     waveform, told = _measured(case)
@@ -207,7 +207,7 @@ def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> 
 
 def _times(case: DriveCase, waveform: Waveform | None) -> tuple[float, float, float]:
     """Largest voltage of the source [V], time in which the circuit settles, and duration [s]."""
-    source = case.source
+    source = case.running_source
     if waveform is not None:
         return float(np.max(np.abs(waveform.values))), 0.0, case.drive.duration or waveform.duration
     assert source.dc_link is not None and source.fundamental_frequency is not None
@@ -222,7 +222,8 @@ def _trace(ready: PreparedDrive) -> float:
     """Time that the trace covers [s]."""
     if ready.waveform is not None:
         return _SAMPLES * ready.waveform.step
-    carrier = ready.case.source.switching_frequency or ready.case.source.fundamental_frequency
+    source = ready.case.running_source
+    carrier = source.switching_frequency or source.fundamental_frequency
     assert carrier is not None
     return _TRACED / carrier
 
@@ -235,7 +236,7 @@ def _highest(divider: tuple[float, float], highest: float, ringing: Ringing | No
 
 def _chunks(ready: PreparedDrive) -> Iterator[Segments]:
     """Pieces of the source."""
-    source = ready.case.source
+    source = ready.case.running_source
     if ready.waveform is not None:
         return sampled(ready.waveform, ready.duration)
     assert source.rise_time is not None

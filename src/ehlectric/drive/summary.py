@@ -30,10 +30,10 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
     """Summary of a drive without its head and its remedies: its source, its circuit and both bearings."""
     case, record = solution.case, solution.record
     ends = {end: end_summary(solution, b) for b, end in enumerate(ENDS)}
-    fundamental, bearing = case.source.fundamental_frequency, case.bearings[0].bearing
+    fundamental, bearing = case.running_source.fundamental_frequency, case.bearings[0].bearing
     summary: dict[str, Any] = plain(
         {
-            "source": {"peak": solution.highest_source, "edges_per_second": edges_per_second(case)},
+            "source": _source(case, solution.highest_source),
             "circuit": case.circuit.capacitances,
             "drive": {
                 "speed": bearing.inner_speed,
@@ -52,9 +52,20 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
     return summary
 
 
+def _source(case: DriveCase, highest: float) -> dict[str, Any]:
+    """Source at the speed of the rotor."""
+    running = case.running_source
+    return {
+        "peak": highest,
+        "edges_per_second": edges_per_second(case),
+        "fundamental_frequency": running.fundamental_frequency,
+        "modulation_index": running.modulation_index,
+    }
+
+
 def edges_per_second(case: DriveCase) -> float | None:
     """Steps of the common-mode voltage in a second [1/s]; None for a measured source."""
-    source = case.source
+    source = case.running_source
     if source.measured or source.fundamental_frequency is None:
         return None
     return 6.0 * (source.switching_frequency or source.fundamental_frequency)
@@ -86,7 +97,7 @@ def prepared_summary(ready: PreparedDrive) -> dict[str, Any]:
     bearing = ready.bearings[0].case.bearing
     summary: dict[str, Any] = plain(
         {
-            "source": {"peak": ready.highest_source, "edges_per_second": edges_per_second(case)},
+            "source": _source(case, ready.highest_source),
             "circuit": case.circuit.capacitances,
             "drive": {
                 "speed": bearing.inner_speed,

@@ -110,6 +110,6 @@ def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
         if density > CURRENT_DENSITY_LIMITS[0]:
             yield ResultWarning(
                 "current-density-high",
-                f"{end}: the apparent current density is {1e-6 * density:.3g} A/mm², the largest current over "
-                f"the Hertz areas; published limits for bearings are {low:g} to {high:g} A/mm²",
+                f"{end}: the apparent current density is {1e-6 * density:.3g} A/mm², the largest current "
+                f"over the Hertz areas; published limits for bearings are {low:g} to {high:g} A/mm²",
             )

@@ -75,6 +75,7 @@ def prepared_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     yield Row("common-mode voltage, peak", summary["source"]["peak"], "V")
     if summary["source"]["edges_per_second"] is not None:
         yield Row("edges per second", summary["source"]["edges_per_second"], "1/s")
+        yield Row("fundamental frequency", summary["source"]["fundamental_frequency"], "Hz")
     for key, value in summary["circuit"].items():
         yield Row(f"capacitance {DRIVE_KEYS[f'circuit.{key}'].name}", value, "pF")
     yield Row("simulated time", summary["drive"]["duration"], "s")

@@ -87,12 +87,61 @@ def test_changes_of_one_end_and_of_both(file):
         ({"circuit.winding_rotor_capacitance": "50 V"}, "circuit.winding_rotor_capacitance"),
         ({"drive_end.bearing.radial_lode": "1 N"}, "drive_end.bearing.radial_lode"),
         ({"bearings": 3}, "bearings"),
+        ({"source.pole_pairs": 0}, "source.pole_pairs"),
+        ({"source.pole_pairs": 1000}, "source.switching_frequency"),
+        ({"source.base_frequency": "0 Hz"}, "source.base_frequency"),
     ],
 )
 def test_wrong_values_are_refused_by_key(file, changes, key):
     with pytest.raises(InputError) as error:
         DriveCase.from_toml(file).replace(changes)
     assert error.value.key == key
+
+
+@pytest.mark.parametrize(
+    ("speed", "base", "frequency", "index"),
+    [
+        ("1500 rpm", None, 50.0, 0.8),
+        ("3000 rpm", None, 100.0, 0.8),
+        ("750 rpm", "100 Hz", 25.0, 0.2),
+        ("3000 rpm", "100 Hz", 100.0, 0.8),
+        ("6000 rpm", "100 Hz", 200.0, 0.8),
+    ],
+)
+def test_frequency_and_index_follow_the_speed(file, speed, base, frequency, index):
+    """Two pairs of poles: two periods in a turn of the rotor; a constant flux up to the base frequency."""
+    changes = {"source.pole_pairs": 2, "drive.speed": speed}
+    case = DriveCase.from_toml(file).replace(changes | ({"source.base_frequency": base} if base else {}))
+    assert case.source.fundamental_frequency is None
+    running = case.running_source
+    assert running.fundamental_frequency == pytest.approx(frequency, rel=1e-12)
+    assert running.modulation_index == pytest.approx(index, rel=1e-12)
+    assert (
+        running
+        == case.replace({"source.fundamental_frequency": running.fundamental_frequency}).running_source
+    )
+    assert DriveCase.from_dict(case.to_dict()) == case
+
+
+def test_without_a_speed_of_the_drive_the_source_follows_that_of_the_drive_end(file):
+    file.write_text(FILE.replace('speed = "1500 rpm"\n', ""))
+    case = DriveCase.from_toml(file).replace(
+        {"source.pole_pairs": 3, "drive_end.bearing.inner_speed": "600 rpm"}
+    )
+    assert case.running_source.fundamental_frequency == pytest.approx(30.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("", r"fundamental_frequency: missing; .*pole_pairs"),
+        ('fundamental_frequency = "50 Hz"\npole_pairs = 2', r"pole_pairs: is given beside fundamental_freq"),
+    ],
+)
+def test_a_source_has_one_frequency(file, line, message):
+    file.write_text(FILE.replace('fundamental_frequency = "50 Hz"', line))
+    with pytest.raises(InputError, match=message):
+        DriveCase.from_toml(file)
 
 
 def test_a_missing_bearing_file_is_told_with_its_table(file):

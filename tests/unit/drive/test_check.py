@@ -28,6 +28,21 @@ def test_numbers_before_the_simulation_are_those_of_the_simulation(drive):
     assert names.count("breakdown voltage, weakest position") == 2
 
 
+def test_a_source_that_follows_the_speed_is_the_same_source(drive):
+    """At the speed at which the frequency and the index are those of the example."""
+    quick = drive.replace({"drive.contacts": "formula", "remedies": []})
+    follows = quick.replace(
+        {"source.pole_pairs": 4, "source.base_frequency": "250 Hz", "source.modulation_index": 1.125}
+    )
+    own = {
+        f"source.{key}": getattr(follows.running_source, key)
+        for key in ("fundamental_frequency", "modulation_index")
+    }
+    assert list(own.values()) == pytest.approx([200.0, 0.9], rel=1e-12)
+    given = quick.replace(own)
+    assert drive_summary(solve(follows)) == drive_summary(solve(given))
+
+
 def test_contacts_that_would_be_solved_are_from_the_atlas(drive):
     assert check(drive.replace({"drive.contacts": "solved"})).summary["drive_end"]["films"] == "atlas"
 

@@ -30,6 +30,8 @@ BOTH = "bearings"
 _ALTERNATIVES = {
     "breakdown.extinction_current": "breakdown.extinction_voltage",
     "breakdown.extinction_voltage": "breakdown.extinction_current",
+    "source.fundamental_frequency": "source.pole_pairs",
+    "source.pole_pairs": "source.fundamental_frequency",
 }
 
 
@@ -114,6 +116,20 @@ class DriveCase(Tabled, Table):
             one.replace(changes) if changes else one for one in (self.drive_end, self.non_drive_end)
         )
         return first, second
+
+    @property
+    def running_source(self) -> Source:
+        """Source at the speed of the rotor, with the frequency and the modulation index that follow it."""
+        speed = self.drive.speed
+        return self.source.at_speed(self.drive_end.bearing.inner_speed if speed is None else speed)
+
+    @model_validator(mode="after")
+    def _check_source(self) -> Self:
+        try:
+            self.running_source  # noqa: B018
+        except InputError as error:
+            raise error.under("source") from None
+        return self
 
     def variants(self) -> tuple[Self, ...]:
         """Changed copies of the drive, one for each of its remedies.

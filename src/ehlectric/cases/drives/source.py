@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
@@ -19,7 +20,9 @@ DESCRIBED = (
     "modulation",
     "switching_frequency",
     "fundamental_frequency",
+    "pole_pairs",
     "modulation_index",
+    "base_frequency",
     "rise_time",
     "ringing_frequency",
     "overshoot",
@@ -28,8 +31,9 @@ DESCRIBED = (
 MEASURED = ("file", "column", "time_column", "step", "time_unit", "value_unit", "scale", "resample")
 
 # What a described source needs; six-step operation switches at the fundamental frequency and has no index.
-_NEEDED = ("dc_link", "modulation", "fundamental_frequency", "rise_time")
+_NEEDED = ("dc_link", "modulation", "rise_time")
 _NEEDED_BY_CARRIER = ("switching_frequency", "modulation_index")
+_ONLY_BY_CARRIER = (*_NEEDED_BY_CARRIER, "base_frequency")
 _RINGING = ("ringing_frequency", "overshoot", "ringing_time")
 
 
@@ -42,9 +46,11 @@ class Source(Table):
     modulation: Literal["sinusoidal", "space-vector", "six-step"] | None = None
     switching_frequency: Annotated[float, _Hertz] | None = None
     fundamental_frequency: Annotated[float, _Hertz] | None = None
+    pole_pairs: Annotated[int, Count(least=1, most=1000, reason="of the machine")] | None = None
     modulation_index: (
         Annotated[float, Quantity("", least=0.0, most=1.5, reason="1 without overmodulation")] | None
     ) = None
+    base_frequency: Annotated[float, _Hertz] | None = None
     rise_time: Annotated[float, Quantity("s", least=0.0, most=1.0, reason="of an edge")] | None = None
     ringing_frequency: Annotated[float, _Hertz] | None = None
     overshoot: (
@@ -65,6 +71,37 @@ class Source(Table):
         """Whether the source is a file."""
         return self.file is not None
 
+    def at_speed(self, speed: float) -> Self:
+        """Source at a speed of the rotor: its frequency and its modulation index follow the speed.
+
+        With ``pole_pairs`` p the frequency is p n of a synchronous machine, without the slip of an induction
+        machine. With ``base_frequency`` the index is ``modulation_index`` from this frequency on, and below
+        it falls in proportion to the frequency, for a constant flux.
+
+        Parameters
+        ----------
+        speed : float
+            Speed of the rotor [rad/s].
+
+        Returns
+        -------
+        Source
+            Source with its frequency and its index, and without those two keys.
+
+        Raises
+        ------
+        InputError
+            If the frequency or an edge does not fit the carrier.
+        """
+        frequency, index, base = self.fundamental_frequency, self.modulation_index, self.base_frequency
+        if self.pole_pairs is not None:
+            frequency = self.pole_pairs * abs(speed) / (2.0 * math.pi)
+        if base is not None and frequency is not None and index is not None:
+            index *= min(frequency / base, 1.0)
+        own = {"fundamental_frequency": frequency, "modulation_index": index}
+        table = self.model_dump(exclude_none=True, exclude={"pole_pairs", "base_frequency"}) | own
+        return self.from_dict({key: value for key, value in table.items() if value is not None})
+
     @model_validator(mode="after")
     def _check(self) -> Self:
         given = [key for key in DESCRIBED if getattr(self, key) is not None]
@@ -77,16 +114,25 @@ class Source(Table):
         other = [key for key in MEASURED if key != "scale" and getattr(self, key) is not None]
         if other:
             raise InputError.worded("file", f"missing; {other[0]} belongs to a measured source")
+        self._check_modulation()
+        self._check_edges()
+        return self
+
+    def _check_modulation(self) -> None:
+        """Check that a described source is complete, and has one frequency."""
         carrier = () if self.modulation == "six-step" else _NEEDED_BY_CARRIER
         for key in (*_NEEDED, *carrier):
             if getattr(self, key) is None:
                 raise InputError.missing(key, "a value; or file, a measured waveform")
+        if self.fundamental_frequency is None and self.pole_pairs is None:
+            takes = "a value; or pole_pairs, with which it follows the speed; or file, a measured waveform"
+            raise InputError.missing("fundamental_frequency", takes)
+        if self.fundamental_frequency is not None and self.pole_pairs is not None:
+            raise InputError.worded("pole_pairs", "is given beside fundamental_frequency; give one of them")
         if self.modulation == "six-step":
-            for key in _NEEDED_BY_CARRIER:
+            for key in _ONLY_BY_CARRIER:
                 if getattr(self, key) is not None:
                     raise InputError.worded(key, "is not used by six-step modulation")
-        self._check_edges()
-        return self
 
     def _check_edges(self) -> None:
         """Check the ringing, and times against the period of the carrier."""

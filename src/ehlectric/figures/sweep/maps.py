@@ -44,6 +44,9 @@ from ehlectric.sweep.slices import Slice, take
 # Hatches where the film breaks down, and where contacts open and close.
 _BREAKS, _OPENING = "////", "xxx"
 
+# Part of the step between two levels up to which values above the lower one are shown as equal to it.
+_REST = 0.01
+
 # Colours of values on both sides of zero.
 DIVERGING = colormaps["RdBu_r"]
 
@@ -185,6 +188,23 @@ def _rounded(values: Array) -> Array:
     return np.asarray(np.rint(values * factors) / factors)
 
 
+def _without_rest(levels: Array, values: Array) -> Array:
+    """Levels without a last one for values that are hardly above the last but one.
+
+    A plateau that scatters around a level, as that of events at nearly every edge of a source, would have
+    lines through it that mean nothing.
+
+    Examples
+    --------
+    >>> _without_rest(np.array([55e3, 60e3, 65e3]), np.array([56e3, 60005.0]))
+    array([55000., 60000.])
+    """
+    if levels.size < 3:
+        return levels
+    over = float(np.nanmax(values)) - levels[-2]
+    return levels[:-1] if over < _REST * (levels[-1] - levels[-2]) else levels
+
+
 def _fill(between: _Between, ax: Axes) -> list[Artist]:
     """Colour the map between round levels, and add the colour bar and, of a discharge, the breakdown line.
 
@@ -196,19 +216,21 @@ def _fill(between: _Between, ax: Axes) -> list[Artist]:
     label, scale = labelled(between.results, selection.value, selection.values)
     values = scale.of(selection.values)
     log = is_wide(values)
-    levels = levels_of(values, log=log)
+    levels = _without_rest(levels_of(values, log=log), values)
     norm, colours = colours_of(levels, log=log)
     nodes, whole = between.values()
     handles = _intermittent(between, whole, ax)
     if np.any(whole):
-        drawn = between.triangles(whole), _rounded(scale.of(nodes))
+        drawn = between.triangles(whole), np.clip(_rounded(scale.of(nodes)), levels[0], levels[-1])
         # A value equal to the last level, such as a probability of 1, would be outside the colour scale.
         bounds = [*levels[:-1], levels[-1] + 1e-9 * (levels[-1] - levels[0])]
         ax.tricontourf(*drawn, levels=bounds, norm=norm, cmap=colours)
-        lines = ax.tricontour(*drawn, levels=levels, colors="white", linewidths=0.4, linestyles="-")
+        # Nothing is beyond the first and the last level: a line there would follow the edge of a plateau.
+        inner = levels[1:-1] if levels.size > 2 else levels
+        lines = ax.tricontour(*drawn, levels=inner, colors="white", linewidths=0.4, linestyles="-")
         entries, taken = _breakdown(between, ax)
         handles += entries
-        label_lines(ax, lines, taken, [f"{level:.6g}" for level in levels], **ON_COLOURS)
+        label_lines(ax, lines, taken, [f"{level:.6g}" for level in inner], **ON_COLOURS)
     alone = between.surface.alone(selection.values)
     if np.any(alone):
         at = between.scales[0].of(selection.along), between.scales[1].of(np.array(selection.across))
