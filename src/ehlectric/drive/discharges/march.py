@@ -14,6 +14,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import compiled, inner
+from ehlectric.drive.discharges.course import Course, course_at, course_of, unfold
 from ehlectric.drive.discharges.meters import Meters, measure
 from ehlectric.drive.discharges.pieces import (
     FALLS,
@@ -89,21 +90,20 @@ def _burning_panel(piece: Complex, t: float, left: float) -> float:
 
 
 @inner
-def _burn(piece: Complex, films: Films, state: State, t: float, h: float, first: tuple[float, float]) -> None:
+def _burn(course: Course, films: Films, state: State, t: float, h: float, first: tuple[float, float]) -> None:
     """Add charge, energy and largest current of the arcs between t and t + h to their events."""
     for b in range(2):
-        if burns_in(state, b):
-            state.event[b, PEAK] = max(state.event[b, PEAK], abs(first[b]) / films.arc[b])
-    for k in range(POINTS.size):
-        at = t + h * POINTS[k]
-        move(piece, at)
-        for b in range(2):
-            if burns_in(state, b):
-                v = voltage(piece, b)
-                current = v / films.arc[b]
-                state.event[b, CHARGE] += h * WEIGHTS[k] * current
-                state.event[b, ENERGY] += h * WEIGHTS[k] * current * v
-                state.event[b, PEAK] = max(state.event[b, PEAK], abs(current))
+        if not burns_in(state, b):
+            continue
+        linear, square, largest = 0.0, 0.0, abs(first[b])
+        for k in range(POINTS.size):
+            v = course_at(course, b, t + h * POINTS[k])
+            linear += WEIGHTS[k] * v
+            square += WEIGHTS[k] * v * v
+            largest = max(largest, abs(v))
+        state.event[b, CHARGE] += h * linear / films.arc[b]
+        state.event[b, ENERGY] += h * square / films.arc[b]
+        state.event[b, PEAK] = max(state.event[b, PEAK], largest / films.arc[b])
 
 
 @inner
@@ -132,7 +132,7 @@ def _ended(piece: Complex, films: Films, state: State, t: float, end: float, fir
 
 @inner
 def _piece(circuits: Circuits, films: Films, state: State, source: Source, left: float, piece: Complex,
-           meters: Meters, now: float, volts: Array) -> tuple[float, int, int]:  # fmt: skip
+           course: Course, meters: Meters, now: float, volts: Array) -> tuple[float, int, int]:  # fmt: skip
     """Go on for a time in which nothing is scheduled, or until a film breaks down or an arc goes out.
 
     ``volts`` takes the voltages across both films at the end.
@@ -146,6 +146,8 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
     begin(circuits, c, state.x, source, piece)
     t, what, film = 0.0, _NOTHING, 0
     burns = burns_in(state, 0) or burns_in(state, 1)
+    if burns:
+        unfold(piece, left, course)
     move(piece, 0.0)
     first = (voltage(piece, 0), voltage(piece, 1))
     while t < left and what == _NOTHING:
@@ -162,7 +164,7 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
             if state.phase[b] == TOUCHING:
                 meters.touching[b] = max(meters.touching[b], abs(first[b]), abs(last[b]))
         if burns:
-            _burn(piece, films, state, t, end - t, first)
+            _burn(course, films, state, t, end - t, first)
         t, first = end, last
     volts[0], volts[1] = first
     move(piece, t)
@@ -308,7 +310,7 @@ def advance(circuits: Circuits, films: Films, segments: Segments, state: State, 
         Number of events in the table.
     """
     piece = np.zeros((ROWS, state.x.size + FURTHER), dtype=np.complex128)
-    volts = np.zeros(2)
+    course, volts = course_of(piece.shape[1]), np.zeros(2)
     count, k, passed = 0, int(state.cursor[0]), state.cursor[1]
     while k < segments.duration.size:
         if state.cursor[2] == 0.0:
@@ -322,7 +324,7 @@ def advance(circuits: Circuits, films: Films, segments: Segments, state: State, 
             level = segments.level[k] + segments.slope[k] * passed
             source = Source(level, segments.slope[k], state.ring[0])
             now = state.time[0] + state.time[1]
-            t, what, film = _piece(circuits, films, state, source, left, piece, meters, now, volts)
+            t, what, film = _piece(circuits, films, state, source, left, piece, course, meters, now, volts)
             _pass_time(circuits, state, t, meters.rough[1])
             passed = segments.duration[k] if ends and what == _NOTHING else passed + t
             now = state.time[0] + state.time[1]

@@ -19,12 +19,12 @@ from ehlectric.drive.discharges.compiled import inner
 Complex = NDArray[np.complex128]
 
 # Size of lambda t below which phi2 is summed from its series.
-_SERIES = 0.1
+SERIES = 0.1
 _TERMS = 9
 RECIPROCALS = tuple(1.0 / (k + 2.0) for k in range(_TERMS, 0, -1))
 
 # Exponents below which exp is taken as zero.
-_LOWEST = -700.0
+LOWEST = -700.0
 
 # Rows of a piece: rates, amplitudes at its start, forces f0 and f1, amplitudes at a time; and of each film
 # the voltage across it per amplitude, and the size of its second derivative at the start. Its columns are the
@@ -70,13 +70,13 @@ def phi(z: complex) -> tuple[complex, complex, complex]:
     if z.imag == 0.0:
         grown, first, second = _phi_of_real(z.real)
         return complex(grown), complex(first), complex(second)
-    if abs(z.real) + abs(z.imag) < _SERIES:
+    if abs(z.real) + abs(z.imag) < SERIES:
         last = 0j
         for k in range(_TERMS):
             last = 1.0 + z * last * RECIPROCALS[k]
         last *= 0.5
         return 1.0 + z * (1.0 + z * last), 1.0 + z * last, last
-    full = cmath.exp(z) if z.real > _LOWEST else 0j
+    full = cmath.exp(z) if z.real > LOWEST else 0j
     once = (full - 1.0) / z
     return full, once, (once - 1.0) / z
 
@@ -84,13 +84,13 @@ def phi(z: complex) -> tuple[complex, complex, complex]:
 @inner
 def _phi_of_real(z: float) -> tuple[float, float, float]:
     """Same as ``phi`` for a real number, in half of the time."""
-    if abs(z) < _SERIES:
+    if abs(z) < SERIES:
         last = 0.0
         for k in range(_TERMS):
             last = 1.0 + z * last * RECIPROCALS[k]
         last *= 0.5
         return 1.0 + z * (1.0 + z * last), 1.0 + z * last, last
-    grown = math.exp(z) if z > _LOWEST else 0.0
+    grown = math.exp(z) if z > LOWEST else 0.0
     first = (grown - 1.0) / z
     return grown, first, (first - 1.0) / z
 
@@ -162,7 +162,7 @@ def curvature_bound(piece: Complex, film: int, t: float) -> float:
     for m in range(piece.shape[1]):
         size = piece[CURVATURE + film, m].real
         if size > 0.0:
-            bound += size * math.exp(max(piece[RATE, m].real * t, _LOWEST))
+            bound += size * math.exp(max(piece[RATE, m].real * t, LOWEST))
     return bound
 
 

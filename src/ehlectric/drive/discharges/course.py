@@ -1,0 +1,99 @@
+"""Voltages over a piece as a power series and exponentials, for many times of it; compiled. SI units."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlectric.arrays import Array
+from ehlectric.drive.discharges.compiled import inner
+from ehlectric.drive.discharges.pieces import FILMS, FORCE, LOWEST, RATE, SERIES, SLOPE, START, Complex
+
+# Terms of the power series of modes that change little in a piece, and of those below another change. The
+# first term that is left out is that of the slope of the source, change^(n - 2) 2/n! of what it does.
+_POWERS, _FEW, _SLOWEST = 10, 5, 1e-4
+
+
+class Course(NamedTuple):
+    """Voltages across both films over a piece, as a power series and exponentials; changed in place.
+
+    The voltage across film b is the sum of ``powers[b, k] t^k``, and of the real parts of
+    ``amplitudes[b, m] exp(rates[m] t)`` of the first ``number[0]`` rates; the first
+    ``number[1]`` powers count.
+    """
+
+    powers: Array
+    rates: Complex
+    amplitudes: Complex
+    number: NDArray[np.int64]
+
+
+@inner
+def course_of(modes: int) -> Course:
+    """Empty course of a number of modes."""
+    return Course(
+        np.zeros((2, _POWERS)),
+        np.zeros(modes, dtype=np.complex128),
+        np.zeros((2, modes), dtype=np.complex128),
+        np.zeros(2, dtype=np.int64),
+    )
+
+
+@inner
+def unfold(piece: Complex, duration: float, course: Course) -> None:
+    """Write the voltages over a piece as a power series and exponentials, by which many times are quick.
+
+    A mode that hardly changes in the duration goes into the series, with an error below 2e-14 of its size; of
+    another one the series has the steady part.
+    """
+    course.powers[:] = 0.0
+    count, powers = 0, 2
+    for m in range(piece.shape[1]):
+        rate, start, force, slope = piece[RATE, m], piece[START, m], piece[FORCE, m], piece[SLOPE, m]
+        if start == 0.0 and force == 0.0 and slope == 0.0:
+            continue
+        change = (abs(rate.real) + abs(rate.imag)) * duration
+        if change < SERIES:
+            own, term = _FEW if change < _SLOWEST else _POWERS, start
+            powers = max(powers, own)
+            for k in range(own):
+                if k == 1:
+                    term = rate * start + force
+                elif k == 2:
+                    term = 0.5 * (rate * term + slope)
+                elif k > 2:
+                    term = rate * term / k
+                for film in range(2):
+                    course.powers[film, k] += (piece[FILMS + film, m] * term).real
+            continue
+        rising = slope / rate
+        steady = (force + rising) / rate
+        for film in range(2):
+            weight = piece[FILMS + film, m]
+            course.powers[film, 0] -= (weight * steady).real
+            course.powers[film, 1] -= (weight * rising).real
+            course.amplitudes[film, count] = weight * (start + steady)
+        course.rates[count] = rate
+        count += 1
+    course.number[0], course.number[1] = count, powers
+
+
+@inner
+def course_at(course: Course, film: int, t: float) -> float:
+    """Voltage across a film at a time t of the piece [V]."""
+    value = 0.0
+    for k in range(course.number[1] - 1, -1, -1):
+        value = value * t + course.powers[film, k]
+    for m in range(course.number[0]):
+        rate, size = course.rates[m], course.amplitudes[film, m]
+        if rate.real * t > LOWEST:
+            grown = math.exp(rate.real * t)
+            if rate.imag == 0.0:
+                value += size.real * grown
+            else:
+                angle = rate.imag * t
+                value += grown * (size.real * math.cos(angle) - size.imag * math.sin(angle))
+    return value

@@ -1,0 +1,49 @@
+"""Voltages over a piece, written for many times, against its modes moved to each time."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ehlectric.drive.discharges.compiled import compiled
+from ehlectric.drive.discharges.course import course_at, course_of, unfold
+from ehlectric.drive.discharges.pieces import FILMS, FORCE, RATE, ROWS, SLOPE, START, move, voltage
+
+SIZES = st.floats(-1.0, 1.0)
+# Rates times the duration of the piece, from modes that do not change to those that are over at once.
+CHANGES = st.one_of(st.just(0.0), st.floats(-10.0, 3.0).map(lambda power: 10.0**power))
+
+
+@compiled
+def both_ways(piece, duration, times):
+    course = course_of(piece.shape[1])
+    unfold(piece, duration, course)
+    found, moved = np.zeros((2, times.size)), np.zeros((2, times.size))
+    for k in range(times.size):
+        move(piece, times[k])
+        for film in range(2):
+            found[film, k], moved[film, k] = course_at(course, film, times[k]), voltage(piece, film)
+    return found, moved
+
+
+@given(
+    modes=st.lists(st.tuples(CHANGES, SIZES, SIZES, SIZES, SIZES, st.booleans()), min_size=1, max_size=4),
+    duration=st.floats(-9.0, 0.0).map(lambda power: 10.0**power),
+)
+def test_a_course_is_the_voltage_of_its_modes(modes, duration):
+    """To rounding of the largest part: oscillating modes come in pairs, and forces change modes by volts."""
+    columns = []
+    for change, start, force, slope, weight, oscillates in modes:
+        rates = [-change / duration]
+        if oscillates and change:
+            rates = [(-0.3 + 1.0j) * change / duration, (-0.3 - 1.0j) * change / duration]
+        for rate in rates:
+            column = np.zeros(ROWS, dtype=complex)
+            # The steady part of a fast mode is of volts too.
+            size = max(change, 1.0) / duration
+            column[[RATE, START, FORCE, SLOPE]] = rate, start, force * size, slope * size / duration
+            column[FILMS : FILMS + 2] = weight, 0.5 * weight
+            columns.append(column)
+    times = duration * np.linspace(0.0, 1.0, 7)
+    found, moved = both_ways(np.array(columns).T.copy(), duration, times)
+    assert found == pytest.approx(moved, rel=0.0, abs=3e-12)
