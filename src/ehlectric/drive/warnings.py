@@ -12,13 +12,11 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.solution import DriveSolution
+from ehlectric.drive.statistics import FEW
 from ehlectric.errors import ResultWarning
 
 # Share of time from which an arc is said to burn on.
 _MOSTLY = 0.2
-
-# Events below which a rate is called uncertain.
-_FEW = 20
 
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -82,7 +80,7 @@ def _of_time(solution: DriveSolution) -> Iterator[ResultWarning]:
     """Warning of a simulated time that is too short for a rate."""
     for end, counts in zip(ENDS, solution.record.counts, strict=True):
         number = int(np.sum(counts))
-        if 0 < number < _FEW:
+        if 0 < number < FEW:
             yield ResultWarning(
                 "few-discharges",
                 f"{end} discharges {number} times in {amount(solution.record.duration, 's')}: its rate is "

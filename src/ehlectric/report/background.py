@@ -11,15 +11,16 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from itertools import groupby
 
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.case import Case
-from ehlectric.cases.input_keys import describe
+from ehlectric.cases.drives.case import BOTH, ENDS
+from ehlectric.cases.drives.swept import SweptCase
+from ehlectric.cases.input_keys import describe, end_and_key, of_both_ends
 from ehlectric.cases.library.sources import Source
+from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.names import with_units_kept
 from ehlectric.report.content import Block, Cell, Link, Section, Table, Text
-from ehlectric.report.limits import limits_of, references_of
-from ehlectric.report.origins import WORDS, Input, inputs_of, material_sources
+from ehlectric.report.limits import Limit, Reference
+from ehlectric.report.origins import WORDS, Input, inputs_of, material_sources, replaced_by
 from ehlectric.tables.html import input_row
 from ehlectric.version import __version__
 
@@ -39,28 +40,34 @@ _VARIED = (
 # Keys of the dielectric strength, which no measurement of films gives, and sentences below the inputs.
 _STRENGTHS = tuple(f"discharge.{name}" for name in ("dielectric_strength", "weibull", "strength_table"))
 _NO_STRENGTH = "No measurement of a film stands behind it, whatever its value."
+
+# Names of the bearings of a drive by the first word of their keys.
+_PLACES = {BOTH: "both bearings", **{end: f"bearing at the {name}" for end, name in NAMES_OF_ENDS.items()}}
 _GIVEN = "Given values count as known: only the author of the input file can say how they were found."
 
 
-def input_section(case: Case | BearingCase, varied: Iterable[str] = ()) -> Section:
+def input_section(case: SweptCase, varied: Iterable[str] = ()) -> Section:
     """Section of all inputs with their origin, and of those that are assumptions.
 
     Parameters
     ----------
-    case : Case or BearingCase
+    case : Case, BearingCase or DriveCase
         Case of the result, or base case of a sweep.
     varied : iterable of str
         Dotted keys that a sweep varies.
     """
     varied = tuple(varied)
+    either = {*varied, *(key for each in varied for key in of_both_ends(each))}
+    apart = any(end_and_key(key)[0] in ENDS for key in varied)
     inputs = [
-        replace(one, origin="varied", source=None) if one.key in varied else one for one in inputs_of(case)
+        replace(one, origin="varied", source=None) if one.key in either else one
+        for one in inputs_of(case, apart=apart)
     ]
     numbers = {source: number for number, source in enumerate(_sources(inputs), 1)}
     blocks: list[Block] = [Text(_UNITS), *([Text(_VARIED)] if varied else [])]
     for name, group in groupby(inputs, key=lambda one: one.key.partition(".")[0]):
         rows = tuple(_input_cells(case, one, numbers) for one in group)
-        blocks.append(Table(f"Inputs: {name}", _HEADS, rows, shares=_SHARES))
+        blocks.append(Table(f"Inputs: {_PLACES.get(name, name)}", _HEADS, rows, shares=_SHARES))
     return Section("Inputs", (*blocks, *_assumptions(case, inputs)))
 
 
@@ -69,15 +76,18 @@ def _sources(inputs: Iterable[Input]) -> list[Source]:
     return list(dict.fromkeys(one.source for one in inputs if one.source is not None))
 
 
-def _value(case: Case | BearingCase, one: Input) -> str:
+def _value(case: SweptCase, one: Input) -> str:
     return with_units_kept(printable(input_row(case, one.key, one.value).text))
 
 
-def _input_cells(case: Case | BearingCase, one: Input, numbers: Mapping[Source, int]) -> tuple[str, ...]:
+def _input_cells(case: SweptCase, one: Input, numbers: Mapping[Source, int]) -> tuple[str, ...]:
     origin = one.origin if one.origin in WORDS else f"library {one.origin}"
     if one.source is not None:
         origin = f"{origin}: {one.source.kind} [{numbers[one.source]}]"
-    return one.key.partition(".")[2] or one.key, _value(case, one), origin, _meaning(one.key)
+    meaning, other = _meaning(one.key), replaced_by(case, one.key)
+    if other:
+        meaning = f"not used: {other} takes its place"
+    return one.key.partition(".")[2] or one.key, _value(case, one), origin, meaning
 
 
 def _meaning(key: str) -> str:
@@ -85,11 +95,11 @@ def _meaning(key: str) -> str:
     try:
         text = describe(key)
     except InputError:
-        return "how the contacts are computed" if key == "contacts" else ""
+        return "how the contacts are computed" if end_and_key(key)[1] == "contacts" else ""
     return re.split(r" \[|; |: ", text)[0]
 
 
-def _assumptions(case: Case | BearingCase, inputs: Iterable[Input]) -> Iterator[Block]:
+def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     """Table of the inputs that are assumptions, estimates or follow by a rule, grouped by their sources."""
     groups: dict[tuple[str, str], list[str]] = {}
     for one in inputs:
@@ -97,7 +107,7 @@ def _assumptions(case: Case | BearingCase, inputs: Iterable[Input]) -> Iterator[
         if one.assumed and one.source is not None:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)
-        elif one.key.startswith(_STRENGTHS):
+        elif end_and_key(one.key)[1].startswith(_STRENGTHS):
             groups.setdefault(("assumed", _NO_STRENGTH), []).append(text)
     rows = tuple(("; ".join(texts), kind, why) for (kind, why), texts in groups.items())
     if rows:
@@ -105,16 +115,16 @@ def _assumptions(case: Case | BearingCase, inputs: Iterable[Input]) -> Iterator[
     yield Text(_GIVEN)
 
 
-def limit_section(case: Case | BearingCase) -> Section:
+def limit_section(limits: Iterable[Limit]) -> Section:
     """Section of what the models leave out."""
-    rows = tuple((limit.topic, limit.text) for limit in limits_of(case))
+    rows = tuple((limit.topic, limit.text) for limit in limits)
     return Section(
         "What the model leaves out",
         (Table("Limits of the model", ("part", "limit"), rows, shares=(0.2, 0.8)),),
     )
 
 
-def source_section(case: Case | BearingCase) -> Section:
+def source_section(case: SweptCase, references: Iterable[Reference]) -> Section:
     """Section of the sources of library values, of materials, and of equations."""
     blocks: list[Block] = []
     numbered = enumerate(_sources(inputs_of(case)), 1)
@@ -131,7 +141,7 @@ def source_section(case: Case | BearingCase) -> Section:
         blocks.append(Table("Sources of the materials", ("material", "source"), solids))
     equations = tuple(
         (one.topic, Link(f"{one.citation}, ", _DOI + one.doi) if one.doi else one.citation)
-        for one in references_of(case)
+        for one in references
     )
     blocks.append(
         Table("Literature behind the equations", ("for", "publication"), equations, shares=(0.35, 0.65))
@@ -163,7 +173,7 @@ def file_section(toml: str, command: str) -> Section:
     text = f"Write these lines to a file and solve it again with: ehlectric {command} FILE"
     blocks: list[Block] = [Text(text)]
     if "\nfile = " in toml:
-        blocks.append(Text("The file names measured surfaces, which must lie at the same paths."))
+        blocks.append(Text("The file names measured surfaces or voltages, which must lie at the same paths."))
     return Section("Input file", (*blocks, Text(toml, "code")))
 
 

@@ -50,6 +50,16 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
         "that are not solved, scaled to the result.",
         "breakdown_over_speed": "First breakdown voltage and shaft voltage over the speed of the shaft, with "
         "contacts that are not solved, scaled to the result.",
+        # Drives
+        "drive_voltages": "Common-mode voltage and the voltages across the films over two periods of the "
+        "carrier, with their discharges. A discharge of one bearing takes the voltage of both: they are "
+        "parallel.",
+        "drive_histogram": "Share of time at the voltages across the films, and share of time above a "
+        "voltage of either sign; dots are the limits of the key numbers.",
+        "drive_discharges": "Distributions of voltage, charge, energy and peak current of the discharges of "
+        "each bearing. Charge, energy and current follow from the given resistance of an arc.",
+        "drive_remedies": "Discharges per second with bounds of 95 %, and mean energy of a discharge, of the "
+        "drive as it is and of each remedy. An arrow is the upper bound where nothing discharged.",
         # Sweeps
         "sensitivity": "Share of the spread that each varied input contributes, with confidence intervals.",
     }

@@ -33,7 +33,7 @@ def pictures_of(
 
     Parameters
     ----------
-    result : Result, PointResult, BearingResult, MotionResult or SweepResults
+    result : Result, PointResult, BearingResult, DriveResult, MotionResult or SweepResults
         Result.
     converged : bool
         Whether the result is converged; captions say so where it is not.
@@ -52,10 +52,10 @@ def pictures_of(
         yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
 
 
-def swept_names(result: Any, breakdown: str) -> list[str]:
-    """Names of the figures of a sweep that a report has."""
+def swept_names(result: Any, values: Iterable[str]) -> list[str]:
+    """Names of the figures of a sweep that a report has, for these keys of the summary."""
     names = figure_names(result)
-    wanted = [f"{way}{value}" for value in (breakdown, *SWEPT) for way in ("map_", "lines_")]
+    wanted = [f"{way}{value}" for value in values for way in ("map_", "lines_")]
     return [name for name in ("sensitivity", *wanted) if name in names]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any
 
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.report.situations import (
@@ -39,8 +39,6 @@ from ehlectric.report.situations import (
     with_rheology,
 )
 
-Kind = Literal["contact", "motion", "bearing", "sweep"]
-
 
 @dataclass(frozen=True)
 class Limit:
@@ -58,7 +56,7 @@ class Limit:
 
     topic: str
     text: str
-    holds: Callable[[AnyCase], bool] = lambda _case: True
+    holds: Callable[[Any], bool] = lambda _case: True
 
 
 # Limits of the models, in the order of a report.
@@ -221,7 +219,7 @@ class Reference:
     topic: str
     citation: str
     doi: str
-    used: Callable[[AnyCase], bool] = lambda _case: True
+    used: Callable[[Any], bool] = lambda _case: True
 
 
 # Citation and DOI of the study whose equations of film and field are solved.

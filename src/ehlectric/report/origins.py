@@ -10,7 +10,9 @@ from ehlectric.cases import library
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
-from ehlectric.cases.input_keys import input_field, kind_of
+from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
+from ehlectric.cases.drives.swept import SweptCase
+from ehlectric.cases.input_keys import end_and_key, input_field, kind_of
 from ehlectric.cases.library.sources import KINDS, Source, sources_of
 from ehlectric.cases.oils.properties import Properties
 from ehlectric.cases.quantity import Quantity
@@ -24,6 +26,11 @@ _KNOWN = KINDS[: KINDS.index("by rule")]
 
 # Tables that may name a base of the library: their dotted key, and the folder of the library.
 _BASES = (("lubricant", "lubricant"), ("bearing", "bearing"), ("bearing.coating", "coating"))
+
+# What stands before the keys of two equal bearings of a drive, and the keys of a bearing whose place a key of
+# the table drive takes.
+_BOTH = f"{BOTH}."
+_REPLACED = {"bearing.inner_speed": "speed", "bearing.temperature": "temperature", "contacts": "contacts"}
 
 
 @dataclass(frozen=True)
@@ -53,27 +60,71 @@ class Input:
         return self.source is not None and self.source.kind not in _KNOWN
 
 
-def inputs_of(case: Case | BearingCase) -> Iterator[Input]:
-    """Inputs of a case in the order of its tables, without the title.
+def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
+    """Inputs of a case in the order of its tables, without the title and the remedies of a drive.
 
     A value is that of the library where it equals the one of the base that the case names, and a default
     where it equals the default of its key: a case does not keep whether somebody typed it.
 
     Parameters
     ----------
-    case : Case or BearingCase
-        Case of a contact or of a bearing.
+    case : Case, BearingCase or DriveCase
+        Case of a contact, of a bearing or of a drive.
+    apart : bool
+        Whether two equal bearings of a drive have keys of their own; otherwise their keys begin with
+        "bearings".
     """
-    tables = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
-    of_library = _library_values(case)
+    tables = _tables(case, apart=apart)
+    of_library = {
+        f"{before}{key}": value
+        for before, own in _parts(case, apart=apart).items()
+        for key, value in _library_values(own).items()
+    }
     for key, value in flattened(_numbered(tables)).items():
-        if key == "title" or value == {}:
+        if end_and_key(key)[1] == "title" or value == {}:
             continue
         name, source, theirs = of_library.get(key, ("", None, None))
         if name and _equal(value, theirs):
             yield Input(key, value, name, source)
         else:
             yield Input(key, value, "default" if _is_default(key, value) else "given")
+
+
+def _tables(case: SweptCase, *, apart: bool) -> dict[str, Any]:
+    """Nested tables of the inputs that are set; two equal bearings of a drive are one."""
+    tables = case.model_dump(mode="json", exclude_none=True, exclude_unset=True)
+    tables.pop("remedies", None)
+    if isinstance(case, DriveCase):
+        bearings = {before[:-1]: tables[ENDS[0]] for before in _parts(case, apart=apart) if before == _BOTH}
+        if bearings:
+            tables = {key: value for key, value in tables.items() if key not in ENDS} | bearings
+    return tables
+
+
+def _parts(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingCase]:
+    """Cases of contacts or bearings in a case, by what stands before their keys."""
+    if not isinstance(case, DriveCase):
+        return {"": case}
+    if case.drive_end == case.non_drive_end and not apart:
+        return {_BOTH: case.drive_end}
+    return {f"{end}.": getattr(case, end) for end in ENDS}
+
+
+def replaced_by(case: SweptCase, key: str) -> str:
+    """Key of a drive whose value takes the place of that of its bearings; empty where none does.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Case with the input.
+    key : str
+        Dotted key of the input.
+    """
+    end, own = end_and_key(key)
+    if not end or own not in _REPLACED or not isinstance(case, DriveCase):
+        return ""
+    name = _REPLACED[own]
+    return f"drive.{name}" if getattr(case.drive, name) is not None else ""
 
 
 def _numbered(tables: Mapping[str, Any]) -> dict[str, Any]:
@@ -95,8 +146,8 @@ def _equal(one: Any, other: Any) -> bool:
 
 def _is_default(key: str, value: Any) -> bool:
     """Whether a value is the default of its key."""
-    if key == "contacts":
-        return bool(value == BearingCase.known_keys()[key].default)
+    if end_and_key(key)[1] == "contacts":
+        return bool(value == BearingCase.known_keys()["contacts"].default)
     try:
         field = input_field(key)
     except InputError:
@@ -156,9 +207,9 @@ def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:
     return values
 
 
-def material_sources(case: Case | BearingCase) -> Iterator[tuple[str, Source]]:
-    """Names and sources of the solids of the library that a bearing or a contact is made of."""
-    for name in dict.fromkeys(_materials(case)):
+def material_sources(case: SweptCase) -> Iterator[tuple[str, Source]]:
+    """Names and sources of the solids of the library that bearings or a contact are made of."""
+    for name in dict.fromkeys(name for part in _parts(case).values() for name in _materials(part)):
         for source in _sources(library.tables("solid", name)):
             yield name, source
 

@@ -9,12 +9,17 @@ from typing import Any
 
 import numpy as np
 
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.row import value_at
 from ehlectric.errors import InputError, printable
 from ehlectric.report.content import Block, Section, Table, Text
-from ehlectric.report.drawn import pictures_of, swept_names
+from ehlectric.report.drawn import SWEPT, pictures_of, swept_names
+from ehlectric.report.drives.limits import drive_limits, drive_references
+from ehlectric.report.drives.swept import swept_values, swept_verdict
 from ehlectric.report.facts import cell_table, row_tables
+from ehlectric.report.limits import limits_of, references_of
+from ehlectric.report.part import Part
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import breakdown_of, main_value
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of
@@ -40,22 +45,34 @@ _SCALES: Mapping[str, Scale] = MappingProxyType(
 _RESULTS = ("film.minimum_thickness", "field.max_strength", "bearing.capacitance")
 
 
-def sweep_part(results: SweepResults) -> dict[str, Any]:
-    """Part of a report about a sweep, by the names of the attributes of ``build.Part``."""
-    count = results.summary()
-    return {
-        "kind": f"sweep of {count['points']} points over {', '.join(results.varied)}",
-        "command": "sweep",
-        "failure": _failure(results, count),
-        "verdict": results.verdict,
-        "warnings": tuple(sweep_warnings(results)),
-        "rows": tuple(sweep_rows(results)),
-        "pictures": tuple(_pictures(results)),
-        "further": tuple(_sections(results)),
-        "details": _details(results),
-        "toml": sweep_toml(results),
-        "varied": tuple(results.varied),
-    }
+def sweep_part(results: SweepResults, lead: str) -> Part:
+    """Part of a report about a sweep.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep.
+    lead : str
+        Main numbers in a sentence.
+    """
+    count, case = results.summary(), results.case
+    of_drive = isinstance(case, DriveCase)
+    return Part(
+        kind=f"sweep of {count['points']} points over {', '.join(results.varied)}",
+        command="sweep",
+        lead=lead,
+        failure=_failure(results, count),
+        verdict=swept_verdict(results) if of_drive else results.verdict,
+        warnings=tuple(sweep_warnings(results)),
+        numbers=tuple(row_tables(sweep_rows(results), "Overview")),
+        pictures=tuple(_pictures(results)),
+        further=tuple(_sections(results)),
+        limits=tuple(drive_limits(case) if isinstance(case, DriveCase) else limits_of(case)),
+        references=tuple(drive_references(case) if isinstance(case, DriveCase) else references_of(case)),
+        details=_details(results),
+        toml=sweep_toml(results),
+        varied=tuple(results.varied),
+    )
 
 
 def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
@@ -79,7 +96,8 @@ def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
 
 
 def _pictures(results: SweepResults) -> Iterator[Block]:
-    names = swept_names(results, main_value(results.case))
+    shown = swept_values(results) if isinstance(results.case, DriveCase) else SWEPT
+    names = swept_names(results, (main_value(results.case), *shown))
     yield from pictures_of(results, converged=True, names=names)
     yield Text(
         "Other values and other varied inputs along the axes are drawn by: ehlectric map FOLDER --x KEY"
@@ -114,7 +132,8 @@ def _sensitivity(results: SweepResults) -> Iterator[Block]:
 def _points(results: SweepResults) -> Iterator[Block]:
     """Table of the points with their varied inputs, their status, and some results."""
     breakdown = breakdown_of(results.case)
-    wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *_RESULTS))
+    further = swept_values(results) if isinstance(results.case, DriveCase) else _RESULTS
+    wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
     values = [key for key in wanted if any(is_number(_value(point, key)) for point in results.points)]
     inputs = [
         _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied

@@ -11,6 +11,7 @@ from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.row import amount
 from ehlectric.cases.units import rpm
 from ehlectric.drive.result import DriveResult
+from ehlectric.drive.statistics import number_text
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.bearing.impedance import prefixed
 from ehlectric.figures.drive.looks import NAMES, breakdown_of, number_of_events
@@ -101,17 +102,6 @@ def arc_line(result: DriveResult) -> str:
     if kept < sum(number_of_events(result, b) for b in range(len(ENDS))):
         text += f"; of the first {kept} discharges"
     return text
-
-
-def number_text(value: float) -> str:
-    """Text: number with three digits, without a power of ten up to a million.
-
-    Examples
-    --------
-    >>> number_text(29731.0), number_text(0.1234)
-    ('29700', '0.123')
-    """
-    return f"{float(f'{value:.3g}'):.7g}"
 
 
 def _energy(value: float) -> str:

@@ -1,0 +1,1 @@
+"""What a report says of drives: their numbers, assumptions, remedies, discharges and limits."""

@@ -1,0 +1,126 @@
+"""Values of a drive that no model gives and that decide its result, in a report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Any
+
+from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.changes import flattened
+from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
+from ehlectric.cases.row import amount
+from ehlectric.errors import printable
+from ehlectric.figures.names import with_units_kept
+from ehlectric.report.content import Section, Table, Text
+from ehlectric.tables.html import input_row
+
+_TEXT = (
+    "There is no model of the arc, and capacitances of machines are seldom measured: the values below decide "
+    "the result. The report cannot know whether they were measured. Take each of them for an assumption "
+    "unless the author of the input file says how it was found, and see with remedies what half and double "
+    "of it change."
+)
+_HEADS, _SHARES = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
+
+# What the inputs decide, by their keys in a drive file.
+_DECIDES: Mapping[str, str] = MappingProxyType(
+    {
+        "circuit.winding_rotor_capacitance": "bearing voltage, by the capacitive divider",
+        "circuit.rotor_frame_capacitance": "bearing voltage; charge and energy that an arc can take",
+        "circuit.winding_frame_capacitance": "voltage of the winding behind an inductance or a resistance; "
+        "nothing without one",
+        "circuit.frame_earth_capacitance": "voltage of the frame against earth",
+        "circuit.cable_capacitance": "edges behind an inductance or a resistance",
+        "circuit.common_mode_inductance": "edges and ringing at the winding",
+        "circuit.common_mode_resistance": "edges and ringing at the winding",
+        "circuit.ground_inductance": "voltage of the frame against earth",
+        "circuit.ground_resistance": "voltage of the frame against earth",
+        "circuit.grounding_ring_resistance": "voltage that is left on the shaft",
+        "breakdown.arc_resistance": "energy, peak current and duration of a discharge",
+        "breakdown.extinction_current": "end of an arc: charge and energy of a discharge",
+        "breakdown.extinction_voltage": "end of an arc: charge and energy of a discharge",
+        "breakdown.recovery_time": "whether the source feeds an arc again",
+        "breakdown.weibull_shape": "scatter of the voltages of discharges, and with it their number",
+        "breakdown.renewal_time": "time between new thresholds, and with it the number of discharges",
+        "breakdown.touch_time": "time for which asperities close a film",
+    }
+)
+
+# The same by the keys of a bearing file; tables are named by their first word.
+_OF_BEARINGS: Mapping[str, str] = MappingProxyType(
+    {
+        "discharge.dielectric_strength": "voltage at which films break down, and with it number and energy",
+        "discharge.conductivity": "time for which the films hold a voltage",
+        "bearing.composite_rq": "whether asperities touch",
+        "bearing.contact_resistance": "resistance of touching asperities",
+        "bearing.element_capacitance": "capacitance of ceramic elements",
+        "bearing.radial_clearance": "load of each element: films and capacitance",
+    }
+)
+
+
+def assumption_section(case: DriveCase, summary: Mapping[str, Any]) -> Section:
+    """Section of the values that decide the result and that no model gives.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Case of the drive.
+    summary : mapping
+        Summary of the drive.
+    """
+    rows = (*_of_tables(case), *_renewal(case, summary), *_of_bearings(case))
+    return Section("What decides the result", (Text(_TEXT), Table("Inputs", _HEADS, rows, shares=_SHARES)))
+
+
+def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
+    """Rows of the tables ``circuit`` and ``breakdown``."""
+    given = flattened(case.to_dict())
+    for key, decides in _DECIDES.items():
+        name = key.partition(".")[2]
+        if key in given:
+            # Resistances of 0 ohm are those of a path that has none.
+            if given[key] or "resistance" not in key:
+                yield key, _shown(case, key, given[key]), "input file", decides
+        elif name in case.circuit.estimated:
+            origin = "geometry of the machine, without end windings"
+            yield key, amount(case.circuit.capacitances[name], "F"), origin, decides
+
+
+def _renewal(case: DriveCase, summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Row of the time between new thresholds, where it follows from the bearings."""
+    if case.breakdown.renewal_time is not None:
+        return
+    times = sorted({summary[end]["renewal_time"] for end in ENDS} - {None})
+    if times:
+        key = "breakdown.renewal_time"
+        value = " and ".join(dict.fromkeys(amount(float(f"{time:.3g}"), "s") for time in times))
+        origin = "time in which oil passes the most loaded contact"
+        yield key, with_units_kept(value), origin, _DECIDES[key]
+
+
+def _of_bearings(case: DriveCase) -> Iterator[tuple[str, ...]]:
+    """Rows of both bearings; those of equal bearings stand once."""
+    first, second = case.bearings
+    if first == second:
+        yield from _of_bearing(case, first, BOTH, ENDS[0])
+        return
+    for end, one in zip(ENDS, (first, second), strict=True):
+        yield from _of_bearing(case, one, end, end)
+
+
+def _of_bearing(case: DriveCase, bearing: BearingCase, name: str, end: str) -> Iterator[tuple[str, ...]]:
+    """Rows of one bearing, whose keys begin with a name."""
+    given = flattened(bearing.to_dict())
+    for key, decides in _OF_BEARINGS.items():
+        if key in given:
+            yield f"{name}.{key}", _shown(case, f"{end}.{key}", given[key]), "input file", decides
+    for table in ("discharge.weibull", "discharge.strength_table"):
+        if any(key.startswith(f"{table}.") for key in given):
+            decides = _OF_BEARINGS["discharge.dielectric_strength"]
+            yield f"{name}.{table}", "a table", "input file", decides
+
+
+def _shown(case: DriveCase, key: str, value: Any) -> str:
+    return with_units_kept(printable(input_row(case, key, value).text))

@@ -1,0 +1,93 @@
+"""Remedies of a drive in a report: what each of them changes, and their numbers side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ehlectric.cases.changes import flattened
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.input_keys import of_both_ends
+from ehlectric.drive.keys import NAMES_OF_ENDS
+from ehlectric.drive.result import DriveResult
+from ehlectric.drive.verdict import drive_verdict
+from ehlectric.errors import printable
+from ehlectric.report.content import Block, Table, Text
+from ehlectric.report.drives.numbers import value_text
+from ehlectric.report.light import light_of
+from ehlectric.tables.html import input_row
+
+AS_IT_IS = "as it is"
+
+# Columns of the drives side by side: head, key, and unit in which it is shown.
+_COLUMNS = (
+    ("discharges per second, bounds of 95 %", "events_per_second", "1/s"),
+    ("mean voltage [V]", "voltage_mean", "V"),
+    ("mean energy [nJ]", "energy_mean", "nJ"),
+    ("mean power [µW]", "power", "µW"),
+    ("largest voltage [V]", "peak_voltage", "V"),
+)
+
+
+def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
+    """Tables of the remedies: what they change, and their numbers beside those of the drive as it is.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of a drive with remedies.
+    summary : mapping
+        Its summary.
+    """
+    yield Text(
+        "Each remedy is a copy of the drive with the changes below, simulated with the same random numbers. "
+        "Ranges are bounds of 95 %: remedies whose ranges overlap cannot be told apart in the simulated time."
+    )
+    changes = tuple(
+        row
+        for title, changes, found in result.remedies
+        for row in _changes(result.case, found.case, title, changes)
+    )
+    heads = ("remedy", "input", AS_IT_IS, "with the remedy")
+    yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
+    drives = [(AS_IT_IS, result, summary)]
+    for title, _, found in result.remedies:
+        one = DriveResult(found)
+        drives.append((title, one, one.summary()))
+    verdicts = tuple((printable(title), _words(one, own)) for title, one, own in drives)
+    yield Table("Verdict on each remedy", ("drive", "verdict"), verdicts, shares=(0.4, 0.6))
+    rows = tuple(
+        (
+            printable(title),
+            place,
+            *(value_text(own[end], key, unit) for _, key, unit in _COLUMNS),
+        )
+        for title, _, own in drives
+        for end, place in NAMES_OF_ENDS.items()
+    )
+    columns = ("drive", "bearing", *(head for head, _, _ in _COLUMNS))
+    yield Table(
+        "Remedies side by side", columns, rows, tuple(range(2, len(columns))),
+        shares=(0.21, 0.14, 0.23, 0.1, 0.1, 0.11, 0.11),
+    )  # fmt: skip
+
+
+def _words(result: DriveResult, summary: Mapping[str, Any]) -> str:
+    """Heading of the verdict on a drive."""
+    verdict = drive_verdict(result.case, summary, result.warnings)
+    light = light_of(verdict.level, verdict.text)
+    return f"{light.words} ({light.bound})" if light.bound else light.words
+
+
+def _changes(
+    case: DriveCase, other: DriveCase, title: str, changes: Mapping[str, Any]
+) -> Iterator[tuple[str, ...]]:
+    """Rows of the changes of a remedy: its title, the input, and its value in both drives."""
+    before, after = (flattened(one.to_dict()) for one in (case, other))
+    for key in flattened(dict(changes)):
+        first, *_ = of_both_ends(key)
+        told = [
+            printable(input_row(one, first, tables[first]).text) if first in tables else "not given"
+            for one, tables in ((case, before), (other, after))
+        ]
+        yield printable(title), key, *told
