@@ -83,6 +83,17 @@ def formatted(value: float, digits: str) -> str:
     return f"{float(text):.0f}" if "e+" in text and abs(value) < _LARGE else text
 
 
+def number_text(value: float) -> str:
+    """Text: number with three digits, without a power of ten up to a million.
+
+    Examples
+    --------
+    >>> number_text(29731.0), number_text(0.1234)
+    ('29700', '0.123')
+    """
+    return f"{float(f'{value:.3g}'):.7g}"
+
+
 @dataclass(frozen=True)
 class Row:
     """Row of a table: a name, a value with its unit, and a note. A row with a name alone is a heading.

@@ -96,14 +96,3 @@ def spread(values: Array, mean: float, largest: float) -> Spread:
         return Spread(None, None, None, None)
     median, high = (float(value) for value in np.percentile(values, [50.0, 95.0]))
     return Spread(mean, median, high, largest)
-
-
-def number_text(value: float) -> str:
-    """Text: number with three digits, without a power of ten up to a million.
-
-    Examples
-    --------
-    >>> number_text(29731.0), number_text(0.1234)
-    ('29700', '0.123')
-    """
-    return f"{float(f'{value:.3g}'):.7g}"

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.cases.row import amount
+from ehlectric.cases.row import amount, number_text
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.discharge.verdict import (
     DOUBTS,
@@ -18,7 +18,7 @@ from ehlectric.discharge.verdict import (
     unusable,
 )
 from ehlectric.drive.keys import NAMES_OF_ENDS
-from ehlectric.drive.statistics import FEW, number_text
+from ehlectric.drive.statistics import FEW
 from ehlectric.errors import CODES, ResultWarning
 
 # Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,

@@ -17,11 +17,9 @@ from ehlectric.cases.input_keys import describe, end_and_key, of_both_ends
 from ehlectric.cases.library.sources import Source
 from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.errors import InputError, printable, shown
-from ehlectric.figures.names import with_units_kept
 from ehlectric.report.content import Block, Cell, Link, Section, Table, Text
 from ehlectric.report.limits import Limit, Reference
-from ehlectric.report.origins import WORDS, Input, inputs_of, material_sources, replaced_by
-from ehlectric.tables.html import input_row
+from ehlectric.report.origins import WORDS, Input, input_text, inputs_of, material_sources, replaced_by
 from ehlectric.version import __version__
 
 # Heads of the tables of inputs, and shares of their columns.
@@ -76,10 +74,6 @@ def _sources(inputs: Iterable[Input]) -> list[Source]:
     return list(dict.fromkeys(one.source for one in inputs if one.source is not None))
 
 
-def _value(case: SweptCase, one: Input) -> str:
-    return with_units_kept(printable(input_row(case, one.key, one.value).text))
-
-
 def _input_cells(case: SweptCase, one: Input, numbers: Mapping[Source, int]) -> tuple[str, ...]:
     origin = one.origin if one.origin in WORDS else f"library {one.origin}"
     if one.source is not None:
@@ -87,7 +81,7 @@ def _input_cells(case: SweptCase, one: Input, numbers: Mapping[Source, int]) -> 
     meaning, other = _meaning(one.key), replaced_by(case, one.key)
     if other:
         meaning = f"not used: {other} takes its place"
-    return one.key.partition(".")[2] or one.key, _value(case, one), origin, meaning
+    return one.key.partition(".")[2] or one.key, input_text(case, one.key, one.value), origin, meaning
 
 
 def _meaning(key: str) -> str:
@@ -103,7 +97,7 @@ def _assumptions(case: SweptCase, inputs: Iterable[Input]) -> Iterator[Block]:
     """Table of the inputs that are assumptions, estimates or follow by a rule, grouped by their sources."""
     groups: dict[tuple[str, str], list[str]] = {}
     for one in inputs:
-        text = f"{one.key} = {_value(case, one)}"
+        text = f"{one.key} = {input_text(case, one.key, one.value)}"
         if one.assumed and one.source is not None:
             why = printable(one.source.note or one.source.citation)
             groups.setdefault((one.source.kind, why), []).append(text)

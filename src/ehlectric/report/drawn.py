@@ -55,7 +55,7 @@ def pictures_of(
 def swept_names(result: Any, values: Iterable[str]) -> list[str]:
     """Names of the figures of a sweep that a report has, for these keys of the summary."""
     names = figure_names(result)
-    wanted = [f"{way}{value}" for value in values for way in ("map_", "lines_")]
+    wanted = [f"{way}{value}" for value in dict.fromkeys(values) for way in ("map_", "lines_")]
     return [name for name in ("sensitivity", *wanted) if name in names]
 
 

@@ -16,7 +16,10 @@ from ehlectric.cases.input_keys import end_and_key, input_field, kind_of
 from ehlectric.cases.library.sources import KINDS, Source, sources_of
 from ehlectric.cases.oils.properties import Properties
 from ehlectric.cases.quantity import Quantity
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, printable
+from ehlectric.figures.names import with_units_kept
+from ehlectric.runtime.values import is_number
+from ehlectric.tables.html import input_row
 
 # Words for the origin of an input that is not a value of the library.
 WORDS = ("given", "default", "varied")
@@ -108,6 +111,22 @@ def _parts(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingC
     if case.drive_end == case.non_drive_end and not apart:
         return {_BOTH: case.drive_end}
     return {f"{end}.": getattr(case, end) for end in ENDS}
+
+
+def input_text(case: SweptCase, key: str, value: Any) -> str:
+    """Value of an input as a report shows it, in a unit that suits it.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Case with the input.
+    key : str
+        Dotted key of the input.
+    value : object
+        Value in SI units.
+    """
+    text = with_units_kept(printable(input_row(case, key, value).text))
+    return text.replace("ohm", "Ω") if is_number(value) else text
 
 
 def replaced_by(case: SweptCase, key: str) -> str:

@@ -17,7 +17,16 @@ from reportlab.lib.enums import TA_LEFT, TA_RIGHT
 from reportlab.lib.styles import ParagraphStyle
 from reportlab.pdfbase.pdfmetrics import registerFont, registerFontFamily, stringWidth
 from reportlab.pdfbase.ttfonts import TTFont
-from reportlab.platypus import Flowable, Image, KeepTogether, LongTable, Paragraph, Preformatted, Spacer
+from reportlab.platypus import (
+    CondPageBreak,
+    Flowable,
+    Image,
+    KeepTogether,
+    LongTable,
+    Paragraph,
+    Preformatted,
+    Spacer,
+)
 
 from ehlectric.errors import SEVERITY_WORDS
 from ehlectric.report.content import Cell, Link, Picture, Table, Text, Warnings
@@ -45,6 +54,9 @@ _PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
 # Room beside the text of a cell [pt], and characters of a line of a file.
 _PAD, _LINE_LENGTH = 3.0, 96
 
+# Room that a title of a section needs for itself and for what begins below it [pt].
+_ROOM = 130.0
+
 # Share of the height of a page above which a figure has a page of its own.
 _TALL = 0.6
 
@@ -68,7 +80,7 @@ def style(name: str, size: float = 9.0) -> ParagraphStyle:
         "title": {"fontName": "Sans-Bold", "fontSize": 17.0, "leading": 21.0, "spaceAfter": 3.0},
         "section": {
             "fontName": "Sans-Bold", "fontSize": 12.5, "leading": 16.0, "spaceBefore": 14.0,
-            "spaceAfter": 5.0, "keepWithNext": True,
+            "spaceAfter": 5.0,
         },
         "soft": {"textColor": SOFT, "spaceAfter": 3.0},
         "caption": {"fontName": "Sans-Bold"},
@@ -142,14 +154,17 @@ def _picture(picture: Picture, width: float, height: float) -> Flowable:
 
 
 def headed(title: str, parts: Sequence[Flowable]) -> Iterator[Flowable]:
-    """Flowables of a section below its title, which never stands alone at the end of a page."""
+    """Flowables of a section below its title, which never stands alone at the end of a page.
+
+    Tables begin below their title as long as some of their rows fit: no page ends early because of them.
+    """
     heading = Paragraph(escape(title), style("section"))
     if parts and isinstance(parts[0], KeepTogether):
         # Two groups that are kept together would be parted between each other.
         yield KeepTogether([heading, *parts[0]._content])
         yield from parts[1:]
     else:
-        yield from (heading, *parts)
+        yield from (CondPageBreak(_ROOM), heading, *parts)
 
 
 def _table(table: Table, width: float) -> Flowable:

@@ -9,14 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.cases.row import value_at
 from ehlectric.errors import InputError, printable
 from ehlectric.report.content import Block, Section, Table, Text
 from ehlectric.report.drawn import SWEPT, pictures_of, swept_names
+from ehlectric.report.drives.assumptions import assumption_section
 from ehlectric.report.drives.limits import drive_limits, drive_references
-from ehlectric.report.drives.swept import swept_values, swept_verdict
+from ehlectric.report.drives.swept import listed_values, swept_values, swept_verdict
 from ehlectric.report.facts import cell_table, row_tables
 from ehlectric.report.limits import limits_of, references_of
 from ehlectric.report.part import Part
@@ -64,6 +65,7 @@ def sweep_part(results: SweepResults, lead: str) -> Part:
         failure=_failure(results, count),
         verdict=swept_verdict(results) if of_drive else results.verdict,
         warnings=tuple(sweep_warnings(results)),
+        before=(assumption_section(case, varied=results.varied),) if isinstance(case, DriveCase) else (),
         numbers=tuple(row_tables(sweep_rows(results), "Overview")),
         pictures=tuple(_pictures(results)),
         further=tuple(_sections(results)),
@@ -132,7 +134,7 @@ def _sensitivity(results: SweepResults) -> Iterator[Block]:
 def _points(results: SweepResults) -> Iterator[Block]:
     """Table of the points with their varied inputs, their status, and some results."""
     breakdown = breakdown_of(results.case)
-    further = swept_values(results) if isinstance(results.case, DriveCase) else _RESULTS
+    further = listed_values(results) if isinstance(results.case, DriveCase) else _RESULTS
     wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
     values = [key for key in wanted if any(is_number(_value(point, key)) for point in results.points)]
     inputs = [
@@ -140,7 +142,7 @@ def _points(results: SweepResults) -> Iterator[Block]:
     ]
     found = [_column(results, key, [_value(point, key) for point in results.points]) for key in values]
     # Real films are thinner than those of a sweep, and break down earlier.
-    bounds = (breakdown.value, breakdown.margin)
+    bounds = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
     found = [
         (f"{head}, upper bound (≤)" if key in bounds else head, column)
         for key, (head, column) in zip(values, found, strict=True)
@@ -195,7 +197,12 @@ def _column(results: SweepResults, key: str, values: Iterable[Any]) -> tuple[str
         return printable(label.name), ["" if value is None else printable(str(value)) for value in listed]
     scale = _SCALES.get(label.unit) or label.scaled(np.median(np.abs(numbers), keepdims=True))
     unit = f" [{scale.unit}]" if scale.unit else ""
-    return f"{label.name}{unit}", [f"{scale.of(value):.4g}" if is_number(value) else "" for value in listed]
+    return f"{label.name}{unit}", [_number(scale.of(value)) if is_number(value) else "" for value in listed]
+
+
+def _number(value: float) -> str:
+    """Number with four digits, without a power of ten up to a million."""
+    return f"{float(f'{value:.4g}'):g}"
 
 
 def sweep_toml(results: SweepResults) -> str:

@@ -8,10 +8,9 @@ import textwrap
 import numpy as np
 
 from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.row import amount
+from ehlectric.cases.row import amount, number_text
 from ehlectric.cases.units import rpm
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.statistics import number_text
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.bearing.impedance import prefixed
 from ehlectric.figures.drive.looks import NAMES, breakdown_of, number_of_events

@@ -9,6 +9,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.intermittency.words import OF_TIME, time_text
+from ehlectric.cases.row import number_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.sweep.paths import LinePath, joined, lines_of
 from ehlectric.figures.sweep.points import labelled, voltage_text
@@ -29,7 +30,7 @@ def of_slice(results: SweepResults, selection: Slice) -> str:
         finite = selection.values[np.isfinite(selection.values)]
         if selection.value in TIME_SHARES:
             return _of_time(finite)
-        low, high = (f"{scale.of(float(of(finite))):.3g}" for of in (np.min, np.max))
+        low, high = (number_text(scale.of(float(of(finite)))) for of in (np.min, np.max))
         ends = low if low == high else f"{low} to {high}"
         return f"{label.name[:1].upper()}{label.name[1:]}: {ends} {scale.unit}".rstrip()
     return _of_margins(results, selection, margin) + _intermittent(selection)

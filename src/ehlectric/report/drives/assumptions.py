@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
 
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
+from ehlectric.cases.input_keys import end_and_key, of_both_ends
 from ehlectric.cases.row import amount
-from ehlectric.errors import printable
 from ehlectric.figures.names import with_units_kept
 from ehlectric.report.content import Section, Table, Text
-from ehlectric.tables.html import input_row
+from ehlectric.report.origins import input_text
 
 _TEXT = (
     "There is no model of the arc, and capacitances of machines are seldom measured: the values below decide "
@@ -21,6 +21,7 @@ _TEXT = (
     "unless the author of the input file says how it was found, and see with remedies what half and double "
     "of it change."
 )
+_CAPTION = "Values that decide the result"
 _HEADS, _SHARES = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
 
 # What the inputs decide, by their keys in a drive file.
@@ -60,18 +61,27 @@ _OF_BEARINGS: Mapping[str, str] = MappingProxyType(
 )
 
 
-def assumption_section(case: DriveCase, summary: Mapping[str, Any]) -> Section:
+def assumption_section(
+    case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Iterable[str] = ()
+) -> Section:
     """Section of the values that decide the result and that no model gives.
 
     Parameters
     ----------
     case : DriveCase
-        Case of the drive.
-    summary : mapping
-        Summary of the drive.
+        Case of the drive, or base case of a sweep.
+    summary : mapping, optional
+        Summary of the drive; not of a sweep.
+    varied : iterable of str
+        Dotted keys that a sweep varies, which get their values from there.
     """
-    rows = (*_of_tables(case), *_renewal(case, summary), *_of_bearings(case))
-    return Section("What decides the result", (Text(_TEXT), Table("Inputs", _HEADS, rows, shares=_SHARES)))
+    apart = any(end_and_key(key)[0] in ENDS for key in varied)
+    rows = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
+    either = {one for key in varied for one in (key, *of_both_ends(key))}
+    shown = tuple(
+        (key, "varied", "sweep", why) if key in either else (key, *rest, why) for key, *rest, why in rows
+    )
+    return Section("What decides the result", (Text(_TEXT), Table(_CAPTION, _HEADS, shown, shares=_SHARES)))
 
 
 def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
@@ -82,15 +92,15 @@ def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
         if key in given:
             # Resistances of 0 ohm are those of a path that has none.
             if given[key] or "resistance" not in key:
-                yield key, _shown(case, key, given[key]), "input file", decides
+                yield key, input_text(case, key, given[key]), "input file", decides
         elif name in case.circuit.estimated:
             origin = "geometry of the machine, without end windings"
             yield key, amount(case.circuit.capacitances[name], "F"), origin, decides
 
 
-def _renewal(case: DriveCase, summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tuple[str, ...]]:
     """Row of the time between new thresholds, where it follows from the bearings."""
-    if case.breakdown.renewal_time is not None:
+    if case.breakdown.renewal_time is not None or summary is None:
         return
     times = sorted({summary[end]["renewal_time"] for end in ENDS} - {None})
     if times:
@@ -100,10 +110,10 @@ def _renewal(case: DriveCase, summary: Mapping[str, Any]) -> Iterator[tuple[str,
         yield key, with_units_kept(value), origin, _DECIDES[key]
 
 
-def _of_bearings(case: DriveCase) -> Iterator[tuple[str, ...]]:
-    """Rows of both bearings; those of equal bearings stand once."""
+def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
+    """Rows of both bearings; those of equal bearings stand once, where no end has values of its own."""
     first, second = case.bearings
-    if first == second:
+    if first == second and not apart:
         yield from _of_bearing(case, first, BOTH, ENDS[0])
         return
     for end, one in zip(ENDS, (first, second), strict=True):
@@ -115,12 +125,8 @@ def _of_bearing(case: DriveCase, bearing: BearingCase, name: str, end: str) -> I
     given = flattened(bearing.to_dict())
     for key, decides in _OF_BEARINGS.items():
         if key in given:
-            yield f"{name}.{key}", _shown(case, f"{end}.{key}", given[key]), "input file", decides
+            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "input file", decides
     for table in ("discharge.weibull", "discharge.strength_table"):
         if any(key.startswith(f"{table}.") for key in given):
             decides = _OF_BEARINGS["discharge.dielectric_strength"]
             yield f"{name}.{table}", "a table", "input file", decides
-
-
-def _shown(case: DriveCase, key: str, value: Any) -> str:
-    return with_units_kept(printable(input_row(case, key, value).text))

@@ -7,14 +7,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.quantity import unit_for
+from ehlectric.cases.row import number_text
 from ehlectric.drive.keys import EVENT_COLUMNS, NAMES_OF_ENDS
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.statistics import number_text
 from ehlectric.report.content import Block, Table, Text
 
 # Largest number of discharges that a report lists.
 LISTED = 20
 
+# Digits of the largest time: two discharges at the same edge of the source differ in them.
+_DIGITS = 6
+
+_SHARES = (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
 _NAMES = {"time": "time of the breakdown", "peak_current": "peak current"}
 
 
@@ -37,25 +41,30 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
         yield Text(f"The {len(listed)} discharges with the largest energy of {total}{kept}.")
     yield Text(
         "Voltage and charge have the sign of the shaft against the housing. Charge, energy, current and "
-        "duration follow from the given resistance and extinction of an arc. events.csv has all discharges."
+        "duration follow from the given resistance and extinction of an arc. events.csv has the others."
     )
     scales = {
         name: unit_for(max(abs(row[name]) for row in listed), unit, least=1.0)
         for name, unit in EVENT_COLUMNS.items()
     }
     heads = [f"{_NAMES.get(name, name)} [{unit}]" for name, (_, unit) in scales.items()]
+    digits = _decimals(max(row["time"] for row in listed) * scales["time"][0])
     cells = tuple(
         (
             str(number),
             NAMES_OF_ENDS[row["bearing"]],
-            *(_text(row[name] * factor, name) for name, (factor, _) in scales.items()),
+            *(
+                f"{row[name] * factor:.{digits}f}" if name == "time" else number_text(row[name] * factor)
+                for name, (factor, _) in scales.items()
+            ),
         )
         for number, row in enumerate(listed, 1)
     )
-    numeric = (0, *range(2, 2 + len(heads)))
-    yield Table("Discharges with the largest energy", ("number", "bearing", *heads), cells, numeric)
+    numeric = (0, *range(2, 2 + len(scales)))
+    heads = ["number", "bearing", *heads]
+    yield Table("Discharges with the largest energy", tuple(heads), cells, numeric, shares=_SHARES)
 
 
-def _text(value: float, name: str) -> str:
-    """Number of a cell; times have the digits that tell one discharge from the next."""
-    return f"{value:.6g}" if name == "time" else number_text(value)
+def _decimals(largest: float) -> int:
+    """Decimals of numbers up to a largest one, which is at least 1."""
+    return max(0, _DIGITS - len(f"{largest:.0f}"))

@@ -50,6 +50,11 @@ DRIVE_LIMITS = (
         "currents that circulate through both bearings are left out.",
     ),
     Limit(
+        "driven machine",
+        "Bearings, gears and seals of the driven machine are not in the circuit. A coupling that conducts "
+        "brings the voltage of the shaft to them.",
+    ),
+    Limit(
         "capacitances of the machine",
         "Capacitances from the geometry of the machine are those of a smooth rotor and parallel slots. End "
         "windings and leads are left out; they make the capacitances larger.",

@@ -6,10 +6,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.row import UNITS
+from ehlectric.cases.row import UNITS, number_text
 from ehlectric.drive.keys import DRIVE_KEYS, LIMITS, NAMES_OF_ENDS
-from ehlectric.drive.statistics import number_text
 from ehlectric.report.content import Table, Text
+
+# Row of the bounds of the rate of discharges.
+BOUNDS = "bounds"
 
 # Tables of both bearings: caption, and the keys of the rows with the units in which they are shown.
 _TABLES = (
@@ -38,6 +40,7 @@ _TABLES = (
         (
             ("events", ""),
             ("events_per_second", "1/s"),
+            (BOUNDS, "1/s"),
             ("events_per_edge", "%"),
             ("burning_time_share", "%"),
             ("voltage_mean", "V"),
@@ -63,7 +66,7 @@ _NAMES = {
     "voltage_ratio": "bearing voltage ratio by the capacitive divider",
     "waveform_ratio": "bearing voltage ratio as simulated",
     "events": "discharges in the simulated time",
-    "events_per_second": "discharges per second, with bounds of 95 %",
+    BOUNDS: "discharges per second, bounds of 95 %",
     "touching_time_share": "share of time in which asperities touch",
     "current_density": "current density, all elements",
     "element_current_density": "current density, one element",
@@ -113,43 +116,43 @@ def end_tables(summary: Mapping[str, Any]) -> Iterator[Table | Text]:
         rows = []
         for key, unit in entries:
             cells = [value_text(summary[end], key, unit) for end in ENDS]
-            if set(cells) != {"–"}:
+            # One of the voltages that are never reached says enough.
+            again = key.startswith("time_above.") and set(cells) == {"0"} == set(rows[-1][1:3])
+            if set(cells) != {"–"} and not again:
                 rows.append((_name(key), *cells, unit.replace(" ", "\xa0")))
         yield Table(caption, heads, tuple(rows), (1, 2), shares=_SHARES)
     yield Text(_BOUND)
 
 
 def _name(key: str) -> str:
-    label = DRIVE_KEYS[f"{ENDS[0]}.{key}"].name
-    return _NAMES.get(key) or label.removesuffix(f", {NAMES_OF_ENDS[ENDS[0]]}")
+    if key in _NAMES:
+        return _NAMES[key]
+    return DRIVE_KEYS[f"{ENDS[0]}.{key}"].name.removesuffix(f", {NAMES_OF_ENDS[ENDS[0]]}")
 
 
 def value_text(end: Mapping[str, Any], key: str, unit: str) -> str:
-    """Number of one bearing in its shown unit, the rate of discharges with its bounds; a dash for none.
+    """Number of one bearing in its shown unit; a dash for none.
 
     Parameters
     ----------
     end : mapping
         Summary of one bearing.
     key : str
-        Key of the number.
+        Key of the number, or ``BOUNDS`` for the bounds of the rate of discharges.
     unit : str
         Unit in which it is shown.
 
     Examples
     --------
-    >>> end = {"events_per_second": 0.0, "events_per_second_low": 0.0, "events_per_second_high": 18.44}
-    >>> value_text(end, "events_per_second", "1/s"), value_text({"power": 2.5e-6}, "power", "µW")
-    ('0 (at most 18.4)', '2.5')
+    >>> end = {"events": 0, "events_per_second_low": 0.0, "events_per_second_high": 18.44}
+    >>> value_text(end, BOUNDS, "1/s"), value_text({"power": 2.5e-6}, "power", "µW")
+    ('at most 18.4', '2.5')
     """
+    if key == BOUNDS:
+        low, high = (number_text(end[f"events_per_second_{side}"]) for side in ("low", "high"))
+        return f"{low} to {high}" if end["events"] else f"at most {high}"
     name, _, limit = key.partition(".")
     value = end[name][limit] if limit else end[name]
     if value is None:
         return "–"
-    text = number_text(value * UNITS[unit][1])
-    if key == "events":
-        return str(value)
-    if key != "events_per_second":
-        return text
-    low, high = (number_text(end[f"{key}_{side}"]) for side in ("low", "high"))
-    return f"{text} ({low} to {high})" if value else f"0 (at most {high})"
+    return str(value) if key == "events" else number_text(value * UNITS[unit][1])

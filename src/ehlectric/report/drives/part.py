@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.row import amount
+from ehlectric.cases.row import amount, number_text
 from ehlectric.cases.units import rpm
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.statistics import number_text
 from ehlectric.drive.verdict import drive_verdict
+from ehlectric.figures.names import with_units_kept
 from ehlectric.report.content import Block, Section
 from ehlectric.report.drawn import pictures_of
 from ehlectric.report.drives.assumptions import assumption_section
@@ -35,12 +36,13 @@ def drive_part(result: DriveResult) -> Part:
         What the report says of this result.
     """
     summary, case = result.summary(), result.case
+    verdict = drive_verdict(case, summary, result.warnings)
     return Part(
         kind=_kind(case),
         command="drive",
         lead=_lead(summary),
         failure="" if result.converged else UNSOLVED,
-        verdict=drive_verdict(case, summary, result.warnings),
+        verdict=replace(verdict, text=with_units_kept(verdict.text)),
         warnings=result.warnings,
         before=(assumption_section(case, summary),),
         numbers=tuple(_numbers(summary)),

@@ -6,8 +6,8 @@ from collections import Counter
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.input_keys import end_and_key
+from ehlectric.cases.row import number_text
 from ehlectric.discharge.verdict import Level, Verdict
-from ehlectric.drive.statistics import number_text
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.sweep.results import SweepResults
 
@@ -15,16 +15,21 @@ from ehlectric.sweep.results import SweepResults
 _BOTH = ("drive.events_per_second", "drive.power")
 _EACH = ("energy_mean", "peak_voltage", "breakdown_voltage")
 
+# Columns of the table of points, for each bearing: with its bounds where both bearings are the same.
+_RATE = "events_per_second"
+_LISTED = (_RATE, "energy_mean", "peak_voltage")
+_LISTED_OF_ONE = (_RATE, f"{_RATE}_low", f"{_RATE}_high", *_EACH)
+
 _RULE = (
     "Points are judged as a single drive is: discharges are expected where a bearing discharges at least "
     "twenty times in the simulated time, and none where no bearing discharges, also with a strength that is "
     "20 % lower."
 )
+_WORDS = {"yellow": "not certain", "green": "not expected"}
 _LEADS = {
-    "green": "No discharge expected at any point",
+    "green": "No discharge at any point",
     "yellow": "Discharges at some points",
-    "red": "Discharges expected at all points",
-    "grey": "No verdict",
+    "red": "Discharges at all points",
 }
 
 
@@ -36,11 +41,28 @@ def swept_values(results: SweepResults) -> tuple[str, ...]:
     results : SweepResults
         Results of a sweep of a drive.
     """
+    return (*_BOTH, *(f"{end}.{key}" for key in _EACH for end in _ends(results)))
+
+
+def listed_values(results: SweepResults) -> tuple[str, ...]:
+    """Keys of the summary that the table of the points has: of equal bearings with the bounds of the rate.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of a drive.
+    """
+    ends = _ends(results)
+    keys = _LISTED_OF_ONE if len(ends) == 1 else _LISTED
+    return ("drive.events_per_second", *(f"{end}.{key}" for end in ends for key in keys))
+
+
+def _ends(results: SweepResults) -> tuple[str, ...]:
+    """Ends whose numbers are shown: one where both bearings are the same at all points."""
     assert isinstance(results.case, DriveCase)
     first, second = results.case.bearings
     alike = first == second and not any(end_and_key(key)[0] in ENDS for key in results.varied)
-    ends = ENDS[:1] if alike else ENDS
-    return (*_BOTH, *(f"{end}.{key}" for key in _EACH for end in ends))
+    return ENDS[:1] if alike else ENDS
 
 
 def swept_verdict(results: SweepResults) -> Verdict | None:
@@ -73,11 +95,8 @@ def swept_verdict(results: SweepResults) -> Verdict | None:
     lead = _LEADS[level]
     if level == "yellow" and not counts["red"]:
         lead = "Discharges possible"
-    told = [
-        f"expected at {counts['red']} of {known} points",
-        f"not certain at {counts['yellow']}",
-        f"not expected at {counts['green']}",
-    ]
+    told = [f"expected at {counts['red']} of {known} points"]
+    told += [f"{words} at {counts[one]}" for one, words in _WORDS.items() if counts[one]]
     sentences = [f"{lead}: {', '.join(told)}.", *_range(results), _RULE]
     if missing:
         sentences.insert(1, f"{missing} more {'point is' if missing == 1 else 'points are'} not solved.")
