@@ -64,8 +64,6 @@ def test_a_stored_drive_is_drawn_again(ehlectric, drive, tmp_path):
     assert done.returncode == 0, done.stderr
     drawn = sorted(path.name for path in (tmp_path / "out").glob("*.png"))
     assert drawn == sorted(set(DRIVE_FIGURE_FILES) - {"drive_remedies.png"})
-    done = ehlectric("report", "out")
-    assert (done.returncode, "of which there is no report" in done.stderr) == (2, True)
 
 
 def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from textwrap import shorten
 from types import MappingProxyType
 from typing import Any
 
@@ -30,7 +28,7 @@ from ehlectric.report.drives.part import drive_part
 from ehlectric.report.facts import alarms_of, cell_table, row_tables, warning_block
 from ehlectric.report.light import light_of
 from ehlectric.report.limits import limits_of, references_of
-from ehlectric.report.part import UNSOLVED, Part, details_of
+from ehlectric.report.part import UNSOLVED, Part, details_of, lead_of
 from ehlectric.report.swept import sweep_part
 from ehlectric.runs.folders import stored_result
 from ehlectric.runs.results import load
@@ -95,17 +93,6 @@ def _answer(part: Part) -> Iterator[Block]:
         yield Text(part.no_verdict)
 
 
-def _in_short(result: Any) -> str:
-    """Main numbers of a result: its representation without the name of its class, title and verdict."""
-    line = repr(result)[1:-1].partition(" ")[2]
-    title = shorten(getattr(result, "title", "") or result.case.title, 60)
-    line = re.sub(r", verdict \w+$", "", line.removeprefix(f"{title!r}: "))
-    if isinstance(result, BearingResult) and result.case.bearing.base:
-        # The name of a bearing keeps its letters.
-        line = f"Bearing {line}"
-    return printable(f"{line[:1].upper()}{line[1:]}.").replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
-
-
 def _contact(result: Any) -> Part:
     summary, case = result.summary(), result.case
     assert isinstance(case, Case)  # every stored result has one
@@ -164,17 +151,13 @@ def _bearing(result: BearingResult) -> Part:
 def _shared(result: Any) -> dict[str, Any]:
     """What parts of contacts and bearings have in common, by the names of the attributes of ``Part``."""
     return {
-        "lead": _in_short(result),
+        "lead": lead_of(result),
         "warnings": result.warnings,
         "pictures": tuple(pictures_of(result, converged=result.converged)),
         "limits": tuple(limits_of(result.case)),
         "references": tuple(references_of(result.case)),
         "toml": result.case.to_toml(),
     }
-
-
-def _sweep(results: SweepResults) -> Part:
-    return sweep_part(results, _in_short(results))
 
 
 # Parts by the class of the result.
@@ -184,6 +167,6 @@ _PARTS: Mapping[type, Callable[[Any], Part]] = MappingProxyType(
         MotionResult: _motion,
         BearingResult: _bearing,
         DriveResult: drive_part,
-        SweepResults: _sweep,
+        SweepResults: sweep_part,
     }
 )

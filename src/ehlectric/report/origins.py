@@ -125,8 +125,8 @@ def input_text(case: SweptCase, key: str, value: Any) -> str:
     value : object
         Value in SI units.
     """
-    text = with_units_kept(printable(input_row(case, key, value).text))
-    return text.replace("ohm", "Ω") if is_number(value) else text
+    text = input_row(case, key, value).text
+    return with_units_kept(printable(text.replace("ohm", "Ω") if is_number(value) else text))
 
 
 def replaced_by(case: SweptCase, key: str) -> str:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from textwrap import shorten
 from typing import Any
 
+from ehlectric.bearing.result import BearingResult
 from ehlectric.discharge.verdict import Verdict
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, printable
 from ehlectric.report.content import Block, Section
 from ehlectric.report.limits import Limit, Reference
 
@@ -97,3 +100,20 @@ def _seconds(seconds: float | Mapping[str, float] | None) -> str:
         return ""
     total = sum(seconds.values()) if isinstance(seconds, Mapping) else seconds
     return f"{total:.3g} s"
+
+
+def lead_of(result: Any) -> str:
+    """Main numbers of a result: its representation without the name of its class, title and verdict.
+
+    Parameters
+    ----------
+    result : object
+        Result of a contact, of moving roughness, of a bearing, or of a sweep.
+    """
+    line = repr(result)[1:-1].partition(" ")[2]
+    title = shorten(getattr(result, "title", "") or result.case.title, 60)
+    line = re.sub(r", verdict \w+$", "", line.removeprefix(f"{title!r}: "))
+    if isinstance(result, BearingResult) and result.case.bearing.base:
+        # The name of a bearing keeps its letters.
+        line = f"Bearing {line}"
+    return printable(f"{line[:1].upper()}{line[1:]}.").replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")

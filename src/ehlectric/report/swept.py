@@ -20,7 +20,7 @@ from ehlectric.report.drives.limits import drive_limits, drive_references
 from ehlectric.report.drives.swept import listed_values, swept_values, swept_verdict
 from ehlectric.report.facts import cell_table, row_tables
 from ehlectric.report.limits import limits_of, references_of
-from ehlectric.report.part import Part
+from ehlectric.report.part import Part, lead_of
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import breakdown_of, main_value
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of
@@ -46,22 +46,20 @@ _SCALES: Mapping[str, Scale] = MappingProxyType(
 _RESULTS = ("film.minimum_thickness", "field.max_strength", "bearing.capacitance")
 
 
-def sweep_part(results: SweepResults, lead: str) -> Part:
+def sweep_part(results: SweepResults) -> Part:
     """Part of a report about a sweep.
 
     Parameters
     ----------
     results : SweepResults
         Results of a sweep.
-    lead : str
-        Main numbers in a sentence.
     """
     count, case = results.summary(), results.case
     of_drive = isinstance(case, DriveCase)
     return Part(
         kind=f"sweep of {count['points']} points over {', '.join(results.varied)}",
         command="sweep",
-        lead=lead,
+        lead=lead_of(results),
         failure=_failure(results, count),
         verdict=swept_verdict(results) if of_drive else results.verdict,
         warnings=tuple(sweep_warnings(results)),

@@ -158,7 +158,8 @@ def test_figures_have_captions(report):
 
 def test_every_figure_that_a_result_can_have_has_a_caption():
     files = (
-        *names.FIGURE_FILES, *names.POINT_FIGURE_FILES, names.ROUGHNESS_FIGURE, names.BREAKDOWN_FIGURE,
+        *names.DRIVE_FIGURE_FILES, *names.FIGURE_FILES, *names.POINT_FIGURE_FILES,
+        names.ROUGHNESS_FIGURE, names.BREAKDOWN_FIGURE,
         names.METER_FIGURE, *names.MOTION_FIGURE_FILES, *names.BEARING_FIGURE_FILES,
         *names.SPEED_FIGURE_FILES, names.SENSITIVITY_FIGURE, names.TEMPERATURE_FIGURE, names.SHEAR_FIGURE,
     )  # fmt: skip

@@ -101,7 +101,7 @@ def test_publications_of_a_contact_are_those_of_its_laws():
 
 
 def points_of(results):
-    (section,) = (one for one in sweep_part(results)["further"] if one.title == "Points")
+    (section,) = (one for one in sweep_part(results).further if one.title == "Points")
     return [block for block in section.blocks if isinstance(block, Table)]
 
 

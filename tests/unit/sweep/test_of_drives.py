@@ -14,7 +14,8 @@ from ehlectric.commands.app import app
 from ehlectric.drive.result import solve_drive
 from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
-from ehlectric.report.build import report_of
+from ehlectric.report.drawn import swept_names
+from ehlectric.report.drives.swept import swept_values
 from ehlectric.runs.meaning import check
 from ehlectric.sweep.breakdown_keys import main_value
 from ehlectric.sweep.columns import unit_of_column
@@ -223,9 +224,14 @@ def test_a_sweep_of_a_drive_is_checked_without_a_simulation():
     assert any("2 times ehlectric drive" in str(row.note) for row in meaning.rows)
 
 
-def test_reports_and_the_app_name_the_command(folder):
-    with pytest.raises(InputError, match=r"is a sweep of a drive; .* ehlectric map draws this one$"):
-        report_of(folder)
+def test_a_report_draws_maps_and_lines_of_both_bearings_once_where_they_are_the_same(results):
+    names = swept_names(results, swept_values(results))
+    assert names[:2] == ["map_drive.events_per_second", "lines_drive.events_per_second"]
+    assert {"map_drive_end.energy_mean", "map_drive_end.peak_voltage", "map_drive.power"} <= set(names)
+    assert not any("non_drive_end" in name for name in names)
+
+
+def test_the_app_names_the_command():
     table = {"case": small_drive().to_dict(), "vary": {SPEED: ["1500 rpm", "3000 rpm"]}}
     table["case"]["drive"]["speed"] = "1500 rpm"
     for end in ("drive_end", "non_drive_end"):

@@ -13,12 +13,12 @@ from ehlectric.sweep.results import SweepResults
 
 # Results of both bearings, and of one of them, that a report draws and lists.
 _BOTH = ("drive.events_per_second", "drive.power")
-_EACH = ("energy_mean", "peak_voltage", "breakdown_voltage")
+_EACH = ("energy_mean", "peak_voltage")
 
 # Columns of the table of points, for each bearing: with its bounds where both bearings are the same.
 _RATE = "events_per_second"
 _LISTED = (_RATE, "energy_mean", "peak_voltage")
-_LISTED_OF_ONE = (_RATE, f"{_RATE}_low", f"{_RATE}_high", *_EACH)
+_LISTED_OF_ONE = (_RATE, f"{_RATE}_low", f"{_RATE}_high", *_EACH, "breakdown_voltage")
 
 _RULE = (
     "Points are judged as a single drive is: discharges are expected where a bearing discharges at least "

@@ -1,0 +1,296 @@
+"""Reports of drives and of sweeps of drives: verdict, assumptions, both bearings, remedies and discharges."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlectric import DriveCase, Sweep, run_sweep, save, solve_drive
+from ehlectric.cases.case import Case
+from ehlectric.drive.result import DriveResult
+from ehlectric.report.build import report_of
+from ehlectric.report.content import Picture, Table, Text
+from ehlectric.report.drives.assumptions import assumption_section
+from ehlectric.report.drives.events import LISTED, event_blocks
+from ehlectric.report.drives.limits import DRIVE_LIMITS, DRIVE_REFERENCES, drive_limits, drive_references
+from ehlectric.report.drives.part import drive_part
+from ehlectric.report.drives.swept import swept_verdict
+from ehlectric.report.html import html_of
+from ehlectric.report.light import Light, light_of
+from ehlectric.report.origins import inputs_of, replaced_by
+from ehlectric.report.pdf import pdf_of
+from tests.helpers.drives import drive_with_remedy, small_drive
+from tests.helpers.places import ROOT
+from tests.helpers.reports import HOSTILE, Page, needs_pdftotext, text_of_pdf
+
+LOAD = "non_drive_end.bearing.radial_load"
+MACHINE = {
+    "stack_length": "120 mm", "bore_diameter": "110 mm", "air_gap": "0.5 mm", "slots": 36,
+    "slot_opening": "3 mm", "copper_depth": "2 mm", "slot_permittivity": 2, "liner_width": "50 mm",
+    "liner_thickness": "0.3 mm", "liner_permittivity": 3.5,
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def drive():
+    title = "".join(letter for letter in HOSTILE if letter.isprintable())
+    return solve_drive(drive_with_remedy(title=title, **{"drive.duration": "20 ms"}), workers=1)
+
+
+@pytest.fixture(scope="module")
+def report(drive, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("drive")
+    save(drive, folder)
+    return report_of(folder)
+
+
+@pytest.fixture(scope="module")
+def page(report):
+    return Page(html_of(report))
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    """Sweep over the load of one of two bearings, and its report."""
+    folder = tmp_path_factory.mktemp("sweep")
+    vary = {LOAD: ["1 kN", "2 kN"]}
+    return run_sweep(Sweep.from_dict({"case": small_drive(), "vary": vary}), folder, workers=1), report_of(
+        folder
+    )
+
+
+def tables(report, section):
+    (found,) = [one for one in report.sections if one.title == section]
+    return {block.caption: block for block in found.blocks if isinstance(block, Table)}
+
+
+def rows(table):
+    return {row[0]: row[1:] for row in table.rows}
+
+
+def test_sections_begin_with_the_answer(report):
+    assert [one.title for one in report.sections] == [
+        "Answer", "Warnings", "What decides the result", "Key numbers", "Figures", "Remedies",
+        "Largest discharges", "Inputs", "What the model leaves out", "Sources", "How it was computed",
+        "Input file",
+    ]  # fmt: skip
+    lead, light = report.sections[0].blocks
+    assert lead.text == (
+        "3000 rpm, 80 °C; 20 ms simulated, 2 periods of the fundamental, 1200 edges of the common-mode "
+        "voltage."
+    )
+    assert (light.level, light.words) == ("red", "Discharges expected")
+
+
+def test_numbers_of_both_ends_are_those_of_the_summary(report, drive):
+    summary, found = drive.summary(), tables(report, "Key numbers")
+    events = rows(found["Discharges"])
+    ends = [summary[end] for end in ("drive_end", "non_drive_end")]
+    assert events["discharges in the simulated time"][:2] == tuple(str(end["events"]) for end in ends)
+    bounds = [[float(end[f"events_per_second_{side}"]) for side in ("low", "high")] for end in ends]
+    shown = [
+        list(map(float, text.split(" to "))) for text in events["discharges per second, bounds of 95 %"][:2]
+    ]
+    assert np.array(shown) == pytest.approx(np.array(bounds), rel=5e-3)
+    assert events["energy of a discharge, mean"] == (
+        *(f"{1e9 * end['energy_mean']:.3g}" for end in ends),
+        "nJ",
+    )
+    assert rows(found["Simulation"])["edges of the common-mode voltage"] == ("1200", "")
+    times = [
+        name for name in rows(found["Voltages across the films"]) if name.startswith("share of time above")
+    ]
+    assert times[0] == "share of time above 1 V"
+    assert len(times) < 6  # beyond the first voltage that is never reached there is nothing to say
+
+
+def test_values_that_decide_are_told_with_their_origin(report):
+    decisive = rows(tables(report, "What decides the result")["Values that decide the result"])
+    assert decisive["breakdown.arc_resistance"][:2] == ("10\xa0Ω", "input file")
+    assert decisive["circuit.winding_rotor_capacitance"][:2] == ("50\xa0pF", "input file")
+    assert decisive["breakdown.renewal_time"][1] == "time in which oil passes the most loaded contact"
+    assert decisive["bearings.discharge.dielectric_strength"][0] == "15\xa0V/µm"
+    assert not any("common_mode_resistance" in key for key in decisive)
+
+
+def test_capacitances_from_the_geometry_are_marked():
+    case = small_drive(**{f"circuit.machine.{key}": value for key, value in MACHINE.items()})
+    table = case.to_dict()
+    del table["circuit"]["winding_rotor_capacitance"]
+    case = DriveCase.from_dict(table)
+    (_, found) = assumption_section(case).blocks
+    assert rows(found)["circuit.winding_rotor_capacitance"][1].startswith("geometry of the machine")
+    assert rows(found)["circuit.rotor_frame_capacitance"][1] == "input file"
+    topics = {limit.topic for limit in drive_limits(case)}
+    assert "capacitances of the machine" in topics
+    assert "capacitances of the machine" not in {limit.topic for limit in drive_limits(small_drive())}
+
+
+def test_figures_have_findings_and_captions(report):
+    pictures = [block for block in report.blocks() if isinstance(block, Picture)]
+    assert [one.name for one in pictures] == [
+        "drive_voltages", "drive_histogram", "drive_discharges", "drive_remedies",
+    ]  # fmt: skip
+    assert all(one.caption and one.title != one.name for one in pictures)
+
+
+def test_remedies_stand_beside_the_drive_with_what_they_change(report, drive):
+    found = tables(report, "Remedies")
+    assert found["What each remedy changes"].rows == (
+        ("Grounding ring", "circuit.grounding_ring_resistance", "not given", "1\xa0Ω"),
+    )
+    sides = found["Remedies side by side"].rows
+    assert [row[:2] for row in sides] == [
+        (name, end) for name in ("as it is", "Grounding ring") for end in ("drive end", "non-drive end")
+    ]
+    high = drive.summary()["remedies"][0]["drive_end"]["events_per_second_high"]
+    assert sides[2][2:5] == ("0", f"at most {high:.3g}", "–")
+    verdicts = rows(found["Verdict on each remedy"])
+    assert verdicts["as it is"] == ("Discharges expected",)
+    assert verdicts["Grounding ring"][0].endswith("in an ideal film (upper bound)")
+
+
+def test_the_largest_discharges_are_those_of_the_table_of_events(report, drive):
+    (table,) = tables(report, "Largest discharges").values()
+    assert len(table.rows) == LISTED
+    energy = next(n for n, head in enumerate(table.heads) if head.startswith("energy"))
+    shown = [float(row[energy]) for row in table.rows]
+    largest = sorted((row["energy"] for row in drive.events()), reverse=True)[:LISTED]
+    assert "[nJ]" in table.heads[energy]
+    assert shown == pytest.approx([1e9 * value for value in largest], rel=5e-3)
+
+
+def test_a_drive_without_discharges(drive):
+    part = drive_part(DriveResult(drive.remedies[0][2]))
+    assert [one.title for one in part.further] == ["Largest discharges"]
+    assert [block.text for block in part.further[0].blocks] == ["No film broke down in the simulated time."]
+    discharges = rows(next(one for one in part.numbers if getattr(one, "caption", "") == "Discharges"))
+    assert discharges["discharges per second, bounds of 95 %"][0].startswith("at most ")
+    assert "energy of a discharge, mean" not in discharges
+    assert next(event_blocks(drive)).text.startswith(f"The {LISTED} discharges with the largest energy of ")
+
+
+def test_inputs_of_two_equal_bearings_stand_once(report, drive):
+    found = tables(report, "Inputs")
+    assert "Inputs: both bearings" in found
+    cells = rows(found["Inputs: both bearings"])
+    assert cells["bearing.inner_speed"][2] == "not used: drive.speed takes its place"
+    assert cells["bearing.elements"][1].startswith("library 6208: published")
+    apart = {one.key: one for one in inputs_of(drive.case, apart=True)}
+    assert apart["non_drive_end.bearing.elements"].source == apart["drive_end.bearing.elements"].source
+    other = drive.case.replace({"non_drive_end.bearing.radial_load": "500 N"})
+    keys = {one.key for one in inputs_of(other)}
+    assert "bearings.bearing.radial_load" not in keys
+    assert {"drive_end.bearing.radial_load", "non_drive_end.bearing.radial_load"} <= keys
+    assert not any(key.startswith("remedies") for key in keys)
+
+
+def test_limits_say_that_arcs_are_inputs():
+    case = small_drive()
+    texts = " ".join(limit.text for limit in drive_limits(case))
+    assert "There is no model of the arc or its plasma" in texts
+    assert "drawn from Weibull's law" in texts
+    assert all(limit.text.endswith(".") for limit in DRIVE_LIMITS)
+    table = case.to_dict()
+    del table["breakdown"]["weibull_shape"]
+    fixed = DriveCase.from_dict(table)
+    assert "at the same voltage each time" in " ".join(limit.text for limit in drive_limits(fixed))
+    assert "Weibull" not in " ".join(one.citation for one in drive_references(fixed))
+    assert "Holtz" in " ".join(one.citation for one in drive_references(case))
+
+
+def test_publications_are_those_of_the_code():
+    sources = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "src/ehlectric").rglob("*.py"))
+    for reference in DRIVE_REFERENCES:
+        assert sources.count(reference.doi or reference.citation.split(",", 1)[0]) >= 2, reference.citation
+
+
+def test_the_input_file_is_the_drive(report, drive, tmp_path):
+    (code,) = [block for block in report.blocks() if isinstance(block, Text) and block.tone == "code"]
+    (tmp_path / "again.toml").write_text(code.text, encoding="utf-8")
+    assert DriveCase.from_toml(tmp_path / "again.toml") == drive.case
+
+
+def test_a_page_escapes_the_title_and_has_heads_for_every_column(page):
+    assert not page.of("script")
+    assert "<script>alert(1)</script>" in page.text
+    assert all(image["alt"] for image in page.of("img"))
+    assert len(page.of("caption")) == len(page.of("table"))
+
+
+@needs_pdftotext
+def test_no_text_is_lost_on_paper(report, page):
+    paper = text_of_pdf(pdf_of(report)).replace(" ", "").replace("\xad", "")
+    for section in report.sections:
+        for block in section.blocks:
+            if isinstance(block, Text | Light):
+                texts = [block.text]
+            elif isinstance(block, Table):
+                texts = [cell for row in block.rows for cell in row if isinstance(cell, str)]
+            else:
+                continue
+            for text in texts:
+                plain = " ".join(text.split())
+                assert plain in page.text, text
+                if not (isinstance(block, Text) and block.tone == "code"):
+                    assert plain.replace(" ", "") in paper, text
+
+
+def test_a_sweep_of_drives_has_a_verdict_and_its_values(swept):
+    results, report = swept
+    light = next(block for block in report.sections[0].blocks if isinstance(block, Light))
+    verdict = swept_verdict(results)
+    assert (light.level, light.text) == (verdict.level, verdict.text)
+    points = tables(report, "Points")["Points of the sweep"]
+    rates = [float(row[points.heads.index("discharges per second [1/s]")]) for row in points.rows]
+    assert rates == pytest.approx(results.values("drive.events_per_second"), rel=1e-3)
+    # The bearings differ from point to point, so that both ends have columns.
+    assert {"discharges per second, drive end [1/s]", "discharges per second, non-drive end [1/s]"} <= {
+        *points.heads
+    }
+    names = [block.name for block in report.blocks() if isinstance(block, Picture)]
+    assert len(names) == len(set(names))
+    assert names[0] == "lines_drive.events_per_second"
+    assert {f"lines_{end}.peak_voltage" for end in ("drive_end", "non_drive_end")} <= set(names)
+    assert not any("e+0" in block.title for block in report.blocks() if isinstance(block, Picture))
+    decisive = tables(report, "What decides the result")["Values that decide the result"]
+    assert {"drive_end.discharge.dielectric_strength", "non_drive_end.discharge.dielectric_strength"} <= set(
+        rows(decisive)
+    )
+    varied = rows(tables(report, "Inputs")["Inputs: bearing at the non-drive end"])
+    assert varied["bearing.radial_load"][1] == "varied"
+
+
+def test_verdict_on_a_sweep_from_its_points(swept):
+    results, _ = swept
+    red = swept_verdict(results)
+    assert light_of(red.level, red.text).words.startswith("Discharges")
+    point = results.points[0]
+    ring = solve_drive(small_drive(**{"circuit.grounding_ring_resistance": 1e-3}), workers=1).summary()
+    quiet = json.loads(json.dumps(ring))
+    for end in ("drive_end", "non_drive_end"):
+        quiet[end]["peak_voltage"] = 1e-3
+
+    def judged(*summaries):
+        return swept_verdict(replace(results, points=[replace(point, summary=one) for one in summaries]))
+
+    assert judged(quiet, quiet).level == "green"
+    assert judged(quiet, point.summary).level == "yellow"
+    assert "expected at 1 of 2 points" in judged(quiet, point.summary).text
+    assert light_of("green", judged(quiet).text).words == "No discharge at any point"
+
+
+def test_other_cases_have_no_key_that_a_drive_replaces(drive):
+    assert replaced_by(drive.case, "drive_end.bearing.temperature") == "drive.temperature"
+    assert replaced_by(drive.case, "bearings.bearing.radial_load") == ""
+    contact = {
+        "reduced_radius": 0.01,
+        "reduced_modulus": 2e11,
+        "load_per_length": 1e5,
+        "entrainment_speed": 1.0,
+    }
+    assert (
+        replaced_by(Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}}), "contact.load")
+        == ""
+    )
