@@ -7,6 +7,7 @@ import pytest
 
 from ehlectric.figures.names import DRIVE_FIGURE_FILES, in_formats
 from tests.helpers.places import EXAMPLES
+from tests.helpers.reports import Page
 from tests.unit.cases.test_drive import FILE
 
 SHORT = FILE.replace(
@@ -64,6 +65,28 @@ def test_a_stored_drive_is_drawn_again(ehlectric, drive, tmp_path):
     assert done.returncode == 0, done.stderr
     drawn = sorted(path.name for path in (tmp_path / "out").glob("*.png"))
     assert drawn == sorted(set(DRIVE_FIGURE_FILES) - {"drive_remedies.png"})
+
+
+def test_a_stored_drive_has_a_report(ehlectric, drive, tmp_path):
+    """As a page and on paper, with the numbers of summary.json; a damaged file is refused."""
+    drive.write_text(SHORT + REMEDY)
+    assert ehlectric("drive", "drive.toml", "-o", "out", "-q", "--no-plots").returncode == 0
+    done = ehlectric("report", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "written to out:\n  report.html, report.pdf\n"
+    page = Page((tmp_path / "out" / "report.html").read_text("utf-8"))
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
+    rates = [f"{summary[end]['events_per_second']:.0f}" for end in ("drive_end", "non_drive_end")]
+    numbers = [f"{float(f'{float(rate):.3g}'):g}" for rate in rates]
+    for text in ("Discharges expected", f"discharges per second {' '.join(numbers)} 1/s", "Ceramic"):
+        assert text in page.text, text
+    assert len(page.of("img")) == len(DRIVE_FIGURE_FILES)
+    assert (tmp_path / "out" / "report.pdf").read_bytes().startswith(b"%PDF")
+    file = tmp_path / "out" / "drive.nc"
+    file.write_bytes(file.read_bytes()[:5000])
+    done = ehlectric("report", "out")
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert "drive.nc" in done.stderr
 
 
 def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):

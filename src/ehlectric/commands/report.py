@@ -18,7 +18,9 @@ def report(
     result: Annotated[
         Path,
         file_argument(
-            "RESULT", "Folder of a result of any kind, or its result.nc, bearing.nc or motion.nc.", ".nc"
+            "RESULT",
+            "Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.",
+            ".nc",
         ),
     ],
     output: Annotated[
@@ -46,8 +48,8 @@ def report(
     """Write the report of a result: report.html, which needs no other file, and report.pdf.
 
     It holds the verdict, the warnings, the key numbers, all figures, every input with its source, what the
-    model leaves out, versions, and the input file. The result of a contact, of moving roughness, of a bearing
-    or of a sweep.
+    model leaves out, versions, and the input file. The result of a contact, of moving roughness, of a
+    bearing, of a drive or of a sweep.
     """
     with user_errors():
         wanted = _wanted(output, formats)

@@ -113,7 +113,7 @@ def end_tables(summary: Mapping[str, Any]) -> Iterator[Table | Text]:
     """
     heads = ("quantity", *NAMES_OF_ENDS.values(), "unit")
     for caption, entries in _TABLES:
-        rows = []
+        rows: list[tuple[str, ...]] = []
         for key, unit in entries:
             cells = [value_text(summary[end], key, unit) for end in ENDS]
             # One of the voltages that are never reached says enough.

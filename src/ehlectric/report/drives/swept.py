@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.input_keys import end_and_key
@@ -25,7 +26,7 @@ _RULE = (
     "twenty times in the simulated time, and none where no bearing discharges, also with a strength that is "
     "20 % lower."
 )
-_WORDS = {"yellow": "not certain", "green": "not expected"}
+_WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
 _LEADS = {
     "green": "No discharge at any point",
     "yellow": "Discharges at some points",
