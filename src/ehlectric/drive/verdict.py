@@ -81,7 +81,8 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
     level: Level = max(["yellow", *levels] if doubts else levels, key=_ORDER.index)
     if events or arcs:
         lead = "Discharges likely" if level == "yellow" and events >= FEW else _LEADS[level]
-        sentences = [f"{lead}: {_rates(summary)}.", *_doubts_of_rates(ends, level), *_harm(case, ends)]
+        sentences = [f"{lead}: {_rates(summary)}.", *_doubts_of_rates(ends, level)]
+        sentences += [*_touching(ends), *_harm(case, ends)]
     else:
         sentences = [f"{_LEADS[level]}: {_none(summary, part)}.", *_touching(ends), *doubts]
     if any(end["breakdown_voltage"] is not None for end in ends):

@@ -13,7 +13,7 @@ from ehlectric.cases.input_keys import end_and_key, of_both_ends
 from ehlectric.cases.row import amount
 from ehlectric.figures.names import with_units_kept
 from ehlectric.report.content import Section, Table, Text
-from ehlectric.report.origins import input_text
+from ehlectric.report.origins import input_text, inputs_of
 
 _TEXT = (
     "There is no model of the arc, and capacitances of machines are seldom measured: the values below decide "
@@ -21,6 +21,10 @@ _TEXT = (
     "unless the author of the input file says how it was found, and see with remedies what half and double "
     "of it change."
 )
+
+# Words for the origin of an input that is not a value of the library.
+_GIVEN = "input file"
+_ORIGINS = {"given": _GIVEN}
 _CAPTION = "Values that decide the result"
 _HEADS, _SHARES = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
 
@@ -51,6 +55,8 @@ _DECIDES: Mapping[str, str] = MappingProxyType(
 # The same by the keys of a bearing file; tables are named by their first word.
 _OF_BEARINGS: Mapping[str, str] = MappingProxyType(
     {
+        "contacts": "how exact films, capacitance and breakdown voltage are",
+        "bearing.film_factor": "film thickness: what heat and starvation leave of it",
         "discharge.dielectric_strength": "voltage at which films break down, and with it number and energy",
         "discharge.conductivity": "time for which the films hold a voltage",
         "bearing.composite_rq": "whether asperities touch",
@@ -76,7 +82,9 @@ def assumption_section(
         Dotted keys that a sweep varies, which get their values from there.
     """
     apart = any(end_and_key(key)[0] in ENDS for key in varied)
-    rows = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
+    origins = {one.key: _ORIGINS.get(one.origin, one.origin) for one in inputs_of(case, apart=apart)}
+    values = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
+    rows = [(key, value, origin or origins.get(key, _GIVEN), why) for key, value, origin, why in values]
     either = {one for key in varied for one in (key, *of_both_ends(key))}
     shown = tuple(
         (key, "varied", "sweep", why) if key in either else (key, *rest, why) for key, *rest, why in rows
@@ -85,14 +93,14 @@ def assumption_section(
 
 
 def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
-    """Rows of the tables ``circuit`` and ``breakdown``."""
+    """Rows of the tables ``circuit`` and ``breakdown``, without an origin where it is that of an input."""
     given = flattened(case.to_dict())
     for key, decides in _DECIDES.items():
         name = key.partition(".")[2]
         if key in given:
             # Resistances of 0 ohm are those of a path that has none.
             if given[key] or "resistance" not in key:
-                yield key, input_text(case, key, given[key]), "input file", decides
+                yield key, input_text(case, key, given[key]), "", decides
         elif name in case.circuit.estimated:
             origin = "geometry of the machine, without end windings"
             yield key, amount(case.circuit.capacitances[name], "F"), origin, decides
@@ -125,8 +133,10 @@ def _of_bearing(case: DriveCase, bearing: BearingCase, name: str, end: str) -> I
     given = flattened(bearing.to_dict())
     for key, decides in _OF_BEARINGS.items():
         if key in given:
-            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "input file", decides
-    for table in ("discharge.weibull", "discharge.strength_table"):
-        if any(key.startswith(f"{table}.") for key in given):
-            decides = _OF_BEARINGS["discharge.dielectric_strength"]
-            yield f"{name}.{table}", "a table", "input file", decides
+            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", decides
+    decides = _OF_BEARINGS["discharge.dielectric_strength"]
+    for key, value in given.items():
+        if key.startswith("discharge.weibull."):
+            yield f"{name}.{key}", input_text(case, f"{end}.{key}", value), "", decides
+    if any(key.startswith("discharge.strength_table.") for key in given):
+        yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides

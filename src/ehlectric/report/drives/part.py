@@ -67,7 +67,8 @@ def _lead(summary: Mapping[str, Any]) -> str:
     drive, source = summary["drive"], summary["source"]
     parts = [f"{amount(drive['duration'], 's')} simulated"]
     if drive["periods"] is not None:
-        parts.append(f"{drive['periods']:.4g} periods of the fundamental")
+        count = f"{drive['periods']:.4g}"
+        parts.append(f"{count} {'period' if count == '1' else 'periods'} of the fundamental")
     if source["edges_per_second"] is not None:
         edges = number_text(source["edges_per_second"] * drive["duration"])
         parts.append(f"{edges} edges of the common-mode voltage")

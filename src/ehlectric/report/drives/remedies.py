@@ -11,7 +11,7 @@ from ehlectric.cases.input_keys import of_both_ends
 from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.verdict import drive_verdict
-from ehlectric.errors import printable
+from ehlectric.errors import CODES, printable
 from ehlectric.report.content import Block, Table, Text
 from ehlectric.report.drives.numbers import BOUNDS, value_text
 from ehlectric.report.light import light_of
@@ -56,8 +56,10 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     for title, _, found in result.remedies:
         one = DriveResult(found)
         drives.append((title, one, one.summary()))
-    verdicts = tuple((printable(title), _words(one, own)) for title, one, own in drives)
-    yield Table("Verdict on each remedy", ("drive", "verdict"), verdicts, shares=(0.4, 0.6))
+    known = {warning.code for warning in result.warnings}
+    verdicts = tuple((printable(title), _words(one, own), _further(one, known)) for title, one, own in drives)
+    judged = ("drive", "verdict", "further warnings")
+    yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
     rows = tuple(
         (
             printable(title),
@@ -79,6 +81,12 @@ def _words(result: DriveResult, summary: Mapping[str, Any]) -> str:
     verdict = drive_verdict(result.case, summary, result.warnings)
     light = light_of(verdict.level, verdict.text)
     return f"{light.words} ({light.bound})" if light.bound else light.words
+
+
+def _further(result: DriveResult, known: set[str]) -> str:
+    """Meanings of the warnings of a remedy that the drive as it is does not have."""
+    codes = dict.fromkeys(warning.code for warning in result.warnings if warning.code not in known)
+    return " ".join(CODES[code].meaning for code in codes) or "none"
 
 
 def _changes(
