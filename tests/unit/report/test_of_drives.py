@@ -278,6 +278,8 @@ def test_verdict_on_a_sweep_from_its_points(swept):
     assert judged(quiet, quiet).level == "green"
     assert judged(quiet, point.summary).level == "yellow"
     assert "expected at 1 of 2 points" in judged(quiet, point.summary).text
+    lost = judged(quiet, None)
+    assert (lost.level, "1 more point is not solved" in lost.text) == ("yellow", True)
     assert light_of("green", judged(quiet).text).words == "No discharge at any point"
 
 

@@ -100,7 +100,8 @@ def swept_verdict(results: SweepResults) -> Verdict | None:
     told += [f"{words} at {counts[one]}" for one, words in _WORDS.items() if counts[one]]
     sentences = [f"{lead}: {', '.join(told)}.", *_range(results), _RULE]
     if missing:
-        sentences.insert(1, f"{missing} more {'point is' if missing == 1 else 'points are'} not solved.")
+        more = "1 more point is" if missing == 1 else f"{missing} more points are"
+        sentences.insert(1, f"{more} not solved, or must not be used.")
     return Verdict(level, " ".join(sentences))
 
 
