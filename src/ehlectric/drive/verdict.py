@@ -36,7 +36,7 @@ _FORMULA = 0.4
 _DOUBTS = (*DOUBTS, "partial-film")
 
 _UNSOLVED = "No verdict: a film is not converged, and the numbers must not be used."
-_HARM = "How much the discharges damage raceways and oil is not computed."
+_HARM = "How much currents damage raceways and oil is not computed."
 _OPENING = "contacts discharge as they open, which is not computed"
 _LEADS = {
     "green": "No discharge expected",
@@ -84,7 +84,8 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
         sentences = [f"{lead}: {_rates(summary)}.", *_doubts_of_rates(ends, level)]
         sentences += [*_touching(ends), *_harm(case, ends)]
     else:
-        sentences = [f"{_LEADS[level]}: {_none(summary, part)}.", *_touching(ends), *doubts]
+        sentences = [f"{_LEADS[level]}: {_none(summary, part)}.", *_touching(ends), *_harm(case, ends)]
+        sentences += doubts
     if any(end["breakdown_voltage"] is not None for end in ends):
         sentences += [*([] if events or arcs else [_bound(codes)]), _assumption(case)]
     return Verdict(level, " ".join(filter(None, sentences)))
@@ -169,15 +170,19 @@ def _doubts_of_rates(ends: Iterable[Mapping[str, Any]], level: Level) -> Iterato
 
 def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
     """Sentences: current density beside its published limits, what it rests on, and that harm is unknown."""
-    densities = [end["element_current_density"] for end in ends if end["element_current_density"]]
+    ends = list(ends)
+    densities = [end["current_density"] for end in ends if end["current_density"]]
+    if not densities:
+        return
     low, high = (1e-6 * limit for limit in (CURRENT_DENSITY_LIMITS[0], CURRENT_DENSITY_LIMITS[-1]))
-    arc = amount(case.breakdown.arc_resistance, "Ω")
-    if densities:
-        yield (
-            f"The current density of an element reaches {1e-6 * max(densities):.3g} A/mm², where published "
-            f"limits are {low:g} to {high:g} A/mm²; energies and currents follow from an arc of {arc}, which "
-            "is an assumption."
-        )
+    text = (
+        f"The largest current over the Hertz areas is {1e-6 * max(densities):.3g} A/mm², where published "
+        f"limits are {low:g} to {high:g} A/mm²"
+    )
+    if any(end["events"] for end in ends):
+        arc = amount(case.breakdown.arc_resistance, "Ω")
+        text += f"; energies and currents follow from an arc of {arc}, which is an assumption"
+    yield f"{text}."
     yield _HARM
 
 

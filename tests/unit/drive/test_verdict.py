@@ -26,7 +26,7 @@ def quiet(drive, **values):
     none = event_rate(np.zeros(40), 0.2)
     own = {
         "events": 0, "events_per_second": 0.0, "events_per_second_low": 0.0,
-        "events_per_second_high": none.high, "burning_time_share": 0.0, "element_current_density": None,
+        "events_per_second_high": none.high, "burning_time_share": 0.0, "current_density": None,
         "breakdown_voltage": 5.0, "weibull_shape": 5.0, "renewal_time": 1e-4, "peak_voltage": 0.05,
     }  # fmt: skip
     summary = drive.summary()
@@ -45,7 +45,7 @@ def test_a_drive_that_discharges(drive):
     assert verdict.text.startswith(f"Discharges expected: {rate:g} a second")
     assert "at 95 %" in verdict.text
     assert "follow from an arc of 10 Ω, which is an assumption" in verdict.text
-    assert "How much the discharges damage raceways and oil is not computed." in verdict.text
+    assert "How much currents damage raceways and oil is not computed." in verdict.text
     assert "Upper bound" not in verdict.text
 
 

@@ -40,8 +40,8 @@ DRIVE_LIMITS = (
     ),
     Limit(
         "damage",
-        "How much discharges damage raceways and oil is not computed. Published limits of the current "
-        "density are rules of thumb.",
+        "How much currents damage raceways and oil is not computed. Published limits of the current density "
+        "are those of bearing trials, for the largest current over the Hertz areas of all elements.",
     ),
     Limit(
         "circuit of the machine",
@@ -65,6 +65,12 @@ DRIVE_LIMITS = (
         "Dead times of the inverter, and the voltage of the middle of the DC link against earth, are left "
         "out.",
         lambda case: not case.source.measured,
+    ),
+    Limit(
+        "speed of the source",
+        "The frequency of the source follows the speed as that of a synchronous machine: the slip of an "
+        "induction machine is left out.",
+        lambda case: case.source.pole_pairs is not None,
     ),
     Limit(
         "source",

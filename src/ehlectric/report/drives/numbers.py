@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.row import UNITS, number_text
+from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.keys import DRIVE_KEYS, LIMITS, NAMES_OF_ENDS
 from ehlectric.report.content import Table, Text
 
@@ -54,11 +55,16 @@ _TABLES = (
             ("peak_current_largest", "mA"),
             ("time_mean", "µs"),
             ("power", "µW"),
+            ("contact_current", "mA"),
             ("current_density", "A/mm²"),
             ("element_current_density", "A/mm²"),
+            ("real_current_density", "A/mm²"),
         ),
     ),
 )
+
+# Published limits of the current density [A/mm²].
+_LIMITS = f"{1e-6 * CURRENT_DENSITY_LIMITS[0]:g} to {1e-6 * CURRENT_DENSITY_LIMITS[-1]:g}"
 
 # Names where the label of a key says less than a reader without the other rows needs.
 _NAMES = {
@@ -68,8 +74,9 @@ _NAMES = {
     "events": "discharges in the simulated time",
     BOUNDS: "discharges per second, bounds of 95 %",
     "touching_time_share": "share of time in which asperities touch",
-    "current_density": "current density, all elements",
+    "current_density": f"current density, all elements (published limits {_LIMITS})",
     "element_current_density": "current density, one element",
+    "real_current_density": "current density, real area of asperities",
     "power": "mean power of the discharges",
 }
 _SHARES = (0.44, 0.22, 0.22, 0.12)
@@ -99,6 +106,10 @@ def simulation_table(summary: Mapping[str, Any]) -> Table:
     if edges is not None:
         rows.append(("edges of the common-mode voltage", f"{edges * drive['duration']:.0f}", ""))
         rows.append(("edges per second", number_text(edges), "1/s"))
+    if source["fundamental_frequency"] is not None:
+        rows.append(("fundamental frequency", number_text(source["fundamental_frequency"]), "Hz"))
+    if source["modulation_index"] is not None:
+        rows.append(("modulation index", number_text(source["modulation_index"]), ""))
     rows.append(("discharges of both bearings", f"{drive['events']}", ""))
     return Table("Simulation", ("quantity", "value", "unit"), tuple(rows), (1,), shares=(0.6, 0.25, 0.15))
 
@@ -117,8 +128,9 @@ def end_tables(summary: Mapping[str, Any]) -> Iterator[Table | Text]:
         for key, unit in entries:
             cells = [value_text(summary[end], key, unit) for end in ENDS]
             # One of the voltages that are never reached says enough.
-            again = key.startswith("time_above.") and set(cells) == {"0"} == set(rows[-1][1:3])
-            if set(cells) != {"–"} and not again:
+            none = set(cells) == {"0"}
+            again = none and key.startswith("time_above.") and set(rows[-1][1:3]) == {"0"}
+            if set(cells) != {"–"} and not again and not (none and key == "contact_current"):
                 rows.append((_name(key), *cells, unit.replace(" ", "\xa0")))
         yield Table(caption, heads, tuple(rows), (1, 2), shares=_SHARES)
     yield Text(_BOUND)
