@@ -74,7 +74,7 @@ _NAMES = {
     "events": "discharges in the simulated time",
     BOUNDS: "discharges per second, bounds of 95 %",
     "touching_time_share": "share of time in which asperities touch",
-    "current_density": f"current density, all elements (published limits {_LIMITS})",
+    "current_density": "current density, all elements",
     "element_current_density": "current density, one element",
     "real_current_density": "current density, real area of asperities",
     "power": "mean power of the discharges",
@@ -83,7 +83,8 @@ _SHARES = (0.44, 0.22, 0.22, 0.12)
 _BOUND = (
     "≤ marks an upper bound: real films are thinner than smooth ones, and break down at lower voltages. The "
     "bounds of 95 % count the scatter within the simulated time, and not the errors of the inputs. A dash "
-    "stands where there is no such number, as without discharges or for ceramic elements."
+    "stands where there is no such number, as without discharges or for ceramic elements. Published limits "
+    f"are {_LIMITS} A/mm² for the current density of all elements."
 )
 
 
