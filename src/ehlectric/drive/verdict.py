@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount, number_text
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
@@ -19,18 +20,12 @@ from ehlectric.discharge.verdict import (
 )
 from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.statistics import FEW
+from ehlectric.drive.warnings import MOSTLY
 from ehlectric.errors import CODES, ResultWarning
 
 # Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,
 # where a drive that discharges does so thousands of times in a second.
 SELDOM = 1.0 / 60.0
-
-# Share of time with a burning arc from which on an arc is no rare event.
-_MOSTLY = 0.2
-
-# Part of a film that a formula may miss, for films that were not solved; other films are as exact as the
-# strength of the oil is not.
-_FORMULA = 0.4
 
 # Warnings for which a film may break down at a lower voltage.
 _DOUBTS = (*DOUBTS, "partial-film")
@@ -64,16 +59,19 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
         Red where a bearing discharges at least twenty times in the simulated time, or an arc burns in it for
         a fifth of that time. Green where no bearing discharges, none could more than once a minute with a
         strength that is 20 % lower, by the law of its threshold at the largest voltage, and no warning says
-        that films may break down at lower voltages. Yellow between both, and where thresholds do not
-        scatter and a strength that is 20 % higher would end the discharges. Grey where the numbers must not
-        be used. It has no margin.
+        that films may break down at lower voltages. Yellow between both, and where a strength that is 20 %
+        higher would end the discharges, as it may where thresholds hardly scatter. Grey where the numbers
+        must not be used. It has no margin.
     """
     warnings = tuple(warnings)
     codes = {warning.code for warning in warnings}
     refused = unusable(warnings) or ("" if summary["converged"] else _UNSOLVED)
     if refused:
         return Verdict("grey", refused)
-    part = (1.0 - STRENGTH_UNKNOWN) / (1.0 + _FORMULA if "formula-contacts" in codes else 1.0)
+    part = 1.0 - STRENGTH_UNKNOWN
+    if "formula-contacts" in codes:
+        # Films of the atlas and solved ones are far more exact than the strength is known.
+        part /= max(formula_factor(one.bearing.kind) for one in case.bearings)
     ends = [summary[end] for end in ENDS]
     levels = [_level(end, summary["source"]["peak"], part) for end in ends]
     events, arcs = sum(end["events"] for end in ends), any(end["burning_time_share"] for end in ends)
@@ -93,12 +91,12 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
 
 def _level(end: Mapping[str, Any], source: float, part: float) -> Level:
     """Level of one bearing, with films that break down at a part of their voltage."""
-    if end["events"] >= FEW or end["burning_time_share"] > _MOSTLY:
-        # Thresholds that scatter are reached with any strength; others only below the largest voltage.
+    if end["events"] >= FEW or end["burning_time_share"] > MOSTLY:
+        # The voltage that films would see without discharges: thresholds that scatter are reached all the
+        # same, others only below it.
         reach = max(end["peak_voltage"], end["voltage_ratio"] * source)
-        fixed = end["weibull_shape"] is None and end["breakdown_voltage"] is not None
-        ended = fixed and reach < (1.0 + STRENGTH_UNKNOWN) * end["breakdown_voltage"]
-        return "yellow" if ended else "red"
+        stronger = most_by_law({**end, "peak_voltage": reach}, 1.0 + STRENGTH_UNKNOWN)
+        return "red" if stronger > SELDOM else "yellow"
     if end["events"] or end["burning_time_share"] or end["touching_time_share"]:
         return "yellow"
     return "green" if most_by_law(end, part) <= SELDOM else "yellow"
@@ -164,7 +162,7 @@ def _doubts_of_rates(ends: Iterable[Mapping[str, Any]], level: Level) -> Iterato
     elif level == "yellow":
         yield "So few discharges give no certain rate."
     burning = max(end["burning_time_share"] for end in ends)
-    if burning > _MOSTLY:
+    if burning > MOSTLY:
         yield f"An arc burns for {100.0 * burning:.3g} % of the time."
 
 

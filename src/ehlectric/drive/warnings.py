@@ -16,7 +16,7 @@ from ehlectric.drive.statistics import FEW
 from ehlectric.errors import ResultWarning
 
 # Share of time from which an arc is said to burn on.
-_MOSTLY = 0.2
+MOSTLY = 0.2
 
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -92,7 +92,7 @@ def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
     """Warning of arcs that burn for most of the time: they are hardly discharges."""
     for end, burning in zip(ENDS, solution.record.burning, strict=True):
         share = float(burning) / solution.record.duration
-        if share > _MOSTLY:
+        if share > MOSTLY:
             yield ResultWarning(
                 "arc-burns-on",
                 f"an arc burns in {end} for {100.0 * share:.3g} % of the time: the source feeds it above "
