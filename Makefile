@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check format docs figures screenshots bench bench-public lock clean
+.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-public lock clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -109,6 +109,9 @@ format: $(VENV)/.dev
 docs: $(VENV)/.docs
 	$(BIN)/python -m sphinx -W --keep-going -n -q -b html docs docs/_build/html
 	@echo "The documentation is in $(CURDIR)/docs/_build/html/index.html"
+
+schemas: $(VENV)/.run
+	$(BIN)/python -c "from ehlectric.runs.schema import write_schemas; write_schemas()"
 
 figures: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet

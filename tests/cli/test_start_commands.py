@@ -29,14 +29,15 @@ def test_a_template_of_each_kind_is_written_and_means_something(ehlectric, tmp_p
     found = kind_of_file(tmp_path / "new.toml")
     assert found == KINDS.get(kind, "contact")
     command = COMMANDS.get(found, "run")
+    name = f"ehlectric-{found.replace('motion', 'contact')}.schema.json"
     assert done.stdout == (
-        "written: new.toml\n  check it with: ehlectric check new.toml\n"
-        f"  solve it with: ehlectric {command} new.toml\n"
+        f"written: new.toml\n  editors complete its keys by: {name}\n"
+        f"  check it with: ehlectric check new.toml\n  solve it with: ehlectric {command} new.toml\n"
     )
     meaning = check(RUNS[found].read(tmp_path / "new.toml"))
     assert meaning.rows
     text = (tmp_path / "new.toml").read_text(encoding="utf-8")
-    assert text.startswith("# ")
+    assert text.startswith(f"#:schema ./{name}\n# ")
     # What is not published is marked; a line and a point have assumptions in their alternatives.
     assert "assumption" in text
 
@@ -90,8 +91,8 @@ def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path)
 
 
 ORDER = [
-    "init", "examples", "check", "run", "bearing", "drive", "spice", "bearings", "film", "oils", "oil",
-    "sweep", "map", "sensitivity", "plot", "report", "animate", "surface", "app", "reproduce",
+    "init", "examples", "check", "schema", "run", "bearing", "drive", "spice", "bearings", "film", "oils",
+    "oil", "sweep", "map", "sensitivity", "plot", "report", "animate", "surface", "app", "reproduce",
 ]  # fmt: skip
 
 

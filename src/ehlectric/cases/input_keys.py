@@ -49,6 +49,8 @@ _OF_DRIVES = ("drive", "source", "circuit", "breakdown")
 # Tables of case and bearing files by the names under which keys.toml describes their keys. The table of sweep
 # files, "sweep", is in the package sweep.
 TABLES: Mapping[str, type[Table]] = {
+    "case_file": Case,
+    "bearing_file": BearingCase,
     "contact": Contact,
     "contact.body": Body,
     "film": FilmPhysics,
@@ -148,13 +150,34 @@ def describe(key: str) -> str:
     if leaf not in known:
         every = [f"{table}.{name}" for table in _texts() for name in descriptions(table)]
         raise InputError.unknown(key, nearest(key, every))
-    text, unit = (
-        _plain(known[leaf]),
-        unit_of(_numbered(key)).replace("**2", "²").replace("**3", "³").replace("*", " "),
-    )
-    name = INPUT_NAMES.get(own, (leaf.replace("_", " ") if _NAMELESS.match(known[leaf]) else "", ""))[0]
-    whole = text if text.startswith(name) else f"{name}, {text}"
+    unit = unit_of(_numbered(key)).replace("**2", "²").replace("**3", "³").replace("*", " ")
+    whole = _phrase(own, leaf, known[leaf])
     return f"{whole} [{unit}]" if unit else whole
+
+
+def phrase(table: str, key: str) -> str:
+    """Description of a key of a table as plain text, which begins with the name of the key.
+
+    Parameters
+    ----------
+    table : str
+        Name of the table in ``TABLES``, or "sweep".
+    key : str
+        One of its keys that have a description.
+
+    Examples
+    --------
+    >>> phrase("bearing", "radial_load"), phrase("contact.body", "youngs_modulus")
+    ('radial load, F_r', 'youngs modulus, E')
+    """
+    return _phrase(f"{table}.{key}", key, descriptions(table)[key])
+
+
+def _phrase(key: str, leaf: str, description: str) -> str:
+    """Plain text of a description, after the name of the quantity where it does not begin with it."""
+    text = plain_text(description)
+    name = INPUT_NAMES.get(key, (leaf.replace("_", " ") if _NAMELESS.match(description) else "", ""))[0]
+    return text if text.startswith(name) else f"{name}, {text}"
 
 
 # Descriptions that begin with a formula or a preposition, and do not name the quantity.
@@ -190,7 +213,7 @@ def _numbered(key: str) -> str:
     return f"{first}.1.{rest}" if first == "roughness" and not rest[:1].isdecimal() else key
 
 
-def _plain(text: str) -> str:
+def plain_text(text: str) -> str:
     """Text without the marks of Markdown and LaTeX."""
     for pattern, plain in _LATEX.items():
         text = re.sub(pattern, plain, text)

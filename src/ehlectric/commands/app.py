@@ -19,6 +19,7 @@ from ehlectric.commands.maps import draw_maps, sensitivity
 from ehlectric.commands.motion import animate
 from ehlectric.commands.report import report
 from ehlectric.commands.reproduce import reproduce
+from ehlectric.commands.schema import schema
 from ehlectric.commands.serve import app as serve_app
 from ehlectric.commands.spice import spice
 from ehlectric.commands.start import examples, init
@@ -49,6 +50,12 @@ _COMMANDS = (
     ("init", init, "Write a commented file to start from.", ("init bearing.toml --kind bearing",)),
     ("examples", examples, "List or copy the examples.", ("examples", "examples bearing_6208 -o trial")),
     ("check", check, "Check a file without solving it.", ("check bearing.toml", "check sweep.toml --json")),
+    (
+        "schema",
+        schema,
+        "Print the JSON Schema of a kind of file.",
+        ("schema bearing -o bearing.schema.json",),
+    ),
     ("run", run, "Solve a contact.", ("run case.toml -o results", "run case.toml --format pdf --format svg")),
     ("bearing", bearing, "Solve a whole rolling bearing.", ("bearing bearing.toml --contacts atlas",)),
     (

@@ -71,11 +71,15 @@ def init(
     ] = "line",
     geometry: Annotated[str, typer.Option(hidden=True)] = "",
     force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it exists.")] = False,
+    alone: Annotated[
+        bool, typer.Option("--no-schema", help="Write no schema beside the file, and no line that names it.")
+    ] = False,
     quiet: Quiet = False,
 ) -> None:
     """Write a commented file of any kind to start from.
 
-    The file can be solved as it is. Its comments explain every key, and mark what is an assumption.
+    The file can be solved as it is. Its comments explain every key, and mark what is an assumption. Beside it
+    lies the JSON Schema of its kind, by which editors such as VS Code complete and explain its keys.
     """
     with user_errors():
         if geometry and geometry not in _GEOMETRIES:
@@ -89,10 +93,16 @@ def init(
         if path.exists() and not force:
             raise InputError(path, "already exists; use --force to overwrite")
         clear_left_behind(prepare(path.parent))
-        _copy(source, path)
+        beside = None
+        if alone:
+            _copy(source, path)
+        else:
+            beside = _write_with_schema(source, path)
         command = command_of_file(path)
     if not quiet:
         say(f"written: {path}")
+        if beside is not None:
+            say(f"  editors complete its keys by: {beside}")
         say(f"  check it with: ehlectric check {path}")
         say(f"  solve it with: ehlectric {command} {path}")
 
@@ -182,6 +192,22 @@ def _needed(file: str) -> Iterator[str]:
         if "file" in surface:
             yield surface["file"]
             yield f"{_SURFACES}/README.md"  # licence of the measured surfaces
+
+
+def _write_with_schema(source: Path, path: Path) -> Path:
+    """Write a template whose first line names the schema of its kind, and the schema beside it."""
+    from ehlectric.commands.schema import schema_text
+    from ehlectric.runs.kinds import kind_of_tables
+    from ehlectric.runtime.files import refuse_special, write
+
+    text = source.read_text(encoding="utf-8")
+    kind = kind_of_tables(tomllib.loads(text)) or "contact"
+    kind = "contact" if kind == "motion" else kind
+    beside = path.parent / f"ehlectric-{kind}.schema.json"
+    refuse_special(beside)
+    write(beside, schema_text(kind).encode())
+    write(path, f"#:schema ./{beside.name}\n{text}".encode())
+    return beside
 
 
 def _copy(source: Path, target: Path) -> None:
