@@ -26,8 +26,8 @@ from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.kinds import AnyKind
 from ehlectric.motion.resume import COARSE, keep, kept
 from ehlectric.motion.solver import Snapshot, TransientSolver
-from ehlectric.runtime.files import plain, write
-from ehlectric.runtime.netcdf import changed, created, opened, resize
+from ehlectric.runtime.files import plain
+from ehlectric.runtime.netcdf import changed, create, opened, resize
 from ehlectric.version import __version__
 
 # Variables by name, each with its long name and unit: over all time steps, over the recorded instants, and
@@ -194,7 +194,7 @@ class MotionFile:
                 file.attrs[key] = value
             self._put(file, first)
 
-        write(self._path, created(fill))
+        create(self._path, fill)
 
     def _lay_out_supplied(self, file: Any, first: Record, axes: tuple[str, ...]) -> None:
         """Create the variables of a run with a supply of oil."""

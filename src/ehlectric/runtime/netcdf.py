@@ -8,7 +8,7 @@ import shutil
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
 from functools import partial
 from importlib import import_module
 from io import FileIO
@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 from ehlectric.errors import DamagedError, InputError
 from ehlectric.runtime.checks.classes import file_class, reading_class
 from ehlectric.runtime.checks.seal import seal_of
-from ehlectric.runtime.checks.sound import refuse_damaged
+from ehlectric.runtime.checks.sound import known_sound, refuse_damaged, remember_sound
 from ehlectric.runtime.drafts import Draft
-from ehlectric.runtime.files import writing
+from ehlectric.runtime.files import write, writing
 from ehlectric.runtime.interrupts import held_back
 from ehlectric.runtime.locks import take
 from ehlectric.runtime.redo import finish, redo_file, write_down
@@ -99,19 +99,31 @@ def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
     def fill(file: Any) -> None:
         dataset.dump_to_store(xr.backends.H5NetCDFStore(file))
 
-    return created(fill, sealed=True)
+    return _created(fill, sealed=True)
 
 
-def created(fill: Callable[[Any], None], *, sealed: bool = False) -> Callable[[BinaryIO], None]:
-    """Function that writes a new NetCDF file to an open file.
+def create(path: Path, fill: Callable[[Any], None]) -> None:
+    """Create a NetCDF file that will grow, whole or not at all.
 
     Parameters
     ----------
+    path : Path
+        File to write; an existing one is replaced.
     fill : callable
         Called with the ``h5netcdf.File``, to which it writes.
-    sealed : bool
-        Whether the file is complete, and ends with a seal.
+
+    Raises
+    ------
+    WriteError
+        Where the file cannot be written, as on a full disk.
     """
+    write(path, _created(fill))
+    with suppress(OSError):  # another program may have removed it
+        remember_sound(path, path.stat())
+
+
+def _created(fill: Callable[[Any], None], *, sealed: bool = False) -> Callable[[BinaryIO], None]:
+    """Function that writes a new NetCDF file to an open file; a complete one ends with a seal."""
 
     def content(target: BinaryIO) -> None:
         draft = Draft()
@@ -161,6 +173,7 @@ def changed(path: Path) -> Iterator[Any]:
         Where another program keeps the file open, or the disk is full.
     """
     with _to_change(path) as target:
+        was_sound = known_sound(path, os.fstat(target.fileno()))
         draft = Draft(target.fileno())
         with file_class()(draft, "r+") as file:
             yield file
@@ -170,6 +183,8 @@ def changed(path: Path) -> Iterator[Any]:
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
             draft.apply(partial(write_down, path, target.fileno()))
             redo_file(path).unlink()
+        if was_sound:
+            remember_sound(path, os.fstat(target.fileno()))
 
 
 @contextmanager

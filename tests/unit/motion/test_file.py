@@ -2,6 +2,7 @@
 
 import fcntl
 import json
+import os
 import re
 import signal
 from contextlib import suppress
@@ -23,6 +24,7 @@ from ehlectric.motion.run import run_motion
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MOTION, MotionRun, read_motion, saved_steps
 from ehlectric.runtime import netcdf as netcdf_files
+from ehlectric.runtime.checks.sound import remember_sound
 from tests.helpers.moving_cases import POINT, moving
 
 # Twelve steps of two grid spacings, kept are 0, 4, 8 and 12.
@@ -93,8 +95,11 @@ def stopped(written, tmp_path):
     """Puts the file of a run that was stopped after a step into the folder of the test."""
 
     def put(step):
-        (tmp_path / MOTION).write_bytes(written[1][step])
-        return tmp_path / MOTION
+        path = tmp_path / MOTION
+        path.write_bytes(written[1][step])
+        os.utime(path, (0, 0))  # older than what a test makes of it
+        remember_sound(path, path.stat())
+        return path
 
     return put
 

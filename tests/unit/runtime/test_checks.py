@@ -13,7 +13,7 @@ from ehlectric.errors import DamagedError
 from ehlectric.runtime.checks import sound
 from ehlectric.runtime.checks.schema import Rule, UnfitError, check_variables, json_of, number_of, refusing
 from ehlectric.runtime.checks.seal import seal, seal_of, sealed
-from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.runtime.netcdf import changed, create, read_dataset
 from tests.helpers.places import ROOT
 
 EARLIER = ROOT / "tests" / "data" / "earlier" / "result.nc"
@@ -73,6 +73,32 @@ def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
     seal(path)
     read_dataset(path)
     assert len(started) == 1
+
+
+def test_a_file_that_this_process_has_written_is_sound_until_it_changes(tmp_path, monkeypatch):
+    path, tried = tmp_path / "film.nc", []
+    monkeypatch.setattr(sound, "_try", lambda _, size: tried.append(size))
+
+    def fill(file):
+        file.dimensions = {"x": None}
+        file.create_variable("h", ("x",), "f8")
+
+    def append(value):
+        with changed(path) as file:
+            file.resize_dimension("x", value)
+            file.variables["h"][value - 1] = value
+
+    create(path, fill)
+    append(1)
+    append(2)
+    assert read_dataset(path)["h"].values.tolist() == [1.0, 2.0]
+    assert not tried
+    with path.open("ab") as file:
+        file.write(b"!")
+    # What others have written is not known, and what is added to it as little.
+    append(3)
+    assert read_dataset(path)["h"].values.tolist() == [1.0, 2.0, 3.0]
+    assert len(tried) == 1
 
 
 def test_a_file_that_keeps_hdf5_busy_for_ever(damaged, monkeypatch):

@@ -58,8 +58,7 @@ def grown(tmp_path):
         file.create_variable("map", ("frame", "x"), "f8", chunks=(1, 40_000))
         file.create_variable("time", ("frame",), "f8", chunks=(8,))
 
-    with path.open("wb") as file:
-        netcdf.created(lay_out)(file)
+    netcdf.create(path, lay_out)
 
     def grow(frame):
         with netcdf.changed(path) as file:

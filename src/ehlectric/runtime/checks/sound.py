@@ -1,7 +1,8 @@
 """Soundness of HDF5 files: files that the library HDF5 cannot read, or on which it crashes or never ends.
 
 A single changed byte can keep HDF5 in an endless loop, which no signal ends, or crash it. A file with a seal
-is known to be as it was written. Any other file is read once by a process of its own, whose end is awaited.
+is known to be as it was written, and so is one that this process has written and that has not changed since.
+Any other file is read once by a process of its own, whose end is awaited.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
-from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -45,6 +45,13 @@ from ehlectric.runtime.checks.sound import read_all
 sys.exit(read_all(sys.argv[2], int(sys.argv[3])))
 """
 
+# Path of a file, and what changes with its content: size, time of the last change, number of the file.
+_State = tuple[Path, int, int, int]
+
+# Files without a seal that are known to be sound, the latest last, and their largest number.
+_known: dict[_State, None] = {}
+_MOST_KNOWN = 64
+
 
 def refuse_damaged(path: Path) -> None:
     """Refuse a file that HDF5 cannot read, without being harmed by it.
@@ -66,13 +73,45 @@ def refuse_damaged(path: Path) -> None:
         state = os.fstat(file.fileno())
     if start != _SIGNATURE:
         raise InputError(path, "is not a NetCDF file")
-    if not sealed(path):
-        _try(path.absolute(), path, state.st_size, state.st_mtime_ns, state.st_ino)
+    if not known_sound(path, state) and not sealed(path):
+        _try(path, state.st_size)
+        remember_sound(path, state)
 
 
-@lru_cache(maxsize=64)
-def _try(_absolute: Path, path: Path, size: int, *_state: int) -> None:
-    """Read a file in a process of its own; a file that did not change since is not read again."""
+def known_sound(path: Path, state: os.stat_result) -> bool:
+    """Whether a file has not changed since it was found or written sound.
+
+    Parameters
+    ----------
+    path : Path
+        File without a seal.
+    state : os.stat_result
+        Its present state.
+    """
+    return _key(path, state) in _known
+
+
+def remember_sound(path: Path, state: os.stat_result) -> None:
+    """Remember that a file is sound: this process has read it, or written it.
+
+    Parameters
+    ----------
+    path : Path
+        File without a seal.
+    state : os.stat_result
+        Its state when it was found or written sound.
+    """
+    _known[_key(path, state)] = None
+    while len(_known) > _MOST_KNOWN:
+        _known.pop(next(iter(_known)), None)
+
+
+def _key(path: Path, state: os.stat_result) -> _State:
+    return path.absolute(), state.st_size, state.st_mtime_ns, state.st_ino
+
+
+def _try(path: Path, size: int) -> None:
+    """Read a file in a process of its own."""
     until = time.monotonic() + _PATIENCE
     seconds = _LIMIT + size / _SPEED
     command = [sys.executable, "-I", "-c", _CODE, json.dumps(sys.path), str(path), str(math.ceil(seconds))]
