@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ehlectric.bearing.contacts import LIGHT, ContactCurve, ContactSolution
+from ehlectric.bearing.contacts import ContactCurve, ContactSolution
 from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.bearing.solution import BearingSolution
 from ehlectric.errors import ResultWarning
@@ -29,7 +29,7 @@ def film_error(solution: BearingSolution) -> float:
         return formula_factor(solution.case.bearing.kind) - 1.0
     curves = solution.curves
     if solution.case.contacts == "atlas":
-        curves = counted(curves[0]), counted(curves[1])
+        curves = curves[0].counted, curves[1].counted
     errors = [contact.error or 0.0 for curve in curves for contact in curve.solutions]
     return min(1.0, max(errors) + max(curve.interpolation_error for curve in curves))
 
@@ -50,15 +50,9 @@ def percent(error: float) -> str:
     return f"{100.0 * error:.2g} %"
 
 
-def counted(curve: ContactCurve) -> ContactCurve:
-    """Contacts of a ring whose films decide about the circuit: those that are not light."""
-    least = LIGHT * curve.solutions[-1].load
-    return ContactCurve(tuple(contact for contact in curve.solutions if contact.load >= least))
-
-
 def with_light(curve: ContactCurve) -> tuple[ContactSolution, ...]:
     """Contacts of a ring; a light one that the atlas does not have has a note in place of its warning."""
-    heavy = {contact.load for contact in counted(curve).solutions}
+    heavy = {contact.load for contact in curve.counted.solutions}
 
     def eased(warning: ResultWarning) -> ResultWarning:
         if warning.code != "atlas-left":

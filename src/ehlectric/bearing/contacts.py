@@ -222,7 +222,7 @@ def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ..
 
 # Part of the largest load of a ring below which a contact is light: its film is thick, so that it never
 # breaks down first and hardly changes the circuit of the bearing.
-LIGHT = 0.02
+_LIGHT = 0.02
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -256,7 +256,14 @@ class ContactCurve(Values):
         """Interpolation of all quantities."""
         return _Interpolation.of(self.loads, np.stack(self.stack().columns(), axis=-1))
 
-    @property
+    @cached_property
+    def counted(self) -> ContactCurve:
+        """Contacts whose films decide about the circuit: those that are not light."""
+        least = _LIGHT * self.solutions[-1].load
+        heavy = tuple(contact for contact in self.solutions if contact.load >= least)
+        return self if len(heavy) == len(self.solutions) else ContactCurve(heavy)
+
+    @cached_property
     def interpolation_error(self) -> float:
         """Largest relative error of capacitance and breakdown voltage when one solved load is left out.
 
@@ -267,7 +274,7 @@ class ContactCurve(Values):
         worst, loads, stack = 0.0, self.loads, self.stack()
         values = np.stack([stack.inside, stack.breakdown_voltage], axis=-1)
         for k in range(1, loads.size - 1):
-            known = np.isfinite(values[k]) & [True, loads[k] >= LIGHT * loads[-1]]
+            known = np.isfinite(values[k]) & [True, loads[k] >= _LIGHT * loads[-1]]
             others = np.delete(values[:, known], k, axis=0)
             left = _Interpolation.of(np.delete(loads, k), others)(loads[k : k + 1])
             worst = max([worst, *np.abs(left[:, 0] / values[k, known] - 1.0)])

@@ -5,7 +5,7 @@ import pytest
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.bearing.accuracy import counted, film_error
+from ehlectric.bearing.accuracy import film_error
 from ehlectric.bearing.breakdown import breakdown_of
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.quick.by_atlas import _around_ball, _around_roller, _edge, _integral
@@ -148,7 +148,7 @@ def test_light_contacts_outside_the_atlas_are_a_note_and_do_not_count():
     assert light.severity == "note"
     assert "inner contacts at" in str(light)
     assert "may be 30 % off" in str(light)
-    largest = max(contact.error for curve in solution.curves for contact in counted(curve).solutions)
+    largest = max(contact.error for curve in solution.curves for contact in curve.counted.solutions)
     assert largest <= film_error(solution) < 0.15
     assert f"{100.0 * film_error(solution):.2g} %" in str(warnings["atlas-contacts"])
 

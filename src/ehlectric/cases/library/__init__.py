@@ -13,7 +13,12 @@ _FOLDER: Traversable = resources.files(__name__)
 
 
 def _names(kind: str) -> list[str]:
-    return sorted(file.name.removesuffix(".toml") for file in (_FOLDER / f"{kind}s").iterdir())
+    return list(_listed(_FOLDER, kind))
+
+
+@cache
+def _listed(folder: Traversable, kind: str) -> tuple[str, ...]:
+    return tuple(sorted(file.name.removesuffix(".toml") for file in (folder / f"{kind}s").iterdir()))
 
 
 def tables(kind: str, name: str) -> dict[str, Any]:
@@ -28,7 +33,7 @@ def _read(kind: str, name: str) -> dict[str, Any]:
 
 
 def _table(kind: str, name: str) -> dict[str, Any]:
-    table: dict[str, Any] = tables(kind, name)[kind]
+    table: dict[str, Any] = deepcopy(_read(kind, name)[kind])
     return table
 
 
@@ -48,8 +53,8 @@ def solid_names(*, rolling: bool = False, thermal: bool = False) -> list[str]:
     Only those of rings and elements if ``rolling``, and only those with known thermal properties if
     ``thermal``.
     """
-    names = [name for name in _names("solid") if not rolling or solid(name)["rolling"]]
-    return [name for name in names if not thermal or "thermal_conductivity" in solid(name)]
+    names = [name for name in _names("solid") if not rolling or _read("solid", name)["solid"]["rolling"]]
+    return [name for name in names if not thermal or "thermal_conductivity" in _read("solid", name)["solid"]]
 
 
 def solid(name: str) -> dict[str, Any]:
