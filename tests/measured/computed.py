@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from ehlectric import Case, solve
 from ehlectric.lubricant.viscosity import roelands_exponent
+from tests.helpers.shared import shared
 
 NANO, PICO = 1e-9, 1e-12
 GLASS = {"youngs_modulus": "70 GPa", "poissons_ratio": 0.21}
@@ -59,25 +62,30 @@ def ball_on_disc(oil, *, disc=GLASS, nodes=257, temperature=None, **tables):
 
 def central_films(case, speeds):
     """Central films [nm] of a case at other entrainment speeds [m/s]."""
-    films = []
-    for speed in speeds:
-        film = solve(case.replace({"contact.entrainment_speed": float(speed)})).film
-        assert film.converged, speed
-        films.append(film.central_thickness / NANO)
-    return np.array(films)
+
+    def found(at_speed):
+        film = solve(at_speed).film
+        assert film.converged, at_speed.contact.entrainment_speed
+        return [np.array([film.central_thickness / NANO])]
+
+    return _over_speed(found, case, speeds)[0]
 
 
 def capacitances(case, speeds):
     """Central films [nm] and capacitances at the meter with air and with oil around the film [pF]."""
-    rows = []
-    for speed in speeds:
-        result = solve(case.replace({"contact.entrainment_speed": float(speed)}))
-        assert result.film.converged, speed
+
+    def found(at_speed):
+        result = solve(at_speed)
+        assert result.film.converged, at_speed.contact.entrainment_speed
         meter = result.summary()["meter"]
-        rows.append(
-            (
-                result.film.central_thickness / NANO,
-                *(meter[f"capacitance_{around}"] / PICO for around in ("air", "oil")),
-            )
-        )
+        around = [meter[f"capacitance_{filled}"] / PICO for filled in ("air", "oil")]
+        return [np.array([result.film.central_thickness / NANO, *around])]
+
+    return _over_speed(found, case, speeds)
+
+
+def _over_speed(found, case, speeds):
+    """Numbers of a case at each entrainment speed, one row for each number."""
+    cases = [case.replace({"contact.entrainment_speed": float(speed)}) for speed in speeds]
+    rows = [shared(partial(found, each), found.__qualname__, each.to_toml())[0] for each in cases]
     return np.array(rows).T

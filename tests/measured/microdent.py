@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from ehlectric import Case, solve_motion
+from tests.helpers.shared import shared
 from tests.helpers.surface_writers import x3p
 from tests.measured.computed import oil
 from tests.measured.reference import load
@@ -93,6 +95,10 @@ def passage(dent, folder, *, nodes=129):
     film : ndarray, shape (t, n)
         Film through the middle of the dent [nm].
     """
+    return tuple(shared(partial(_passage, dent, folder, nodes), "dent", dent, contact(nodes).to_toml()))
+
+
+def _passage(dent, folder, nodes):
     path = dent.map(Path(folder) / "dent.x3p")
     tables = contact(nodes).to_dict()
     tables["contact"]["slide_to_roll_ratio"] = 2.0 * (dent.speed - 1.0)
