@@ -28,8 +28,9 @@ _MESSAGES = 100
 # Time that open requests have to end when the server is stopped [s].
 _GRACE = 1
 
-# Smallest response that is compressed [bytes].
-_COMPRESSED = 1000
+# Smallest response that is compressed [bytes], and level of the compression. Level 9 takes three times as long
+# for 5 % fewer bytes: compressing the 4.6 MB of Plotly would be a fifth of the work for a page.
+_COMPRESSED, _LEVEL = 1000, 4
 
 # Largest message of a browser [bytes].
 _LARGEST_MESSAGE = 4_000_000
@@ -99,7 +100,7 @@ def _application(guard: Guard, work: Work) -> Handler:
     )
     paged = with_bounded_pages(with_bounded_bodies(outer), lambda: len(Client.instances))
     # Pages are compressed after their scripts got the nonce.
-    return guard.around(GZipMiddleware(with_policy(paged), minimum_size=_COMPRESSED))
+    return guard.around(GZipMiddleware(with_policy(paged), minimum_size=_COMPRESSED, compresslevel=_LEVEL))
 
 
 def _show_fault() -> None:
