@@ -196,14 +196,14 @@ def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
 
 def touching_case(geometry, **tables):
     """Rough contact on a coarse grid whose surfaces touch."""
-    rough = {"surface": 1, "generator": "gaussian", "rq": "250 nm", "seed": 4}
+    rough = {"surface": 1, "generator": "gaussian", "seed": 4}
     slow = {"entrainment_speed": "0.01 m/s", "boundary_friction": 0.12}
     if geometry == "line":
-        table = table_of("rough_contact", contact=slow, grid={"nodes": 801})
-        table["roughness"] = [rough | {"correlation_length": "5 um"}]
+        table = table_of("rough_contact", contact=slow, grid={"nodes": 401})
+        table["roughness"] = [rough | {"rq": "150 nm", "correlation_length": "10 um"}]
     else:
         table = table_of("ball_contact", contact=slow, grid=SMALL)
-        table["roughness"] = [rough | {"correlation_length": "60 um"}]
+        table["roughness"] = [rough | {"rq": "250 nm", "correlation_length": "60 um"}]
     for key, values in tables.items():
         table[key] = table.get(key, {}) | values
     return Case.from_dict(table)
