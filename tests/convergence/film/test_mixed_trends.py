@@ -16,6 +16,7 @@ def by_speed():
     return [mixed_film(rough_point(ROUGH_BALL, speed=speed)) for speed in (3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1)]
 
 
+@pytest.mark.slow
 def test_faster_oil_parts_the_surfaces(by_speed):
     """As in the curve of Stribeck: load share and area of the spots fall with speed, to none."""
     assert all(film.converged for film in by_speed)
@@ -27,6 +28,7 @@ def test_faster_oil_parts_the_surfaces(by_speed):
     assert 0.1 < share[2] < 0.6
 
 
+@pytest.mark.slow
 def test_spots_swallow_no_oil(by_speed):
     """The oil's own equation holds in the spots: what they swallow is the residual of the iteration.
 
@@ -39,6 +41,7 @@ def test_spots_swallow_no_oil(by_speed):
     assert by_speed[-1].oil[1] == 0.0
 
 
+@pytest.mark.slow
 def test_replaced_mass_rows_would_lose_oil(by_speed):
     """The measure of lost oil sees it: without the pressure that drives oil through spots much is lost."""
     film = by_speed[2]

@@ -282,6 +282,7 @@ def test_differences_of_solved_contacts(summary):
     }
 
 
+@pytest.mark.slow
 def test_the_words_of_a_margin_below_one_are_those_of_the_level():
     """Yellow is likely and red is expected, in the verdict, beside the margin, and in the figure."""
     likely = whole_quick_answer(inputs(inner_speed="1200 rpm"))
