@@ -28,8 +28,8 @@ _MESSAGES = 100
 # Time that open requests have to end when the server is stopped [s].
 _GRACE = 1
 
-# Smallest response that is compressed [bytes], and level of the compression. Level 9 takes three times as long
-# for 5 % fewer bytes: compressing the 4.6 MB of Plotly would be a fifth of the work for a page.
+# Smallest response that is compressed [bytes], and level of the compression. Level 9 takes three times as
+# long for 5 % fewer bytes: compressing the 4.6 MB of Plotly would be a fifth of the work for a page.
 _COMPRESSED, _LEVEL = 1000, 4
 
 # Largest message of a browser [bytes].

@@ -23,66 +23,12 @@ from ehlectric.film.unsteady import History
 from ehlectric.motion.asperities import AREA_SHARE, COARSE_SHARE, LOAD_SHARE, SPOTS
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
-from ehlectric.motion.kinds import AnyKind
-from ehlectric.motion.resume import COARSE, keep, kept
+from ehlectric.motion.layout import MENISCUS, add_touches, lay_out, lay_out_supplied, resized
+from ehlectric.motion.resume import COARSE, has_place, keep, kept, make_place
 from ehlectric.motion.solver import Snapshot, TransientSolver
 from ehlectric.runtime.files import plain
-from ehlectric.runtime.netcdf import changed, create, opened, resize
+from ehlectric.runtime.netcdf import changed, create, layout_in, opened, values_in
 from ehlectric.version import __version__
-
-# Variables by name, each with its long name and unit: over all time steps, over the recorded instants, and
-# maps at the recorded instants.
-_STEPS = {
-    "time": ("time since the roughness began to enter", "s"),
-    "minimum_thickness": ("minimum film thickness", "m"),
-    "minimum_x": ("position of the minimum film thickness, along entrainment", "m"),
-    "minimum_y": ("position of the minimum film thickness, across entrainment", "m"),
-    "lowest_thickness": ("minimum film thickness between the nodes", "m"),
-    "central_thickness": ("film thickness at the centre of the contact", "m"),
-    "coarse_lowest_thickness": (
-        "minimum film thickness between the nodes of the companion, NaN between its steps",
-        "m",
-    ),
-    "coarse_central_thickness": ("film thickness at the centre of the companion, NaN between its steps", "m"),
-    "max_pressure": ("maximum pressure", "Pa"),
-    "thin_gap_strength": ("voltage / minimum film thickness", "V/m"),
-    "newton_iterations": ("Newton steps of a time step", "1"),
-    "krylov_iterations": ("GMRES iterations of a time step", "1"),
-    "halvings": ("number of halvings of a time step", "1"),
-}
-_FRAMES = {
-    "frame_time": ("time since the roughness began to enter", "s"),
-    "frame_step": ("number of the time step", "1"),
-    "max_strength": ("maximum field strength", "V/m"),
-    "max_strength_x": ("position of the maximum field strength, along entrainment", "m"),
-    "max_strength_y": ("position of the maximum field strength, across entrainment", "m"),
-    "capacitance": ("capacitance within the field range", "F/m or F"),
-    "max_strength_error": ("estimated relative error of the maximum field strength, NaN if unknown", "1"),
-}
-_MAPS = {
-    "pressure": ("pressure", "Pa"),
-    "thickness": ("film thickness", "m"),
-    "strength": ("maximum field strength across the film", "V/m"),
-    "roughness_1": ("roughness of surface 1, out of the body", "m"),
-    "roughness_2": ("roughness of surface 2, out of the body", "m"),
-    "cavitated": ("cavitated: pressure at ambient", "1"),
-}
-# Variables over the time steps that only runs have whose surfaces touch.
-_TOUCHES = {
-    LOAD_SHARE: ("part of the load that asperities carry", "1"),
-    AREA_SHARE: ("part of the Hertz zone in which the surfaces touch", "1"),
-    SPOTS: ("number of spots in which the surfaces touch", "1"),
-    COARSE_SHARE: ("part of the load that asperities carry in the companion, NaN between its steps", "1"),
-}
-# Variables that only runs with a supply of oil have: over the time steps, and maps where it is starved.
-MENISCUS = "meniscus"
-_SUPPLIED = {MENISCUS: ("position on the centre line from which oil fills the gap, NaN if flooded", "m")}
-_CONTENT = {"film_fraction": ("part of the gap that oil fills", "1")}
-# Variables that a line contact does not have.
-_OF_POINTS = ("minimum_y", "max_strength_y")
-
-# Steps or instants in a chunk of the file.
-_CHUNK = 1024
 
 
 @dataclass(frozen=True)
@@ -164,7 +110,7 @@ class MotionFile:
 
     def __init__(self, path: Path, contact: TransientContact) -> None:
         self._path, self._contact = path, contact
-        self._left: tuple[Any, int] | None = None
+        self._left: tuple[str, int] | None = None
 
     def create(self, first: Record, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
         """Create the file with its first recorded instant.
@@ -183,27 +129,19 @@ class MotionFile:
         InputError
             If the file cannot be written, as on a full disk.
         """
-        kind = self._contact.kind
-        positions = dict(zip(kind.axes, first.snapshot.film.axes, strict=True))
+        positions = dict(zip(self._contact.kind.axes, first.snapshot.film.axes, strict=True))
 
-        def fill(file: Any) -> None:
-            _lay_out(file, positions, stationary, kind)
-            self._lay_out_supplied(file, first, tuple(positions))
+        def begin(file: Any) -> None:
+            lay_out(file, positions, stationary, self._contact.kind)
+            if self._contact.case.inlet is not None:
+                starved = first.snapshot.film.film_fraction is not None
+                lay_out_supplied(file, tuple(positions), starved=starved)
             file.attrs["frames"] = file.attrs["complete"] = 0
             for key, value in attributes.items():
                 file.attrs[key] = value
-            self._put(file, first)
+            _make_room(file, first)
 
-        create(self._path, fill)
-
-    def _lay_out_supplied(self, file: Any, first: Record, axes: tuple[str, ...]) -> None:
-        """Create the variables of a run with a supply of oil."""
-        if self._contact.case.inlet is not None:
-            for name, about in _SUPPLIED.items():
-                _add(file, name, ("step",), about)
-        if first.snapshot.film.film_fraction is not None:
-            for name, about in _CONTENT.items():
-                _add(file, name, ("frame", *axes), about)
+        create(self._path, begin, lambda file: self._put(file, first))
 
     def append(self, record: Record) -> None:
         """Write a recorded instant and the time steps before it.
@@ -213,36 +151,39 @@ class MotionFile:
         InputError
             If another run has written to the file, or the disk has not enough space.
         """
-        with changed(self._path) as file:
-            if _state(file) != self._left:
-                raise InputError(
-                    self._path, "is being written to by another run", takes="a folder of its own"
-                )
-            self._put(file, record)
+        with changed(self._path) as draft:
+            with values_in(draft) as file:
+                if _state(file.attrs) != self._left:
+                    raise InputError(
+                        self._path, "is being written to by another run", takes="a folder of its own"
+                    )
+                has_room = _has_room(file, record)
+            if not has_room:
+                with layout_in(draft) as file:
+                    _make_room(file, record)
+            with values_in(draft) as file:
+                self._put(file, record)
 
     def _put(self, file: Any, record: Record) -> None:
-        """Write an instant into the open file."""
+        """Write an instant into the file, open as ``h5py.File``, which has room for it."""
         maps, numbers = self._maps(record.snapshot), _numbers(record)
-        rows, step = record.rows, record.step
+        rows, step, attributes = record.rows, record.step, file.attrs
         # A half-written instant of an earlier version may follow the complete ones, so the step determines
         # the place to write.
-        recorded = file.variables["frame_step"][: int(file.attrs["frames"])]
+        recorded = file["frame_step"][: _number_in(attributes, "frames")]
         frame = int(np.searchsorted(recorded, step))
-        resize(file, {"step": step + 1, "frame": frame + 1})
-        if any(row.values[name] > 0.0 for row in rows for name in (SPOTS, COARSE_SHARE)):
-            _add_touches(file, step + 1 - len(rows))
-        for name in file.variables:
-            if name in _STEPS or name in _TOUCHES or name in _SUPPLIED:
-                file.variables[name][step + 1 - len(rows) :] = [row.values[name] for row in rows]
+        over_steps, over_frames = resized(file, step + 1, frame + 1)
+        for name, variable in over_steps.items():
+            variable[step + 1 - len(rows) :] = [row.values[name] for row in rows]
         for name, value in (*maps.items(), *numbers.items()):
-            file.variables[name][frame] = value
+            over_frames[name][frame] = value
         keep(file, record.history, frame)
         if record.coarse is not None:
             keep(file, record.coarse, frame, group=COARSE)
-        file.attrs["seconds"] = float(file.attrs["seconds"]) + record.seconds
-        file.attrs["frames"] = frame + 1
-        file.attrs["complete"] = int(step == self._contact.schedule.steps)
-        self._left = _state(file)
+        attributes.modify("seconds", float(_number_in(attributes, "seconds")) + record.seconds)
+        attributes.modify("frames", frame + 1)
+        attributes.modify("complete", int(step == self._contact.schedule.steps))
+        self._left = _state(attributes)
 
     def _maps(self, snapshot: Snapshot) -> dict[str, Array]:
         film, field = snapshot.film, snapshot.field
@@ -282,7 +223,7 @@ class MotionFile:
             with opened(self._path) as file:
                 if file.attrs["complete"] or not self._same(file.attrs):
                     return None
-                self._left, frames = _state(file), int(file.attrs["frames"])
+                self._left, frames = _state(file.attrs), int(file.attrs["frames"])
                 history = kept(file, frames)
                 if history is None:
                     return None
@@ -313,62 +254,36 @@ def _numbers(record: Record) -> dict[str, float]:
     } | _place("max_strength", field.max_strength_position)
 
 
-def _lay_out(
-    file: Any, positions: Mapping[str, Array], stationary: Mapping[str, Array], kind: AnyKind
-) -> None:
-    """Create dimensions and variables; write the nodes and the maps of stationary roughness."""
-    axes = tuple(positions)
-    file.dimensions = {"step": None, "frame": None} | {name: positions[name].size for name in axes}
-    for name, values in positions.items():
-        direction = "along" if name == "x" else "across"
-        _add(file, name, (name,), (f"position {direction} entrainment", "m"), values)
-    for table, dimension in ((_STEPS, "step"), (_FRAMES, "frame")):
-        for name, (long_name, unit) in table.items():
-            if len(axes) > 1 or name not in _OF_POINTS:
-                unit = kind.capacitance_unit if name == "capacitance" else unit
-                _add(file, name, (dimension,), (long_name, unit))
-    for name, about in _MAPS.items():
-        _add(file, name, ("frame", *axes), about)
-    for name, values in stationary.items():
-        long_name, unit = _MAPS[name]
-        _add(file, f"stationary_{name}", axes, (f"{long_name}, stationary roughness", unit), values)
+def _touch(record: Record) -> bool:
+    """Whether surfaces touched at a step of an instant, in the run or in its companion."""
+    return any(row.values[name] > 0.0 for row in record.rows for name in (SPOTS, COARSE_SHARE))
 
 
-def _add(
-    file: Any,
-    name: str,
-    dimensions: Sequence[str],
-    about: tuple[str, str],
-    values: Array | None = None,
-) -> None:
-    """Create a variable; ``about`` has its long name and its unit."""
-    storage: dict[str, Any] = {}
-    kind = "f8"
-    if dimensions[0] == "frame" and len(dimensions) > 1:
-        kind = "i1" if name == "cavitated" else "f4"
-        shape = tuple(file.dimensions[d].size for d in dimensions[1:])
-        storage = {"chunks": (1, *shape), "compression": "gzip", "compression_opts": 1, "shuffle": True}
-    elif dimensions[0] in ("step", "frame"):
-        storage = {"chunks": (_CHUNK,)}
-    variable = file.create_variable(name, tuple(dimensions), kind, data=values, **storage)
-    variable.attrs["long_name"], variable.attrs["units"] = about
+def _has_room(file: Any, record: Record) -> bool:
+    """Whether a file, open as ``h5py.File``, has all variables of an instant."""
+    if _touch(record) and SPOTS not in file:
+        return False
+    coarse = record.coarse is None or has_place(file, record.coarse, group=COARSE)
+    return coarse and has_place(file, record.history)
 
 
-def _add_touches(file: Any, before: int) -> None:
-    """Create the variables of asperities where a file has none; the steps ``before`` have no spots."""
-    if SPOTS in file.variables:
-        return
-    for name, about in _TOUCHES.items():
-        _add(file, name, ("step",), about)
-        file.variables[name][:before] = 0.0
-    # The companion had no spots either where it had a film.
-    missing = np.isnan(file.variables["coarse_lowest_thickness"][:before])
-    file.variables[COARSE_SHARE][:before] = np.where(missing, math.nan, 0.0)
+def _make_room(file: Any, record: Record) -> None:
+    """Create the variables of an instant that a file, open as ``h5netcdf.File``, lacks."""
+    if _touch(record):
+        add_touches(file, record.step + 1 - len(record.rows))
+    make_place(file, record.history)
+    if record.coarse is not None:
+        make_place(file, record.coarse, group=COARSE)
 
 
-def _state(file: Any) -> tuple[Any, int]:
+def _number_in(attributes: Any, name: str) -> Any:
+    """Number in an attribute, which is an array of one number in a file of HDF5."""
+    return np.ravel(attributes[name])[0]
+
+
+def _state(attributes: Any) -> tuple[str, int]:
     """Date and number of recorded instants of a file; they change if another run writes to it."""
-    return file.attrs["date"], int(file.attrs["frames"])
+    return str(attributes["date"]), int(_number_in(attributes, "frames"))
 
 
 def described(contact: TransientContact) -> str:

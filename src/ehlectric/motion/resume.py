@@ -31,12 +31,35 @@ _PLACES = 2
 _FINE, COARSE = "resume", "resume_coarse"
 
 
-def keep(file: Any, history: History, frame: int, *, group: str = _FINE) -> None:
-    """Write the last two instants of a run.
+def has_place(file: Any, history: History, *, group: str = _FINE) -> bool:
+    """Whether a file, open as ``h5py.File``, has the variables for the last two instants of a run."""
+    return group in file and (_TOUCHING in file[group] or not _touches(history))
+
+
+def make_place(file: Any, history: History, *, group: str = _FINE) -> None:
+    """Create the variables for the last two instants of a run where the file lacks them.
 
     Parameters
     ----------
     file : h5netcdf.File
+        File of the run, open for writing.
+    history : History
+        Last two instants.
+    group : str
+        Group of the file: that of the run, or ``COARSE`` for the films of its companion.
+    """
+    if group not in file.groups:
+        _create(file, group, history.now.state.pressure.shape)
+    if _touches(history) and _TOUCHING not in file.groups[group].variables:
+        _add(file.groups[group], _TOUCHING)
+
+
+def keep(file: Any, history: History, frame: int, *, group: str = _FINE) -> None:
+    """Write the last two instants of a run to the variables of ``make_place``.
+
+    Parameters
+    ----------
+    file : h5py.File
         File of the run, open for writing.
     history : History
         Last two instants.
@@ -45,15 +68,9 @@ def keep(file: Any, history: History, frame: int, *, group: str = _FINE) -> None
     group : str
         Group of the file: that of the run, or ``COARSE`` for the films of its companion.
     """
-    values = _values_of(history)
-    if group not in file.groups:
-        _create(file, group, history.now.state.pressure.shape)
-    variables, place = file.groups[group].variables, frame % _PLACES
-    if _TOUCHING in values or _TOUCHING in variables:
+    values, variables, place = _values_of(history), file[group], frame % _PLACES
+    if _TOUCHING in variables:
         values.setdefault(_TOUCHING, np.zeros_like(values["pressure"]))
-        if _TOUCHING not in variables:
-            _add(file.groups[group], _TOUCHING)
-            variables = file.groups[group].variables
     for name, array in values.items():
         variables[name][place] = array
     variables["checksum"][place] = _checksum(values)
@@ -114,6 +131,11 @@ def _checksum(values: Mapping[str, Array]) -> int:
     return total
 
 
+def _touches(history: History) -> bool:
+    """Whether surfaces touch at one of both instants."""
+    return any(bool(instant.state.touching.any()) for instant in (history.now, history.before))
+
+
 def _values_of(history: History) -> dict[str, Array]:
     """Values of both instants by the names of their variables, the last instant first."""
     instants = history.now, history.before
@@ -126,7 +148,7 @@ def _values_of(history: History) -> dict[str, Array]:
         "t": np.array([instant.time for instant in instants]),
         "h00": np.array([instant.state.h00 for instant in instants]),
     }
-    if any(instant.state.touching.any() for instant in instants):
+    if _touches(history):
         over = [np.broadcast_to(each.state.contact_pressure, each.mass.shape) for each in instants]
         values[_TOUCHING] = np.stack(over)
     return values

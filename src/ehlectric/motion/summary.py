@@ -16,7 +16,7 @@ from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.accuracy import run_errors
 from ehlectric.motion.asperities import TouchHistory
-from ehlectric.motion.file import MENISCUS
+from ehlectric.motion.layout import MENISCUS
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.warnings import touch_warnings
 from ehlectric.runtime.files import plain

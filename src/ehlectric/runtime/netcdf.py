@@ -7,7 +7,7 @@ import os
 import shutil
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, suppress
 from functools import partial
 from importlib import import_module
@@ -99,36 +99,43 @@ def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
     def fill(file: Any) -> None:
         dataset.dump_to_store(xr.backends.H5NetCDFStore(file))
 
-    return _created(fill, sealed=True)
+    return _created(fill, None, sealed=True)
 
 
-def create(path: Path, fill: Callable[[Any], None]) -> None:
+def create(path: Path, lay_out: Callable[[Any], None], fill: Callable[[Any], None] | None = None) -> None:
     """Create a NetCDF file that will grow, whole or not at all.
 
     Parameters
     ----------
     path : Path
         File to write; an existing one is replaced.
-    fill : callable
-        Called with the ``h5netcdf.File``, to which it writes.
+    lay_out : callable
+        Called with the ``h5netcdf.File``, in which it creates variables and attributes.
+    fill : callable, optional
+        Called afterwards with the same file as an ``h5py.File``, to whose variables it writes.
 
     Raises
     ------
     WriteError
         Where the file cannot be written, as on a full disk.
     """
-    write(path, _created(fill))
+    write(path, _created(lay_out, fill))
     with suppress(OSError):  # another program may have removed it
         remember_sound(path, path.stat())
 
 
-def _created(fill: Callable[[Any], None], *, sealed: bool = False) -> Callable[[BinaryIO], None]:
+def _created(
+    lay_out: Callable[[Any], None], fill: Callable[[Any], None] | None, *, sealed: bool = False
+) -> Callable[[BinaryIO], None]:
     """Function that writes a new NetCDF file to an open file; a complete one ends with a seal."""
 
     def content(target: BinaryIO) -> None:
         draft = Draft()
         with file_class()(draft, "w") as file:
-            fill(file)
+            lay_out(file)
+        if fill is not None:
+            with values_in(draft) as file:
+                fill(file)
         for part in draft.content():
             target.write(part)
         if sealed:
@@ -161,8 +168,8 @@ def opened(path: Path) -> Iterator[Any]:
 
 
 @contextmanager
-def changed(path: Path) -> Iterator[Any]:
-    """Context with a file that is open for changes, which are written all or not at all, also after a kill.
+def changed(path: Path) -> Iterator[Draft]:
+    """Context with a draft of a file, whose changes are written all or not at all, also after a kill.
 
     It waits while another program has the file open. Interrupts are held back until the file is closed, so
     that they leave no damaged file.
@@ -175,8 +182,7 @@ def changed(path: Path) -> Iterator[Any]:
     with _to_change(path) as target:
         was_sound = known_sound(path, os.fstat(target.fileno()))
         draft = Draft(target.fileno())
-        with file_class()(draft, "r+") as file:
-            yield file
+        yield draft
         with writing(path):
             # Some file systems need space also for what they overwrite.
             if shutil.disk_usage(path.parent).free < draft.changed:
@@ -230,8 +236,19 @@ def _patient(path: Path, attempt: Callable[[], F]) -> Iterator[F]:
         time.sleep(_AGAIN)
 
 
-def resize(file: Any, sizes: Mapping[str, int]) -> None:
-    """Resize the dimensions of an open file whose sizes differ from the ones in ``sizes``."""
-    for name, size in sizes.items():
-        if file.dimensions[name].size != size:
-            file.resize_dimension(name, size)
+def layout_in(draft: Draft) -> AbstractContextManager[Any]:
+    """The ``h5netcdf.File`` in a draft, open to create variables, dimensions and groups."""
+    layout: AbstractContextManager[Any] = file_class()(draft, "r+")
+    return layout
+
+
+def values_in(draft: Draft) -> AbstractContextManager[Any]:
+    """The ``h5py.File`` in a draft, open to resize variables and to write their values.
+
+    The library of NetCDF looks up all variables and dimensions of a file that it opens, and those that have a
+    dimension whenever its size is asked for, which takes several times as long as the values of an instant.
+    """
+    import h5py
+
+    values: AbstractContextManager[Any] = h5py.File(draft, "r+")
+    return values

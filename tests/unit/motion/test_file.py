@@ -213,7 +213,7 @@ def test_an_instant_that_is_half_written_does_not_count(
     tmp_path, monkeypatch, whole, stopped, instant, writes
 ):
     stopped(4 * (instant - 1))
-    put, left = h5netcdf.Variable.__setitem__, writes
+    put, left = h5py.Dataset.__setitem__, writes
 
     def torn(self, key, value):
         nonlocal left
@@ -223,7 +223,7 @@ def test_an_instant_that_is_half_written_does_not_count(
         put(self, key, value)
 
     with monkeypatch.context() as patch:
-        patch.setattr(h5netcdf.Variable, "__setitem__", torn)
+        patch.setattr(h5py.Dataset, "__setitem__", torn)
         run(CASE, tmp_path)
     assert left == 0  # the last of 27 writes is the checksum
     part = read_motion(tmp_path)
@@ -543,7 +543,7 @@ def test_a_second_run_in_the_same_folder_is_refused(tmp_path, stopped, whole):
 )
 def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped, number):
     stopped(4)
-    put, left = h5netcdf.Variable.__setitem__, 10
+    put, left = h5py.Dataset.__setitem__, 10
 
     def signalled(self, key, value):
         nonlocal left
@@ -558,7 +558,7 @@ def test_a_signal_waits_until_an_instant_is_whole(tmp_path, monkeypatch, stopped
     before = signal.signal(number, stop)
     try:
         with monkeypatch.context() as patch:
-            patch.setattr(h5netcdf.Variable, "__setitem__", signalled)
+            patch.setattr(h5py.Dataset, "__setitem__", signalled)
             with pytest.raises(StoppedError, match=f"^{int(number)}$"):
                 run_motion(CASE, tmp_path)
         assert signal.getsignal(number) is stop

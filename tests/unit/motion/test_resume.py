@@ -3,12 +3,13 @@
 import zlib
 
 import h5netcdf
+import h5py
 import numpy as np
 import pytest
 
 from ehlectric.film.newton import State
 from ehlectric.film.unsteady import History, Instant
-from ehlectric.motion.resume import keep, kept
+from ehlectric.motion.resume import has_place, keep, kept, make_place
 
 SHAPE = (5, 3)
 
@@ -27,9 +28,23 @@ def history(frame):
 
 
 @pytest.fixture
-def file(tmp_path):
+def path(tmp_path):
     with h5netcdf.File(tmp_path / "run.nc", "w") as file:
-        yield file
+        make_place(file, history(0))
+    return tmp_path / "run.nc"
+
+
+def put(path, frame):
+    """Keep the history of a recorded instant in a file that has room for it."""
+    with h5py.File(path, "r+") as file:
+        assert has_place(file, history(frame))
+        keep(file, history(frame), frame)
+
+
+def read(path, frames):
+    """History that a file has kept, after a number of recorded instants."""
+    with h5netcdf.File(path, "r") as file:
+        return kept(file, frames)
 
 
 def same(one, other):
@@ -41,34 +56,39 @@ def same(one, other):
     assert one.full_film.dtype == bool
 
 
-def test_what_is_kept_is_read_to_the_last_bit(file):
-    keep(file, history(0), 0)
-    found = kept(file, 1)
+def test_what_is_kept_is_read_to_the_last_bit(path):
+    put(path, 0)
+    found = read(path, 1)
     same(found.now, history(0).now)
     same(found.before, history(0).before)
 
 
-def test_the_films_before_stay_while_the_next_are_written(file):
+def test_the_films_before_stay_while_the_next_are_written(path):
     """Two places in turn: a torn write of frame 2 spoils that of frame 0, not that of frame 1."""
     for frame in range(3):
-        keep(file, history(frame), frame)
+        put(path, frame)
     for frame in (1, 2):
-        same(kept(file, frame + 1).now, history(frame).now)
-    variable = file.groups["resume"].variables["mass"]
-    variable[0] = np.asarray(variable[0]) + 1.0
-    assert kept(file, 3) is None
-    same(kept(file, 2).now, history(1).now)
+        same(read(path, frame + 1).now, history(frame).now)
+    with h5py.File(path, "r+") as file:
+        variable = file["resume"]["mass"]
+        variable[0] = variable[0] + 1.0
+    assert read(path, 3) is None
+    same(read(path, 2).now, history(1).now)
 
 
-def test_nothing_is_kept_before_the_first_instant(file):
-    keep(file, history(0), 0)
-    assert kept(file, 0) is None
+def test_nothing_is_kept_before_the_first_instant(path):
+    put(path, 0)
+    assert read(path, 0) is None
 
 
-def test_the_layout_is_that_of_earlier_versions(file):
+def test_the_layout_is_that_of_earlier_versions(path):
     """Names, types, dimensions and checksum, by hand: a run stopped before an update is resumed after it."""
-    keep(file, history(0), 0)
-    group = file.groups["resume"]
+    put(path, 0)
+    with h5netcdf.File(path, "r") as file:
+        check_layout(file.groups["resume"])
+
+
+def check_layout(group):
     assert {name: size.size for name, size in group.dimensions.items()} == {
         "place": 2,
         "instant": 2,

@@ -13,7 +13,7 @@ from ehlectric.errors import DamagedError
 from ehlectric.runtime.checks import sound
 from ehlectric.runtime.checks.schema import Rule, UnfitError, check_variables, json_of, number_of, refusing
 from ehlectric.runtime.checks.seal import seal, seal_of, sealed
-from ehlectric.runtime.netcdf import changed, create, read_dataset
+from ehlectric.runtime.netcdf import changed, create, layout_in, read_dataset
 from tests.helpers.places import ROOT
 
 EARLIER = ROOT / "tests" / "data" / "earlier" / "result.nc"
@@ -84,7 +84,7 @@ def test_a_file_that_this_process_has_written_is_sound_until_it_changes(tmp_path
         file.create_variable("h", ("x",), "f8")
 
     def append(value):
-        with changed(path) as file:
+        with changed(path) as draft, layout_in(draft) as file:
             file.resize_dimension("x", value)
             file.variables["h"][value - 1] = value
 

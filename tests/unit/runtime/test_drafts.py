@@ -61,10 +61,11 @@ def grown(tmp_path):
     netcdf.create(path, lay_out)
 
     def grow(frame):
-        with netcdf.changed(path) as file:
-            netcdf.resize(file, {"frame": frame + 1})
-            file.variables["map"][frame] = np.full(40_000, frame)
-            file.variables["time"][frame] = frame
+        with netcdf.changed(path) as draft, netcdf.values_in(draft) as file:
+            for name in ("frame", "map", "time"):
+                file[name].resize(frame + 1, axis=0)
+            file["map"][frame] = np.full(40_000, frame)
+            file["time"][frame] = frame
 
     return path, grow
 
