@@ -174,7 +174,8 @@ def resized(file: Any, steps: int, frames: int) -> tuple[dict[str, Any], dict[st
     over_steps, over_frames : dict of str to h5py.Dataset
         Variables over the time steps, and variables over the recorded instants, by their names.
     """
-    over_steps, over_frames = {}, {}
+    over_steps: dict[str, Any] = {}
+    over_frames: dict[str, Any] = {}
     for name, variable in file.items():
         # Dimensions are stored as variables; groups have no shape.
         if getattr(variable, "maxshape", (0,))[0] is None:

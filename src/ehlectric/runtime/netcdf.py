@@ -248,7 +248,5 @@ def values_in(draft: Draft) -> AbstractContextManager[Any]:
     The library of NetCDF looks up all variables and dimensions of a file that it opens, and those that have a
     dimension whenever its size is asked for, which takes several times as long as the values of an instant.
     """
-    import h5py
-
-    values: AbstractContextManager[Any] = h5py.File(draft, "r+")
+    values: AbstractContextManager[Any] = import_module("h5py").File(draft, "r+")
     return values

@@ -13,12 +13,13 @@ _FOLDER: Traversable = resources.files(__name__)
 
 
 def _names(kind: str) -> list[str]:
-    return list(_listed(_FOLDER, kind))
+    return list(_listed(str(_FOLDER), kind))
 
 
 @cache
-def _listed(folder: Traversable, kind: str) -> tuple[str, ...]:
-    return tuple(sorted(file.name.removesuffix(".toml") for file in (folder / f"{kind}s").iterdir()))
+def _listed(_folder: str, kind: str) -> tuple[str, ...]:
+    """Names in the folder of the library, which is looked at once."""
+    return tuple(sorted(file.name.removesuffix(".toml") for file in (_FOLDER / f"{kind}s").iterdir()))
 
 
 def tables(kind: str, name: str) -> dict[str, Any]:
