@@ -21,7 +21,7 @@ class Following(Generic[I, T]):
     Parameters
     ----------
     quick, whole : callable
-        Compute the answer at once and the whole one.
+        Compute the answer at once and the whole one; None where the one at once is whole.
     show : callable
         Called with the latest inputs and an answer to them.
     passing : callable
@@ -36,7 +36,7 @@ class Following(Generic[I, T]):
     def __init__(
         self,
         quick: Callable[[I], Awaitable[T]],
-        whole: Callable[[I], Awaitable[T]],
+        whole: Callable[[I], Awaitable[T]] | None,
         *,
         show: Callable[[I, T], None],
         passing: Callable[[I, T], None],
@@ -80,7 +80,8 @@ class Following(Generic[I, T]):
                     self._refuse(error)
                 continue
             if asked == self._asked:
-                self._later = asyncio.create_task(self._when_quiet(asked, inputs))
+                if self._whole is not None:
+                    self._later = asyncio.create_task(self._when_quiet(asked, inputs, self._whole))
                 self._show(inputs, answer)
             elif self._waits():
                 self._pass(inputs, answer)
@@ -89,13 +90,13 @@ class Following(Generic[I, T]):
         """Whether newer inputs wait for their answer; they do not where nothing is wanted any more."""
         return self._wanted is not None
 
-    async def _when_quiet(self, asked: int, inputs: I) -> None:
+    async def _when_quiet(self, asked: int, inputs: I, whole: Callable[[I], Awaitable[T]]) -> None:
         await asyncio.sleep(_QUIET)
         async with self._behind:
             if asked != self._asked:
                 return
             try:
-                answer = await self._whole(inputs)
+                answer = await whole(inputs)
             except (InputError, ConvergenceError, LostError) as error:
                 if asked == self._asked:
                     self._refuse(error)

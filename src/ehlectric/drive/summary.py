@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ehlectric.bearing.accuracy import film_error
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
@@ -130,6 +131,14 @@ def _film(case: DriveCase, one: BearingElement) -> dict[str, Any]:
         "renewal_time": (case.breakdown.renewal_time or one.transit) if finite else None,
         "touching_time_share": one.touching,
     }
+
+
+def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
+    """Summary of a drive that is not simulated, with the way to the films of each end and their error."""
+    summary = prepared_summary(ready)
+    for end, result in zip(ENDS, ready.bearings, strict=True):
+        summary[end] |= {"films": result.case.contacts, "films_error": film_error(result.solution)}
+    return summary
 
 
 def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:

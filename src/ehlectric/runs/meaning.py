@@ -18,7 +18,7 @@ import numpy as np
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW, QUICK
 from ehlectric.cases.case import Case
-from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.row import Row
 from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
@@ -215,29 +215,19 @@ def _check_bearing(case: BearingCase) -> Meaning:
 
 @check.register
 def _check_drive(case: DriveCase) -> Meaning:
-    from ehlectric.bearing.accuracy import film_error
-    from ehlectric.bearing.quick.ways import quick_case
+    from ehlectric.drive.quick import quick_drive
     from ehlectric.drive.solver import prepare
-    from ehlectric.drive.summary import prepared_summary
+    from ehlectric.drive.summary import checked_summary
     from ehlectric.drive.warnings import bearing_warnings, machine_warnings
     from ehlectric.tables.drive import prepared_rows
 
     case.variants()
-    films = {}
-    for end, bearing in zip(ENDS, case.bearings, strict=True):
-        judged, refused = quick_case(bearing)
-        if judged is None or refused is not None:
-            key = "lubricant" if refused is None else refused.key
-            note = f"{end}.{key}: needs solved contacts; ehlectric drive solves them"
-            row = Row("films and voltages", note=note)
-            return Meaning(case.title, (row,), {"inputs": case.to_dict(), "films": None}, ())
-        films[end] = judged
-    tables = {**case.to_dict(), **films}
-    tables["drive"].pop("contacts", None)
-    ready = prepare(DriveCase.from_dict(tables), workers=1)
-    summary = {**prepared_summary(ready), "inputs": case.to_dict()}
-    for end, result in zip(ENDS, ready.bearings, strict=True):
-        summary[end] |= {"films": films[end].contacts, "films_error": film_error(result.solution)}
+    quick, key = quick_drive(case)
+    if quick is None:
+        row = Row("films and voltages", note=f"{key}: needs solved contacts; ehlectric drive solves them")
+        return Meaning(case.title, (row,), {"inputs": case.to_dict(), "films": None}, ())
+    ready = prepare(quick, workers=1)
+    summary = {**checked_summary(ready), "inputs": case.to_dict()}
     told = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case))
     return Meaning(case.title, tuple(prepared_rows(summary)), summary, told)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.accuracy import percent
@@ -127,8 +127,25 @@ def ends_table(summary: Mapping[str, Any]) -> Table:
         A row for each quantity, a column for each end, and one for the unit.
     """
     head = [printable(summary["title"]), *NAMES_OF_ENDS.values(), ""]
-    rows = ([name, *(_shown(summary[end][key], unit) for end in ENDS), unit] for name, key, unit in _ROWS)
-    return _table(head, rows)
+    return _table(head, end_cells(summary))
+
+
+def end_cells(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Cells of the table of both bearings: name, value at each end, and unit.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a drive, or its tables before a simulation, which have some of the rows.
+
+    Yields
+    ------
+    tuple of str
+        Row for each quantity that the summary has.
+    """
+    for name, key, unit in (*_ROWS, *_PREPARED[4:]):
+        if key in summary[ENDS[0]]:
+            yield name, *(_shown(summary[end][key], unit) for end in ENDS), unit
 
 
 def remedies_table(summary: Mapping[str, Any]) -> Table:
@@ -144,8 +161,25 @@ def remedies_table(summary: Mapping[str, Any]) -> Table:
     rich.table.Table
         A row for the drive as it is and for each remedy.
     """
-    head = ["remedy, worse bearing", *(name for name, _, _ in _COLUMNS)]
-    return _table(head, (_remedy(title, ends) for title, ends in _drives(summary)))
+    head, *rows = remedy_cells(summary)
+    return _table(head, rows)
+
+
+def remedy_cells(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Cells of the table of remedies: its heads, the drive as it is, and each remedy.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a drive.
+
+    Yields
+    ------
+    tuple of str
+        Heads, then a row for each drive, of the worse bearing of each.
+    """
+    yield "remedy, worse bearing", *(name for name, _, _ in _COLUMNS)
+    yield from (_remedy(title, ends) for title, ends in _drives(summary))
 
 
 def _drives(summary: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -154,12 +188,12 @@ def _drives(summary: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]
         yield printable(one["title"]), one
 
 
-def _remedy(title: str, ends: Mapping[str, Any]) -> list[str]:
+def _remedy(title: str, ends: Mapping[str, Any]) -> tuple[str, ...]:
     worse = max((ends[end] for end in ENDS), key=lambda end: (end["power"], end["peak_voltage"]))
-    return [title, *(_shown(worse[key], unit) for _, key, unit in _COLUMNS)]
+    return title, *(_shown(worse[key], unit) for _, key, unit in _COLUMNS)
 
 
-def _table(head: Sequence[str], rows: Iterator[list[str]]) -> Table:
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
     from rich.table import Table
     from rich.text import Text
 

@@ -29,7 +29,7 @@ class Call(Generic[T]):
 
     def function(self) -> Callable[..., T]:
         """The function; this loads what it needs."""
-        module, _, name = self.name.partition(".")
+        module, _, name = self.name.rpartition(".")
         return cast("Callable[..., T]", getattr(import_module(f"ehlectric.app.compute.{module}"), name))
 
     def __call__(self, *values: Any) -> T:

@@ -8,6 +8,7 @@ from ehlectric.app.answers.bearing import BearingAnswer
 from ehlectric.app.answers.call import Call
 from ehlectric.app.answers.compare import Side
 from ehlectric.app.answers.contact import ContactCheck, ContactView
+from ehlectric.app.answers.drive import DriveAnswer
 from ehlectric.app.answers.figure import Shown
 from ehlectric.app.answers.files import Uploaded, Written
 from ehlectric.app.answers.motion import MotionAnswer
@@ -20,6 +21,10 @@ FIELD_HELP: Call[dict[str, str]] = Call("descriptions.field_help")
 BEARING_QUICK: Call[BearingAnswer] = Call("bearing.quick_answer")
 BEARING_WHOLE: Call[BearingAnswer] = Call("bearing.whole_quick_answer")
 BEARING_SOLVED: Call[BearingAnswer] = Call("bearing.solve_contacts")
+
+# A drive.
+DRIVE_QUICK: Call[DriveAnswer] = Call("drives.answer.quick_answer")
+DRIVE_SIMULATED: Call[DriveAnswer] = Call("drives.answer.simulate")
 
 # A contact.
 CONTACT_CHECK: Call[ContactCheck] = Call("contact.check_contact")

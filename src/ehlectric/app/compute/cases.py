@@ -12,7 +12,7 @@ from typing import Any
 
 from ehlectric.app.uploads import own_file
 from ehlectric.cases.any_case import AnyCase, case_of_dict
-from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.errors import InputError, shown
 from ehlectric.runs.kinds import FileKind, kind_of_tables
 from ehlectric.sweep.inputs import Sweep
@@ -21,11 +21,14 @@ from ehlectric.sweep.inputs import Sweep
 # the key of a sweep that may name the file of its case.
 _FILE, _CASE = "file", "case"
 
+# Keys that may name the file of a case, of which a page has the tables.
+_CASES = (_CASE, *(f"{end}.{_FILE}" for end in ENDS))
+
 Change = Callable[[str, str], str]
 
 
 def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
-    """Case of a bearing or of a contact from the tables of a page.
+    """Case of a bearing or of a contact from the tables of a page; ``drive_of`` takes those of a drive.
 
     Parameters
     ----------
@@ -40,7 +43,25 @@ def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
     InputError
         If the tables are no valid case, or name another file.
     """
+    if kind_of(table) == "drive":
+        raise InputError("file", "is a drive file", takes="the case of a contact or a bearing")
     return case_of_dict(with_own_files(table, folder), written=True)
+
+
+def drive_of(table: Mapping[str, Any], folder: Path | None = None) -> DriveCase:
+    """Drive from the tables of a page; see ``case_of``. Its waveform must be in the folder.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid drive, or name another file.
+    """
+    return DriveCase.from_written(with_own_files(table, folder))
+
+
+def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase | DriveCase:
+    """Case of any kind but a sweep from the tables of a page; see ``case_of``."""
+    return drive_of(table, folder) if kind_of(table) == "drive" else case_of(table, folder)
 
 
 def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
@@ -59,18 +80,8 @@ def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
 
 
 def kind_of(table: Mapping[str, Any]) -> FileKind:
-    """Kind of the tables of a page: "contact", "motion", "bearing" or "sweep".
-
-    Raises
-    ------
-    InputError
-        If the tables are those of a drive, which has no page.
-    """
-    kind = kind_of_tables(table) or "contact"
-    if kind == "drive":
-        takes = "the file of a contact, a bearing or a sweep; ehlectric drive simulates drives"
-        raise InputError("file", "is a drive file", takes=takes)
-    return kind
+    """Kind of the tables of a page: "contact", "motion", "bearing", "drive" or "sweep"."""
+    return kind_of_tables(table) or "contact"
 
 
 def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
@@ -90,9 +101,9 @@ def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, A
     """
 
     def located(key: str, name: str) -> str:
-        path = None if folder is None or key == _CASE else own_file(name, folder)
+        path = None if folder is None or key in _CASES else own_file(name, folder)
         if path is None:
-            takes = "its tables" if key == _CASE else "a file that was uploaded in this tab"
+            takes = "its tables" if key in _CASES else "a file that was uploaded in this tab"
             raise InputError(key, got=shown(name), takes=takes)
         return str(path)
 

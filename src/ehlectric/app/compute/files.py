@@ -18,8 +18,10 @@ from ehlectric.app.answers.files import (
     Uploaded,
     Written,
 )
-from ehlectric.app.compute.cases import case_of, kind_of, names_in, sweep_of, with_names
+from ehlectric.app.compute.cases import kind_of, names_in, run_case_of, sweep_of, with_names
 from ehlectric.app.compute.warnings import told_of
+from ehlectric.app.fields.ends import ENDS
+from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.uploads import MOST_TOGETHER, SURFACES
 from ehlectric.cases.table import tables_of_text
@@ -79,7 +81,12 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
             missing = [inner, *_missing(table, contents, folder)]
             return Uploaded(name, "sweep", table, tuple(dict.fromkeys(missing)))
         table["case"] = _tables(inner, contents[inner])
-    kind, others = kind_of(table), _missing(table, contents, folder)
+    kind = kind_of(table)
+    lacking = _with_bearings(table, contents)
+    if lacking:
+        missing = [*lacking, *_missing(table, contents, folder)]
+        return Uploaded(name, kind, table, tuple(dict.fromkeys(missing)))
+    others = _missing(table, contents, folder)
     if others:
         return Uploaded(name, kind, table, others)
     kept = [_keep(_plain(key, path), contents, folder) for key, path in names_in(table)]
@@ -88,13 +95,29 @@ def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
         if kind == "sweep":
             sweep_of(table, folder)
         else:
-            case_of(table, folder)
+            run_case_of(table, folder)
     except InputError:
         # Surfaces of a case that is not opened do not stay.
         for path in filter(None, kept):
             path.unlink(missing_ok=True)
         raise
     return Uploaded(name, kind, table)
+
+
+def _with_bearings(table: dict[str, Any], contents: Mapping[str, bytes]) -> list[str]:
+    """Put the tables of the bearing files that a drive names into its own, and return the missing files."""
+    missing = []
+    for end in ENDS:
+        own = table.get(end)
+        if not isinstance(own, Mapping) or not isinstance(own.get("file"), str):
+            continue
+        name = _plain(f"{end}.file", own["file"])
+        if name not in contents:
+            missing.append(name)
+            continue
+        further = Inputs({key: value for key, value in own.items() if key != "file"}).flat()
+        table[end] = dict(changed(Inputs(_tables(name, contents[name])), further).table)
+    return missing
 
 
 def _refuse_too_much(contents: Mapping[str, bytes], folder: Path) -> None:
@@ -108,11 +131,13 @@ def _refuse_too_much(contents: Mapping[str, bytes], folder: Path) -> None:
 
 
 def _main(contents: Mapping[str, bytes]) -> tuple[str, dict[str, Any]]:
-    """Name and tables of the case among uploaded files: of a sweep rather than of the case that it names."""
+    """Name and tables of the case among uploaded files: of a sweep or a drive, not of what it names."""
     found = [(name, _tables(name, contents[name])) for name in contents if name.lower().endswith(".toml")]
     if not found:
         raise InputError("files", got=shown(", ".join(contents)), takes="a case in a .toml file")
-    return next((one for one in found if kind_of(one[1]) == "sweep"), found[0])
+    # A sweep names its case, and a drive its bearings.
+    order = ("sweep", "drive")
+    return min(found, key=lambda one: order.index(kind) if (kind := kind_of(one[1])) in order else len(order))
 
 
 def _tables(name: str, content: bytes) -> dict[str, Any]:
@@ -133,11 +158,18 @@ def _missing(table: Mapping[str, Any], contents: Mapping[str, bytes], folder: Pa
         name = _plain(key, path)
         if paths.setdefault(name, path) != path:
             raise InputError(key, got=shown(path), takes=f"one file of the name {name}")
+    inner = {table.get("case"), *(_file_at(table, end) for end in ENDS)}
     return tuple(
         name
         for name, path in paths.items()
-        if path != table.get("case") and name not in contents and not (folder / SURFACES / name).is_file()
+        if path not in inner and name not in contents and not (folder / SURFACES / name).is_file()
     )
+
+
+def _file_at(table: Mapping[str, Any], end: str) -> Any:
+    """Name of the bearing file at an end of a drive; None where it has the tables."""
+    own = table.get(end)
+    return own.get("file") if isinstance(own, Mapping) else None
 
 
 def _plain(key: str, path: str) -> str:
@@ -192,7 +224,7 @@ def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progr
     InputError, ConvergenceError, LostError
         As the command raises them.
     """
-    kind, case, options = kind_of(table), case_of(table, folder), dict[str, Any]()
+    kind, case, options = kind_of(table), run_case_of(table, folder), dict[str, Any]()
     if kind == "bearing":
         # As many jobs run at once as there are pairs of cores.
         options = {"contacts": contacts, "workers": min(2, cores())}
@@ -266,7 +298,7 @@ def _offered(path: Path, endings: Iterable[str]) -> bool:
 
 def _surfaces(table: Mapping[str, Any], folder: Path) -> list[str]:
     """Names of the files that a case names, relative to the folder of its session."""
-    case_of(table, folder) if kind_of(table) != "sweep" else sweep_of(table, folder)
+    run_case_of(table, folder) if kind_of(table) != "sweep" else sweep_of(table, folder)
     return sorted({name for _, name in names_in(table) if not Path(name).is_absolute()})
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating, oil
+from ehlectric.app.fields.ends import bearing_at, end_and_key
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.defaults import BOUNDARY_FILM, DEFAULT_ERROR
 
@@ -18,6 +19,10 @@ _DEFAULTS = {
     "bearing.axial_load": "0 N",
     "bearing.fits.shaft_material": "steel",
     "bearing.fits.shaft_bore": "0 mm",
+    "drive.seed": 0,
+    "source.scale": 1,
+    "circuit.common_mode_resistance": "0 ohm",
+    "circuit.ground_resistance": "0 ohm",
 }
 
 # Values of a library's oil that do not hold with a data sheet, as the cases resolve it.
@@ -37,6 +42,8 @@ def default_of(inputs: Inputs, key: str) -> Any:
     >>> default_of(Inputs({"bearing": {"base": "6208"}}), "bearing.bore")
     '40 mm'
     """
+    end, key = end_and_key(key)
+    inputs = bearing_at(inputs, end)
     if key == "grid.error":
         error = DEFAULT_ERROR[inputs.value("contact.geometry") == "point"]
         return f"{100.0 * error:g} %"

@@ -200,6 +200,10 @@ class Group:
         What a user must know about the group, such as that its first values are assumptions.
     tells : callable
         Sentence on given inputs, such as on values that hold where none are given; may be empty.
+    copies : str
+        Table whose values the table has when it is first switched on, in place of ``start``.
+    when : callable
+        Whether the group belongs to given inputs.
     """
 
     title: str
@@ -209,3 +213,5 @@ class Group:
     start: Mapping[str, Any] = field(default_factory=dict)
     note: str = ""
     tells: Callable[[Inputs], str] = _nothing
+    copies: str = ""
+    when: When = always

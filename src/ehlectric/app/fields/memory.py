@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
+from ehlectric.app.fields.ends import at_end, bearing_at, end_and_key
 from ehlectric.app.fields.field import Field, Group
 from ehlectric.app.fields.rules import DIMENSIONS, changed, is_own, own_values
 from ehlectric.app.inputs import Inputs
@@ -26,7 +27,7 @@ class Memory:
     --------
     >>> memory = Memory([Group("Motor", (), table="motor", start={"rise_time": "1 us"})])
     >>> memory.note(Inputs({"motor": {"rise_time": "3 us"}}))
-    >>> memory.table(memory.groups[0])
+    >>> memory.table(memory.groups[0], Inputs({}))
     {'rise_time': '3 us'}
     """
 
@@ -46,9 +47,12 @@ class Memory:
             for field in group.fields:
                 self._note_field(field, inputs)
 
-    def table(self, group: Group) -> dict[str, Any]:
+    def table(self, group: Group, inputs: Inputs) -> dict[str, Any]:
         """Table of a group that is switched on: the last one, or that with which it begins."""
-        return deepcopy(dict(self._tables.get(group.table, group.start)))
+        if group.table in self._tables:
+            return deepcopy(dict(self._tables[group.table]))
+        copied = inputs.value(group.copies) if group.copies else None
+        return deepcopy(dict(copied if isinstance(copied, Mapping) else group.start))
 
     def own(self, field: Field, inputs: Inputs) -> dict[str, Any]:
         """Changes that bring back the last own values of a list, or those of the library as own ones."""
@@ -71,6 +75,11 @@ class Memory:
 
 def _own_of(inputs: Inputs, key: str) -> dict[str, Any]:
     """Changes that make the present own values those of other inputs."""
+    end, key = end_and_key(key)
+    return at_end(_own_of_case(bearing_at(inputs, end), key), end)
+
+
+def _own_of_case(inputs: Inputs, key: str) -> dict[str, Any]:
     table = key.rpartition(".")[0]
     if table != "bearing":
         return {table: inputs.value(table)}

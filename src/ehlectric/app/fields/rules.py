@@ -9,6 +9,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating
+from ehlectric.app.fields.drive_rules import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
+from ehlectric.app.fields.ends import ENDS, at_end, bearing_at, end_and_key
 from ehlectric.app.fields.kinds import fitted_to_kind
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.bearings.ways import FILM_FACTORS
@@ -47,6 +49,7 @@ ALTERNATIVES: tuple[Rows, ...] = (
     (("motion.passes",), ("motion.duration",)),
     (("grid.error",), ("grid.nodes", "grid.nodes_y", "grid.refine")),
     (("grid.error", "grid.refine"), ("motion",)),
+    *DRIVE_ALTERNATIVES,
     _SPEEDS,
     (("contact.entrainment_speed",), ("contact.speed_1", "contact.speed_2")),
     (("contact.load", "contact.load_per_length"), ("contact.max_hertz_pressure",)),
@@ -107,6 +110,21 @@ def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
     >>> dict(changed(inputs, {"bearing.base": "6206"}).table["bearing"])
     {'base': '6206', 'radial_clearance': '10 um'}
     """
+    own: dict[str, Any] = {}
+    of_ends: dict[str, dict[str, Any]] = {end: {} for end in ENDS}
+    for key, value in changes.items():
+        end, inner = end_and_key(key)
+        (of_ends[end] if end else own)[inner] = value
+    found = _changed(inputs, own)
+    for end, changes_there in of_ends.items():
+        if changes_there:
+            after = _changed(bearing_at(found, end), changes_there)
+            found = found.changed({end: dict(after.table) or None})
+    return with_fitted_remedies(inputs, found)
+
+
+def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
+    """Inputs of a case, of which a drive has one at each end, with new values."""
     given = _flat(changes)
     dropped = {key: None for key in _displaced(inputs, given) if key not in given}
     found = inputs.changed(dropped).changed(changes)
@@ -114,6 +132,8 @@ def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
         found = found.changed(fitted_to_kind(found))
     if "bearing.film_factor" in given or _is_any_of(given, "lubricant"):
         found = found.changed(_needed_by_heat(found))
+    if _is_any_of(given, "source"):
+        found = found.changed(fitted_to_source(found))
     return found
 
 
@@ -141,8 +161,14 @@ def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
     inputs : Inputs
         Present inputs.
     key : str
-        ``bearing.base``, ``bearing.coating.base`` or ``lubricant.base``.
+        ``bearing.base``, ``bearing.coating.base`` or ``lubricant.base``; those of a bearing of a drive follow
+        its end.
     """
+    end, key = end_and_key(key)
+    return at_end(_own_values(bearing_at(inputs, end), key), end)
+
+
+def _own_values(inputs: Inputs, key: str) -> dict[str, Any]:
     base = str(inputs.value(key))
     if key == "bearing.base":
         values = {f"bearing.{name}": value for name, value in bearing(base).items()}
@@ -167,9 +193,11 @@ _SHEET = {
 
 def is_own(inputs: Inputs, key: str) -> bool:
     """Whether the values under a key are a user's own, and not those of the library."""
-    if key == "lubricant.base" and inputs.value("lubricant.temperature") is not None:
+    end, key = end_and_key(key)
+    own = bearing_at(inputs, end)
+    if key == "lubricant.base" and own.value("lubricant.temperature") is not None:
         return True
-    return inputs.value(key) is None
+    return own.value(key) is None
 
 
 def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:

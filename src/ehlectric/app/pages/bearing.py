@@ -9,16 +9,16 @@ from fastapi import Request
 from nicegui import ui
 
 from ehlectric.app.answers.bearing import BearingAnswer
-from ehlectric.app.answers.calls import BEARING_QUICK, BEARING_WHOLE
+from ehlectric.app.answers.calls import BEARING_QUICK, BEARING_SOLVED, BEARING_WHOLE
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.following import Following
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.bearing_answer import AnswerView
-from ehlectric.app.pages.bearing_solving import Solving
 from ehlectric.app.pages.downloads import Downloads
 from ehlectric.app.pages.form import Form
 from ehlectric.app.pages.frame import PAGE_PATIENCE, framed, session_of, show_address
 from ehlectric.app.pages.parts import Strip
+from ehlectric.app.pages.solving import Solving, Words
 from ehlectric.app.pages.starts import BEARING
 from ehlectric.app.pages.toolbar import Toolbar
 from ehlectric.app.session import Session
@@ -27,6 +27,19 @@ from ehlectric.errors import InputError
 
 # Numbers of the short answer.
 _SHORT = ("capacitance", "margin")
+
+_WORDS = Words(
+    solve="Solve the contacts",
+    show_solved="Show the solved contacts",
+    show_quick="Show the quick answer",
+    back="Back to the solved inputs",
+    earlier="The solved result is of earlier inputs.",
+    running="The contacts being solved are those of earlier inputs.",
+    done="The contacts of earlier inputs are solved.",
+    cancelled="Cancelled: no contacts were kept.",
+    failed="Not solved",
+    beyond="or solved contacts",
+)
 
 # Time for which the page waits for its first answer before it is sent without one [s].
 _FIRST = 1.0
@@ -76,7 +89,7 @@ class BearingPage:
         with ui.element("div").classes("columns"):
             self.form = Form(BEARING_GROUPS, self.session.inputs, self.change)
             with ui.element("section").classes("answer").props('aria-label="Answer"'):
-                self.solving = Solving(self.session, self._ask, self.go_to)
+                self.solving = Solving(BEARING_SOLVED, _WORDS, self.session, self._ask, self.go_to)
                 self._notice = ui.label().classes("notice wrong").props('data-testid="notice"')
                 self._notice.set_visibility(False)
                 button = ui.button("Go to the field", on_click=self.form.go_to_wrong, color=None)

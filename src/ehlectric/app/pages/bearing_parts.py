@@ -50,14 +50,17 @@ class NumberBox:
     """Number with its name, its bound, a note, and the warnings that concern it."""
 
     def __init__(self, name: str) -> None:
-        with ui.element("div").classes("number").props(f'data-testid="number-{name}"'):
+        with ui.element("div").classes("number").props(f'data-testid="number-{name}"') as self._box:
             self._label = ui.label().classes("label")
             self._value = ui.label().classes("value").props('data-testid="value"')
             self._note = ui.label().classes("note")
             self._told = ui.html("", sanitize=False)
 
-    def show(self, number: Number) -> None:
-        """Show a number."""
+    def show(self, number: Number | None) -> None:
+        """Show a number; None hides the one before."""
+        self._box.set_visibility(number is not None)
+        if number is None:
+            return
         self._label.text, self._note.text = number.label, number.note
         self._value.text = f"{number.bound} {number.text}".strip()
         self._value.classes(replace="value" if number.known else "value unknown")
@@ -76,10 +79,11 @@ def _told(one: Told) -> str:
 
 
 class FigureBox:
-    """Figure with its heading and the table of its numbers."""
+    """Figure with its heading and the table of its numbers; a wide one has the whole row of a grid."""
 
-    def __init__(self, name: str) -> None:
-        with ui.element("div").classes("figure-box").props(f'data-testid="figure-{name}"') as self._box:
+    def __init__(self, name: str, *, wide: bool = False) -> None:
+        look = "figure-box wide" if wide else "figure-box"
+        with ui.element("div").classes(look).props(f'data-testid="figure-{name}"') as self._box:
             with ui.element("h3"):
                 self._title = ui.label()
             self._plot = parts.figure({"data": [], "layout": {}}, name)

@@ -35,7 +35,7 @@ _REPORTS = (
 _DRAWN: tuple[Download, ...] = ("figures", "all")
 
 # Commands that solve the kinds of files.
-_COMMANDS = {"bearing": "bearing", "contact": "run", "sweep": "sweep"}
+_COMMANDS = {"bearing": "bearing", "drive": "drive", "contact": "run", "sweep": "sweep"}
 
 
 class Downloads:
@@ -46,7 +46,7 @@ class Downloads:
     session : Session
         Session of the tab, whose inputs are downloaded.
     kind : str
-        "bearing", "contact" or "sweep".
+        "bearing", "drive", "contact" or "sweep".
     folder : callable, optional
         Returns the folder of a result of the present inputs that the page has; None, or a folder without
         files, where there is none and the files are to be made.
@@ -62,7 +62,7 @@ class Downloads:
     def __init__(
         self,
         session: Session,
-        kind: Literal["bearing", "contact", "sweep"],
+        kind: Literal["bearing", "drive", "contact", "sweep"],
         folder: Callable[[], Path | None] = lambda: None,
         *,
         only_reports: bool = False,

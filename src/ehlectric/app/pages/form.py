@@ -14,6 +14,7 @@ from ehlectric.app.catalogue import choices
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.contact import geometry_of, groups_of
 from ehlectric.app.fields.defaults import default_of
+from ehlectric.app.fields.ends import end_and_key
 from ehlectric.app.fields.field import Field, Group
 from ehlectric.app.fields.memory import Memory
 from ehlectric.app.fields.rules import changed, is_own
@@ -43,6 +44,8 @@ class Form:
         others, and None removes the key.
     label : str
         Name of the form for a screen reader; forms of one page have names of their own.
+    elsewhere : sequence of str
+        Keys that other parts of the page have.
 
     Notes
     -----
@@ -51,11 +54,17 @@ class Form:
     """
 
     def __init__(
-        self, groups: Sequence[Group], inputs: Inputs, change: Change, *, label: str = "Inputs"
+        self,
+        groups: Sequence[Group],
+        inputs: Inputs,
+        change: Change,
+        *,
+        label: str = "Inputs",
+        elsewhere: Sequence[str] = (),
     ) -> None:
         self._change = change
         self._inputs = inputs
-        self._groups = groups
+        self._groups, self._elsewhere = groups, elsewhere
         self._memory = Memory(groups)
         self._wrong: Field | None = None
         self._slid: tuple[Field, float] | None = None
@@ -118,6 +127,14 @@ class Form:
                 "if (box) { box.scrollIntoView({block: 'center'}); box.focus({preventScroll: true}); }"
             )
 
+    def group(self, title: str) -> GroupBox:
+        """Box of a group, to which a page may add what is no field."""
+        return self._boxes[title]
+
+    async def take(self, changes: dict[str, Any]) -> None:
+        """Take over changes as if they had been typed, with what they displace."""
+        await self._apply(changes)
+
     def set(self, inputs: Inputs) -> None:
         """Show other inputs, as after an undo; nothing is sent."""
         self._slid = None
@@ -127,7 +144,7 @@ class Form:
 
     def _group(self, group: Group) -> None:
         async def switched(event: Any) -> None:
-            await self._apply({group.table: self._memory.table(group) if event.args else None})
+            await self._apply({group.table: self._memory.table(group, self._inputs) if event.args else None})
 
         first = group in self._groups[:_FIRST]
         box = GroupBox(group.title, title=group.title, note=group.note, opened=group.opened, first=first)
@@ -185,7 +202,7 @@ class Form:
             return []
         found = [{"value": name, "label": name, "group": ""} for name in field.choices]
         if not found:
-            library = choices().get(field.key, ())
+            library = choices().get(end_and_key(field.key)[1], ())
             found = [{"value": one.name, "label": one.label, "group": one.group} for one in library]
         if field.own:
             found.insert(0, {"value": _OWN, "label": field.own, "group": ""})
@@ -254,6 +271,7 @@ class Form:
     def _show(self) -> None:
         """Show the present inputs in all fields."""
         for group in self._groups:
+            self._boxes[group.title].set_visibility(group.when(self._inputs))
             self._boxes[group.title].show(tells=group.tells(self._inputs))
             if group.table:
                 self._boxes[group.title].show(on=self._on(group))
@@ -285,7 +303,7 @@ class Form:
 
     def _show_others(self) -> None:
         """Show the inputs that no field has, such as those of a file, so that nothing is hidden."""
-        own = {field.key for field, _ in self._controls}
+        own = {*self._elsewhere, *(field.key for field, _ in self._controls)}
         rest = {key: value for key, value in self._inputs.flat().items() if key not in own and value != {}}
         self._others.set_visibility(bool(rest))
         self._others_head.set_content(f"Other inputs of the file ({len(rest)})")
@@ -304,7 +322,8 @@ class Form:
             button.props["aria-label"] = f"Remove {key}"
 
     def _on(self, group: Group) -> bool:
-        return not group.table or self._inputs.value(group.table) is not None
+        given = not group.table or self._inputs.value(group.table) is not None
+        return given and group.when(self._inputs)
 
     def _has_more(self, group: Group) -> bool:
         return any(field.optional and self._is_shown(field) for field in group.fields)

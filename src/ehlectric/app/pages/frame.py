@@ -16,7 +16,13 @@ from ehlectric.app.session import Session
 from ehlectric.app.work import Work
 
 # Links at the top: address, name.
-LINKS = (("/", "Bearing"), ("/contact", "Contact"), ("/sweep", "Sweep"), ("/compare", "Compare"))
+LINKS = (
+    ("/", "Bearing"),
+    ("/drive", "Drive"),
+    ("/contact", "Contact"),
+    ("/sweep", "Sweep"),
+    ("/compare", "Compare"),
+)
 
 
 # Time in which the server answers with a page, also where many ask at once [s].

@@ -17,6 +17,9 @@ def start(name: str) -> Inputs:
 
 BEARING = start("bearing_6208")
 
+# The way to the films stands in the table of the drive, where the form has it for both bearings.
+DRIVE = start("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
+
 
 # Strength of the first answers, that of the bearing: an assumption.
 _STRENGTH = {"discharge.dielectric_strength": "15 V/um"}

@@ -21,7 +21,7 @@ from ehlectric.errors import InputError, LostError
 Show = Callable[[], Awaitable[None] | None]
 
 # Pages of the kinds of files.
-PATHS = {"bearing": "/", "contact": "/contact", "motion": "/contact", "sweep": "/sweep"}
+PATHS = {"bearing": "/", "drive": "/drive", "contact": "/contact", "motion": "/contact", "sweep": "/sweep"}
 
 # Undo and redo by keys, unless they belong to a text that is being typed.
 _KEYS = """<script>
@@ -75,8 +75,9 @@ class Toolbar:
             self._redo = _button("Redo", "redo", self.redo, "Control+Shift+Z")
             _button("Copy link", "copy-link", self.copy_link)
             if opens:
-                _button("Compare", "compare", self.compare)
-                if path != "/sweep":
+                if path != PATHS["drive"]:
+                    _button("Compare", "compare", self.compare)
+                if path not in (PATHS["sweep"], PATHS["drive"]):
                     _button("Vary", "vary", self.vary)
                 self._files()
             self._link = ui.input("Link to this page").props('readonly dense outlined data-testid="link"')
@@ -124,7 +125,7 @@ class Toolbar:
     def _go(self, path: str, inputs: Inputs) -> None:
         """Open another page with inputs; files stay in the session of this one."""
         if _has_files(self.session.inputs.table):
-            self._tell(error="the case has surfaces from files, which other pages do not have: open it there")
+            self._tell(error="the case has data from files, which other pages do not have: open it there")
         elif not inputs.linkable:
             self._tell(error="the case is too long for an address; open its file on the other page")
         else:
@@ -145,7 +146,7 @@ class Toolbar:
             'data-testid="upload-case" aria-hidden="true" tabindex="-1"'
         )
         open_file = ui.button("Open file").props('outline no-caps dense data-testid="open-file"')
-        open_file.tooltip("A case, bearing or sweep file (TOML), with the surfaces that it names")
+        open_file.tooltip("A case, bearing, drive or sweep file (TOML), with the files that it names")
         open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
 
     def _rejected(self, _: events.UiEventArguments) -> None:
@@ -213,8 +214,11 @@ class Toolbar:
 
 
 def _has_files(table: Mapping[str, Any]) -> bool:
-    """Whether a case, or that of a sweep, has surfaces from files, which stay in their session."""
+    """Whether a case, or that of a sweep, has data from files, which stay in their session."""
     case = table.get("case", table)
+    source = case.get("source") if isinstance(case, Mapping) else None
+    if isinstance(source, Mapping) and "file" in source:
+        return True
     rough = case.get("roughness") if isinstance(case, Mapping) else None
     return isinstance(rough, list) and any(isinstance(one, Mapping) and "file" in one for one in rough)
 

@@ -53,11 +53,9 @@ def distribution(result: DriveResult, ax: Axes | None = None, *, quantity: int =
     ax = axes_or_new(ax)
     name, column, unit = QUANTITIES[quantity]
     values = [np.abs(events_of(result, b)[:, column]) for b in range(2)]
-    everything = np.concatenate(values)
-    low, high = np.percentile(everything[everything > 0.0] if np.any(everything) else [1.0], _SHOWN)
-    factor, prefixed = unit_for(float(high), unit, least=1.0)
-    log = is_wide(np.array([low, high]))
-    edges = _edges(factor * low, factor * high, everything.size, log=log)
+    edges, log = bins_of(np.concatenate(values))
+    factor, prefixed = unit_for(float(edges[-1]), unit, least=1.0)
+    edges = factor * edges
     for b, own in enumerate(values):
         if not own.size:
             continue
@@ -86,6 +84,19 @@ def legend_of(axes: list[Axes]) -> None:
 
 def _label(result: DriveResult, b: int) -> str:
     return f"{NAMES[b]}: {number_of_events(result, b)} discharges"
+
+
+def bins_of(values: Array) -> tuple[Array, bool]:
+    """Edges of the bins of a distribution of positive values, and whether they have equal ratios.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        Values of all discharges, of which the rarest are left out.
+    """
+    low, high = np.percentile(values[values > 0.0] if np.any(values) else [1.0], _SHOWN)
+    log = is_wide(np.array([low, high]))
+    return _edges(float(low), float(high), values.size, log=log), log
 
 
 def _edges(low: float, high: float, number: int, *, log: bool) -> Array:

@@ -36,21 +36,28 @@ class UploadField:
         Method of an object of the page, called with the event of NiceGUI that has the uploaded file.
     refuse : callable
         Called with a line that says why a file is not taken.
+    name : str
+        Name for tests and for the element of its error, "surface" or another one of the page.
+    label : str
+        Label of the field; that of a surface if not given.
     """
 
     def __init__(
         self,
         take: Callable[[events.UploadEventArguments], Awaitable[None]],
         refuse: Callable[[str], None],
+        *,
+        name: str = "surface",
+        label: str = "",
     ) -> None:
         self._refuse = refuse
         uploader = ui.upload(on_upload=weakly(take), max_file_size=LARGEST).style("display: none")
         send = _SEND % {"largest": LARGEST, "address": json.dumps(uploader.props["url"])}
         with ui.element("div").classes("key upload"):
-            label = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
-            ui.html(label, sanitize=False, tag="label").props('for="surface-file"')
-            field = ui.element("input").props('type="file" id="surface-file" data-testid="upload-surface"')
-            field.props["aria-describedby"] = "roughness-error"
+            words = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
+            ui.html(label or words, sanitize=False, tag="label").props(f'for="{name}-file"')
+            field = ui.element("input").props(f'type="file" id="{name}-file" data-testid="upload-{name}"')
+            field.props["aria-describedby"] = "roughness-error" if name == "surface" else f"{name}-error"
             field.props["accept"] = ",".join((*ENDINGS, "*/*"))
             field.on("change", self._told, js_handler=send)
             self._state = ui.label().classes("muted").props('aria-live="polite"')

@@ -1,4 +1,4 @@
-"""Solution of the contacts from the page of a bearing: its button, its progress, and earlier answers."""
+"""Solution that a page starts as a job: its button, its progress, and earlier answers."""
 
 from __future__ import annotations
 
@@ -6,38 +6,83 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import rmtree
+from typing import Generic, Protocol, TypeVar
 
 from nicegui import ui
 
-from ehlectric.app.answers.bearing import BearingAnswer
-from ehlectric.app.answers.calls import BEARING_SOLVED
+from ehlectric.app.answers.call import Call
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.parts import JobBox
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.errors import LostError
 
-# What an error allows where only a quick answer lacks what is asked for.
-_BEYOND = "or solved contacts"
+
+class _Answer(Protocol):
+    """Answer that says how it was computed."""
+
+    @property
+    def how(self) -> str: ...
+
+
+A = TypeVar("A", bound=_Answer)
+
+
+@dataclass(frozen=True)
+class Words:
+    """Texts of a solution.
+
+    Attributes
+    ----------
+    solve : str
+        Button that starts it.
+    show_solved, show_quick : str
+        Buttons that change between its answer and the quick one.
+    back : str
+        Button that goes back to the inputs of the last answer.
+    earlier, running, done : str
+        Sentences on inputs that have changed since: beside a quick answer, while a solution runs, and when it
+        is done.
+    cancelled, failed : str
+        Sentence on a cancelled solution, and words before an error.
+    beyond : str
+        What an error has where only a quick answer lacks what is asked for.
+    """
+
+    solve: str
+    show_solved: str
+    show_quick: str
+    back: str
+    earlier: str
+    running: str
+    done: str
+    cancelled: str
+    failed: str
+    beyond: str
+
 
 # Solved answers that a tab keeps.
 _KEPT = 20
 
 
 @dataclass(frozen=True)
-class _Solved:
-    """Answer with solved contacts: its inputs, and the folder with its files as the command writes them."""
+class _Solved(Generic[A]):
+    """Answer of a solution: its inputs, and the folder with its files as the command writes them."""
 
     inputs: Inputs
-    answer: BearingAnswer
+    answer: A
     folder: Path
 
 
-class Solving:
-    """Button that solves the contacts, and the answers solved so far by their inputs.
+class Solving(Generic[A]):
+    """Button that starts a solution, and the answers solved so far by their inputs.
 
     Parameters
     ----------
+    call : Call
+        Function with the inputs, the folder of the session, that of the files, and a progress.
+    words : Words
+        Texts.
     session : Session
         Session of the tab.
     changed : callable
@@ -47,27 +92,33 @@ class Solving:
     """
 
     def __init__(
-        self, session: Session, changed: Callable[[], object], back: Callable[[Inputs], None]
+        self,
+        call: Call[A],
+        words: Words,
+        session: Session,
+        changed: Callable[[], object],
+        back: Callable[[Inputs], None],
     ) -> None:
+        self._call, self._words = call, words
         self._session, self._changed, self._back = session, changed, back
-        self._solved: dict[str, _Solved] = {}
+        self._solved: dict[str, _Solved[A]] = {}
         self._quick = False
         self._running: tuple[Inputs, Path] | None = None
         self._runs = 0
         with ui.element("div").classes("solving"):
             self.how = ui.label().props('data-testid="how" aria-live="polite"')
-            self._solve = ui.button("Solve the contacts", on_click=self.start, color=None)
+            self._solve = ui.button(words.solve, on_click=self.start, color=None)
             self._solve.classes("primary").props('no-caps unelevated data-testid="solve"')
             self._other = ui.button("", on_click=self._switch, color=None)
             self._other.props('flat no-caps data-testid="other-contacts"')
-            self._return = ui.button("Back to the solved inputs", on_click=self._go_back, color=None)
+            self._return = ui.button(words.back, on_click=self._go_back, color=None)
             self._return.props('flat no-caps data-testid="back-to-solved"')
         self._box = JobBox(self._done)
         self._message = ui.label().classes("notice").props('role="status" data-testid="solve-message"')
         self._message.set_visibility(False)
         self.show(None)
 
-    def answer(self) -> BearingAnswer | None:
+    def answer(self) -> A | None:
         """Solved answer to the present inputs; None without one, or where the quick one is wanted."""
         found = self._found()
         return None if found is None else found.answer
@@ -77,7 +128,7 @@ class Solving:
         found = self._found()
         return None if found is None else found.folder
 
-    def _found(self) -> _Solved | None:
+    def _found(self) -> _Solved[A] | None:
         return None if self._quick else self._solved.get(self._session.inputs.toml())
 
     def forget(self) -> None:
@@ -85,12 +136,12 @@ class Solving:
         self._quick = False
         self._message.set_visibility(False)
 
-    def show(self, answer: BearingAnswer | None, error: Exception | None = None) -> None:
+    def show(self, answer: A | None, error: Exception | None = None) -> None:
         """Show how an answer was computed, and the buttons that suit it.
 
         Parameters
         ----------
-        answer : BearingAnswer or None
+        answer : object or None
             Answer that is shown; None for inputs that have none.
         error : Exception, optional
             Why they have none. Some have no quick answer, and can be solved all the same.
@@ -98,24 +149,24 @@ class Solving:
         solved = self._session.inputs.toml() in self._solved
         self.how.text = "" if answer is None else answer.how
         self._solve.set_visibility(not solved and self._running is None)
-        self._solve.set_enabled(answer is not None or _BEYOND in str(error))
+        self._solve.set_enabled(answer is not None or self._words.beyond in str(error))
         self._other.set_visibility(solved)
-        self._other.text = "Show the solved contacts" if self._quick else "Show the quick answer"
+        self._other.text = self._words.show_solved if self._quick else self._words.show_quick
         self._return.set_visibility(bool(self._solved) and not solved)
         if self._solved and not solved and answer is not None:
-            self.how.text += " The solved result is of earlier inputs."
+            self.how.text += f" {self._words.earlier}"
         if self._running is not None and self._running[0] != self._session.inputs:
-            self.how.text += " The contacts being solved are those of earlier inputs."
+            self.how.text += f" {self._words.running}"
         self.how.set_visibility(bool(self.how.text))
 
     def start(self) -> None:
-        """Solve the contacts of the present inputs."""
+        """Solve the present inputs."""
         inputs = self._session.inputs
         # A folder for every run, so that the files of an answer stay as long as the answer.
         self._runs += 1
         folder = self._session.folder / f"solved-{self._runs}"
         try:
-            job = self._session.start(BEARING_SOLVED, dict(inputs.table), self._session.folder, folder)
+            job = self._session.start(self._call, dict(inputs.table), self._session.folder, folder)
         except LostError as error:
             self._tell(str(error))
             return
@@ -129,9 +180,9 @@ class Solving:
         if running is not None:
             self._keep(job, *running)
         if job.state == "cancelled":
-            self._tell("Cancelled: no contacts were kept.")
+            self._tell(self._words.cancelled)
         elif job.state == "failed":
-            self._tell(f"Not solved: {job.error}")
+            self._tell(f"{self._words.failed}: {job.error}")
         self._changed()
 
     def _keep(self, job: Job, inputs: Inputs, folder: Path) -> None:
@@ -143,7 +194,7 @@ class Solving:
         while len(self._solved) > _KEPT:
             rmtree(self._solved.pop(next(iter(self._solved))).folder, ignore_errors=True)
         if inputs != self._session.inputs:
-            self._tell("The contacts of earlier inputs are solved.")
+            self._tell(self._words.done)
 
     def _tell(self, text: str) -> None:
         self._message.text = text

@@ -1,0 +1,1 @@
+"""Answers about drives: at once by the capacitive divider, and simulated over time."""

@@ -1,0 +1,1 @@
+"""Figures of a drive: voltages over time and how long they last, discharges, and remedies."""

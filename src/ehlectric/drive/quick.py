@@ -1,0 +1,115 @@
+"""Drive before its simulation: with bearings whose contacts are not solved, and what is expected of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ehlectric.bearing.quick.ways import quick_case
+from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.discharge.verdict import Level, Verdict, level_of, ratio_text, strength_interval, weibull_part
+from ehlectric.drive.keys import NAMES_OF_ENDS
+
+# Probability at which a threshold of Weibull's law counts as low: each edge tries another one.
+_LOW = 0.001
+
+_RING = (
+    "The grounding ring leads the charge of the shaft away, which the divider leaves out: "
+    "simulate the drive to see what is left."
+)
+_INDUCTANCE = (
+    "An inductance and the capacitances of the machine ring together, which the divider leaves out: "
+    "simulate the drive to see the voltage of the bearings."
+)
+_RINGING = "The ringing of the source lifts the voltage above the divider's."
+
+
+def quick_drive(case: DriveCase) -> tuple[DriveCase | None, str]:
+    """Drive with contacts from the atlas of films or by formula.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Drive.
+
+    Returns
+    -------
+    case : DriveCase or None
+        Drive with quick bearings, each with its own speed, temperature and contacts; None where a bearing
+        needs solved contacts.
+    key : str
+        Key that needs them; empty otherwise.
+    """
+    films = {}
+    for end, bearing in zip(ENDS, case.bearings, strict=True):
+        judged, refused = quick_case(bearing)
+        if judged is None or refused is not None:
+            return None, f"{end}.{'lubricant' if refused is None else refused.key}"
+        films[end] = judged
+    tables = {**case.to_dict(), **films}
+    tables["drive"].pop("contacts", None)
+    return DriveCase.from_dict(tables), ""
+
+
+def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
+    """Verdict on a drive that is not simulated: the capacitive divider against the breakdown voltages.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Drive.
+    summary : mapping
+        Tables of ``drive.summary.prepared_summary``.
+
+    Returns
+    -------
+    Verdict
+        Of the bearing that breaks down first; its margin is breakdown voltage over bearing voltage at the
+        peak of the source. Grey with a grounding ring or an inductance, which the divider leaves out.
+    """
+    margins = {
+        end: summary[end]["breakdown_voltage"] / max(summary[end]["voltage_at_peak"], 1e-30)
+        for end in ENDS
+        if summary[end]["breakdown_voltage"] is not None
+    }
+    touching = max(summary[end]["touching_time_share"] for end in ENDS)
+    if not margins:
+        return Verdict("green", "No discharge expected: the ceramic elements of both bearings insulate.")
+    circuit = case.circuit
+    if circuit.common_mode_inductance is not None or circuit.ground_inductance is not None:
+        return Verdict("grey", f"No verdict without a simulation: {_INDUCTANCE}")
+    end = min(margins, key=lambda name: margins[name])
+    margin, about = margins[end], summary[end]
+    numbers = (
+        f"at the peak of the common-mode voltage the films of the {NAMES_OF_ENDS[end]} have "
+        f"{about['voltage_at_peak']:.3g} V by the capacitive divider, "
+        f"{'above' if margin < 1.0 else 'below'} their breakdown voltage of at most "
+        f"{about['breakdown_voltage']:.3g} V (ratio {ratio_text(margin)})."
+    )
+    if circuit.grounding_ring_resistance is not None:
+        return Verdict("grey", f"No verdict without a simulation: {numbers} {_RING}", margin)
+    level, doubts = _level(margin, about["weibull_shape"]), []
+    if case.source.overshoot:
+        doubts.append(_RINGING)
+    if touching:
+        doubts.append(f"Asperities close the films for {100.0 * touching:.3g} % of the time.")
+    if doubts and level == "green":
+        level = "yellow"
+    return Verdict(level, " ".join([f"{_LEADS[level]}: {numbers}", *doubts]), margin)
+
+
+_LEADS: Mapping[Level, str] = {
+    "green": "No discharge expected",
+    "yellow": "Discharges possible",
+    "red": "Discharges expected",
+    "grey": "No verdict",
+}
+
+
+def _level(margin: float, shape: float | None) -> Level:
+    """Level of a margin within what is uncertain of the strength, and with its scatter."""
+    low, high = strength_interval(margin)
+    if shape is not None and math.isfinite(shape):
+        low *= weibull_part(shape, _LOW)
+    return level_of(low, high)
