@@ -149,7 +149,7 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
     """
     ready = prepare(case, workers=workers)
     whole = ready.settling + ready.duration
-    reach = _highest(ready.divider, ready.highest_source, ready.ringing)
+    reach = _highest(ready)
     record = simulate(
         circuits_of(ready.modes, None if ready.ringing is None else ready.ringing.rate),
         ready.films,
@@ -228,10 +228,19 @@ def _trace(ready: PreparedDrive) -> float:
     return _TRACED / carrier
 
 
-def _highest(divider: tuple[float, float], highest: float, ringing: Ringing | None) -> float:
+def _highest(ready: PreparedDrive) -> float:
     """About the highest voltage across a film [V]: twice the divider's, as discharges shift it by itself."""
-    over = 1.0 if ringing is None else 1.0 + ringing.overshoot
-    return 2.0 * over * max(divider) * highest
+    over = 1.0 if ready.ringing is None else 1.0 + ready.ringing.overshoot
+    # Right after an edge an inductance has all of it; then the capacitances share it.
+    share = max(ready.divider) or _static_share(ready)
+    return 2.0 * over * share * ready.highest_source
+
+
+def _static_share(ready: PreparedDrive) -> float:
+    """Voltage across the films per volt between winding and frame, by the capacitances alone."""
+    found = ready.case.circuit.capacitances
+    across = found["rotor_frame_capacitance"] + sum(one.mean_capacitance for one in ready.elements)
+    return found["winding_rotor_capacitance"] / (found["winding_rotor_capacitance"] + across)
 
 
 def _chunks(ready: PreparedDrive) -> Iterator[Segments]:
