@@ -82,7 +82,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     end = min(margins, key=lambda name: margins[name])
     margin, about = margins[end], summary[end]
     numbers = (
-        f"at the peak of the common-mode voltage the films of the {NAMES_OF_ENDS[end]} have "
+        f"at the peak of the common-mode voltage the films of the {NAMES_OF_ENDS[end]} would have "
         f"{about['voltage_at_peak']:.3g} V by the capacitive divider, "
         f"{'above' if margin < 1.0 else 'below'} their breakdown voltage of at most "
         f"{about['breakdown_voltage']:.3g} V (ratio {ratio_text(margin)})."

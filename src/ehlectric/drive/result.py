@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -115,6 +116,16 @@ class DriveResult(Shown):
         )
 
 
+def _parts(report: Progress, number: int) -> Iterator[Progress]:
+    """Progress of each of a number of simulations as parts of the whole one."""
+    for part in range(number):
+
+        def told(done: int, of: int, text: str, part: int = part) -> None:
+            report(round(100.0 * (part + done / of) / number), 100, text)
+
+        yield told
+
+
 def solve_drive(
     case: DriveCase, *, progress: Progress | None = None, workers: int | None = None
 ) -> DriveResult:
@@ -148,9 +159,10 @@ def solve_drive(
     start, report = time.perf_counter(), progress or silent
     # A mistake in a remedy is told before the drive itself takes its time.
     variants = case.variants()
-    solution = solve(case, report, workers=workers)
+    parts = _parts(report, 1 + len(variants))
+    solution = solve(case, next(parts), workers=workers)
     remedies = tuple(
-        (one.title, dict(one.changes), solve(variant, report, workers=workers))
+        (one.title, dict(one.changes), solve(variant, next(parts), workers=workers))
         for one, variant in zip(case.remedies, variants, strict=True)
     )
     return replace(DriveResult(solution, remedies), seconds=time.perf_counter() - start)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ehlectric.bearing.accuracy import film_error
 from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.cases.row import number_text
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Record
@@ -190,11 +191,13 @@ def _told(name: str, end: dict[str, Any]) -> str:
     """Clause about the discharges and the largest voltage of one bearing."""
     largest = f"largest voltage {end['peak_voltage']:.3g} V"
     if not end["events"]:
-        return f"{name}: no discharge, at most {end['events_per_second_high']:.3g} a second; {largest}"
-    low, high = end["events_per_second_low"], end["events_per_second_high"]
+        return (
+            f"{name}: no discharge, at most {number_text(end['events_per_second_high'])} a second; {largest}"
+        )
+    rate, low, high = (number_text(end[f"events_per_second{bound}"]) for bound in ("", "_low", "_high"))
     energy = 1e9 * end["energy_mean"]
     return (
-        f"{name}: {end['events_per_second']:.3g} discharges a second ({low:.3g} to {high:.3g} at 95 %) of "
+        f"{name}: {rate} discharges a second ({low} to {high} at 95 %) of "
         f"{end['voltage_mean']:.3g} V and {energy:.3g} nJ on average; {largest}"
     )
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.bearing.accuracy import percent
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.row import UNITS, Row
+from ehlectric.cases.row import UNITS, Row, number_text
 from ehlectric.drive.keys import DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.errors import printable
 
@@ -207,4 +207,4 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
 
 def _shown(value: float | None, unit: str) -> str:
     """Value in its shown unit with three digits; a dash where there is none."""
-    return "–" if value is None else f"{value * UNITS[unit][1]:.3g}"
+    return "–" if value is None else number_text(value * UNITS[unit][1])

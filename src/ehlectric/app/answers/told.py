@@ -174,6 +174,23 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     | dict.fromkeys(WITHOUT_PLACE, ())
 )
 
+# Numbers of a drive that a warning concerns, where they are others than those of a bearing.
+DRIVE_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    dict(PLACES)
+    | {
+        "units-assumed": ("source",),
+        "samples-missing": ("source",),
+        "waveform-clipped": ("source",),
+        "waveform-coarse": ("source",),
+        "edges-unresolved": ("source",),
+        "capacitances-estimated": ("machine", "at-peak"),
+        "threshold-constant": ("first-break", "discharges"),
+        "arc-burns-on": ("discharges",),
+        "few-discharges": ("discharges",),
+        "coating-breakdown": ("at-peak", "peak"),
+    }
+)
+
 
 def beside(told: Iterable[Told], number: str) -> tuple[Told, ...]:
     """Warnings that concern a number."""

@@ -41,6 +41,14 @@ def _carrier(inputs: Inputs) -> bool:
     return _described(inputs) and inputs.value("source.modulation") != "six-step"
 
 
+def _follows(inputs: Inputs) -> bool:
+    return _described(inputs) and inputs.value("source.pole_pairs") is not None
+
+
+def _fixed(inputs: Inputs) -> bool:
+    return _described(inputs) and inputs.value("source.pole_pairs") is None
+
+
 def _ringing(inputs: Inputs) -> bool:
     return _described(inputs) and inputs.value("source.overshoot") is not None
 
@@ -83,8 +91,9 @@ _SOURCE = {
     "source.dc_link": "560 V",
     "source.modulation": "space-vector",
     SWITCHING: "10 kHz",
-    "source.fundamental_frequency": "100 Hz",
+    "source.pole_pairs": 2,
     "source.modulation_index": 0.9,
+    "source.base_frequency": "100 Hz",
     "source.rise_time": "100 ns",
 }
 _RINGING = {
@@ -114,15 +123,35 @@ SOURCE = Group(
             when=_described,
         ),
         _number(SWITCHING, "Switching frequency", "kHz", (1.0, 100.0), log=True, when=_carrier),
+        Field(
+            "source.frequency_way",
+            "Fundamental frequency",
+            kind="ways",
+            ways=(
+                Way("Follows the speed", {"source.pole_pairs": 2}, "source.pole_pairs"),
+                Way("The same at all speeds", {"source.fundamental_frequency": "100 Hz"}),
+            ),
+            when=_described,
+        ),
+        Field("source.pole_pairs", "Pairs of poles", low=1, high=12, kind="count", when=_follows),
         _number(
             "source.fundamental_frequency",
             "Fundamental frequency",
             "Hz",
             (1.0, 150.0),
             log=True,
-            when=_described,
+            when=_fixed,
         ),
         _number("source.modulation_index", "Modulation index", "", (0.0, 1.15), when=_carrier),
+        _number(
+            "source.base_frequency",
+            "It holds from this frequency on",
+            "Hz",
+            (10.0, 1000.0),
+            log=True,
+            when=_carrier,
+            optional=True,
+        ),
         _number("source.rise_time", "Rise time of an edge", "ns", (1.0, 2000.0), log=True, when=_described),
         Field(
             "source.ringing_way",

@@ -11,18 +11,19 @@ from ehlectric.app.inputs import Inputs
 # Keys of a described and of a measured source.
 DESCRIBED = (
     *("dc_link", "modulation", "switching_frequency", "fundamental_frequency", "modulation_index"),
-    *("rise_time", "ringing_frequency", "overshoot", "ringing_time"),
+    *("pole_pairs", "base_frequency", "rise_time", "ringing_frequency", "overshoot", "ringing_time"),
 )
 MEASURED = (*("file", "column", "time_column", "step", "time_unit", "value_unit", "scale", "resample"),)
 
 # Groups of alternatives of a drive: inputs have the keys of one row of each.
 DRIVE_ALTERNATIVES = (
     (tuple(f"source.{key}" for key in DESCRIBED), tuple(f"source.{key}" for key in MEASURED)),
+    (("source.fundamental_frequency",), ("source.pole_pairs",)),
     (("breakdown.extinction_current",), ("breakdown.extinction_voltage",)),
 )
 
-# Keys of a described source that six-step modulation has not, with first values where they are needed again.
-_OF_CARRIER = {"switching_frequency": "10 kHz", "modulation_index": 0.9}
+# Keys of a described source that six-step modulation has not, with first values of those that others need.
+_OF_CARRIER = {"switching_frequency": "10 kHz", "modulation_index": 0.9, "base_frequency": None}
 
 SWITCHING = "source.switching_frequency"
 
@@ -39,6 +40,10 @@ PRESETS: Mapping[str, Mapping[str, Any]] = {
     "Coated rings": {
         "bearings.bearing.coating.base": "schaeffler-j20aa",
         "bearings.bearing.coating.relative_permittivity": 9.0,
+    },
+    "Common-mode choke": {
+        "circuit.common_mode_inductance": "5 mH",
+        "circuit.common_mode_resistance": "500 ohm",
     },
     HALF: {},
 }
@@ -58,7 +63,8 @@ def fitted_to_source(inputs: Inputs) -> dict[str, Any]:
         return {f"source.{key}": None for key, value in given.items() if value is not None}
     if modulation is None:
         return {}
-    return {f"source.{key}": _OF_CARRIER[key] for key, value in given.items() if value is None}
+    lacking = {key: first for key, first in _OF_CARRIER.items() if given[key] is None and first is not None}
+    return {f"source.{key}": first for key, first in lacking.items()}
 
 
 def half_of(value: object) -> str | None:

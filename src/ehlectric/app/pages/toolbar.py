@@ -13,6 +13,7 @@ from ehlectric.app.answers.files import MOST_CASE, MOST_FILES, MOST_SURFACE, Upl
 from ehlectric.app.inputs import LONGEST_QUERY, Inputs
 from ehlectric.app.pages.control import brief
 from ehlectric.app.pages.frame import show_address
+from ehlectric.app.pages.starts import drive_with
 from ehlectric.app.pages.weak import weakly
 from ehlectric.app.session import Session
 from ehlectric.errors import InputError, LostError
@@ -79,6 +80,8 @@ class Toolbar:
                     _button("Compare", "compare", self.compare)
                 if path not in (PATHS["sweep"], PATHS["drive"]):
                     _button("Vary", "vary", self.vary)
+                if path == PATHS["bearing"]:
+                    _button("In its drive", "in-drive", self.in_drive)
                 self._files()
             self._link = ui.input("Link to this page").props('readonly dense outlined data-testid="link"')
             self._link.classes("link").set_visibility(False)
@@ -121,6 +124,10 @@ class Toolbar:
     def vary(self) -> None:
         """Open the page of sweeps with this case."""
         self._go("/sweep", Inputs({"case": dict(self.session.inputs.table)}))
+
+    def in_drive(self) -> None:
+        """Open the page of drives with this bearing at both ends."""
+        self._go(PATHS["drive"], drive_with(self.session.inputs))
 
     def _go(self, path: str, inputs: Inputs) -> None:
         """Open another page with inputs; files stay in the session of this one."""

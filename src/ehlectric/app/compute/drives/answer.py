@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers.drive import DriveAnswer
+from ehlectric.app.answers.told import DRIVE_PLACES
 from ehlectric.app.compute.cases import drive_of
 from ehlectric.app.compute.drives.numbers import (
     ends_table,
@@ -30,6 +31,9 @@ from ehlectric.runs.by_kind import run_drive
 from ehlectric.runtime.progress import Progress
 from ehlectric.runtime.workers import cores
 from ehlectric.tables.drive import drive_rows, prepared_rows
+
+# Parts of a simulation that are told.
+_WHOLE = 100
 
 _LOADING = "simulating; the first time on a machine this compiles for about 15 s"
 _SOLVING = "solving the contacts of both bearings, then simulating"
@@ -58,15 +62,17 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         raise InputError(key, got="films that have to be solved", takes="a simulation with solved contacts")
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
-    told = told_of((*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case)))
+    found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case))
+    told = told_of(found, places=DRIVE_PLACES)
     shown = prepared_numbers(summary, told)
     films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}
     how = "; ".join(f"Contacts {HOW[way]}: films may be {error} off" for way, error in sorted(films))
+    solved = "; the simulation solves them" if _is_solved(case) else ""
     return DriveAnswer(
         title=case.title,
         simulated=False,
         judged=judged_before(expected(case, summary)),
-        how=f"{how}. By the capacitive divider, without a simulation.",
+        how=f"{how}{solved}. By the capacitive divider, without a simulation.",
         shown=shown,
         ends=ends_table(summary),
         lines=lines_of(prepared_rows(summary)),
@@ -99,10 +105,14 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
 
     case = drive_of(table, session)
     progress(0, 0, _SOLVING if _is_solved(case) else _LOADING)
+
+    def told_percent(done: int, of: int, text: str) -> None:
+        progress(done, of, "percent simulated" if of == _WHOLE else text)
+
     # A core is left for the pages.
-    outcome = run_drive(case, folder, progress, workers=max(1, cores() - 1))
+    outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
     summary = outcome.summary
-    told = told_of(outcome.warnings)
+    told = told_of(outcome.warnings, places=DRIVE_PLACES)
     shown = simulated_numbers(summary, told)
     progress(0, 0, "drawing")
     return DriveAnswer(

@@ -12,7 +12,6 @@ from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.quantity import unit_for
 from ehlectric.cases.row import amount
 from ehlectric.drive.keys import NAMES_OF_ENDS
-from ehlectric.errors import printable
 from ehlectric.tables.drive import end_cells, remedy_cells
 
 _NONE = "none"
@@ -30,10 +29,10 @@ def prepared_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tupl
     """
     return _told(
         [
-            _of_ends(summary, "at-peak", "Bearing voltage at the peak", "voltage_at_peak", "V"),
+            _at_edge(summary, "at-peak", "Bearing voltage at the peak", "voltage_at_peak", "V"),
             _breakdown(summary),
             _of_ends(summary, "capacitance", "Bearing capacitance", "capacitance", "F"),
-            _of_ends(summary, "divider", "Capacitive divider", "voltage_ratio", "%"),
+            _at_edge(summary, "divider", "Capacitive divider", "voltage_ratio", "%"),
             _source(summary),
             *_machine(summary),
         ],
@@ -75,22 +74,22 @@ def within(told: Iterable[Told], numbers: Iterable[Number]) -> tuple[Told, ...]:
 
 def ends_table(summary: Mapping[str, Any]) -> Table:
     """Numbers of both bearings side by side, as the command prints them."""
-    return Table("Both bearings", ("", *NAMES_OF_ENDS.values(), ""), tuple(end_cells(summary)))
+    rows = ((_indented(name), *cells) for name, *cells in end_cells(summary))
+    return Table("As the command prints them", ("", *NAMES_OF_ENDS.values(), ""), tuple(rows))
+
+
+def _indented(name: str) -> str:
+    """Name whose leading spaces a browser shows."""
+    bare = name.lstrip()
+    return "\u2003" * (len(name) > len(bare)) + bare
 
 
 def remedies_table(summary: Mapping[str, Any]) -> Table | None:
     """The drive and its remedies side by side; None without remedies."""
     if not summary["remedies"]:
         return None
-    heads, *rows = remedy_cells(summary)
-    changed = {one["title"]: one["changes"] for one in summary["remedies"]}
-    rows = [(*row, changes_text(changed.get(row[0], {}))) for row in rows]
-    return Table("Of the worse bearing of each", (*heads, "what it changes"), tuple(rows))
-
-
-def changes_text(changes: Mapping[str, Any]) -> str:
-    """Changes of a remedy as text."""
-    return ", ".join(f"{printable(key)} = {printable(str(value))}" for key, value in changes.items())
+    (_, *heads), *rows = remedy_cells(summary)
+    return Table("Worse bearing of each", ("", *heads), tuple(rows))
 
 
 def _of_ends(
@@ -107,6 +106,14 @@ def _of_ends(
     own = f"{first}{', ' if notes[0] else ''}{notes[0]}"
     other = f"{second}: {texts[1]}{', ' if notes[1] else ''}{notes[1]}"
     return Number(name, label, texts[0], note=f"{own}; {other}", known=values[0] is not None)
+
+
+def _at_edge(summary: Mapping[str, Any], name: str, label: str, key: str, unit: str) -> Number:
+    """Number by the divider, which has none behind an inductance."""
+    if any(summary[end][key] for end in ENDS):
+        return _of_ends(summary, name, label, key, unit)
+    note = "an inductance holds the edge back; simulate the drive"
+    return Number(name, label, "none", note=note, known=False)
 
 
 def _bounds(end: Mapping[str, Any]) -> str:

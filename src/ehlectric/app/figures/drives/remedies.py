@@ -10,6 +10,7 @@ from typing import Any
 from ehlectric.app.answers.bearing import Figure, Table
 from ehlectric.app.figures.drives.voltages import COLOURS
 from ehlectric.app.figures.look import Plot, axis, plot
+from ehlectric.cases.row import number_text
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.looks import NAMES
@@ -108,11 +109,11 @@ def _trace(
 
 
 def _cell(end: Mapping[str, Any]) -> str:
-    high = findings.number_text(end["events_per_second_high"])
+    high = number_text(end["events_per_second_high"])
     if not end["events"]:
         return f"none, at most {high}"
-    low = findings.number_text(end["events_per_second_low"])
-    return f"{findings.number_text(end['events_per_second'])} ({low} to {high})"
+    low = number_text(end["events_per_second_low"])
+    return f"{number_text(end['events_per_second'])} ({low} to {high})"
 
 
 def _broken(name: str) -> str:

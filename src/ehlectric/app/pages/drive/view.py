@@ -62,9 +62,7 @@ class DriveView:
         for name, box in self._numbers.items():
             box.show(answer.number(name))
         remedies = answer.remedies
-        self._remedies.content = (
-            "" if remedies is None else f"<h2>Remedies side by side</h2>{table_html(remedies)}"
-        )
+        self._remedies.content = "" if remedies is None else f"<h2>Remedies</h2>{table_html(remedies)}"
         self._remedies.set_visibility(remedies is not None)
         self._warnings.show(answer.warnings, elsewhere(answer.warnings))
         for name, figure in self._figures.items():
