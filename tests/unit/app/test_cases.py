@@ -7,13 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.app.compute.cases import case_of, kind_of, names_in, sweep_of, with_own_files
+from ehlectric.app.compute.cases import case_of, drive_of, kind_of, names_in, sweep_of, with_own_files
 from ehlectric.app.inputs import Inputs
 from ehlectric.errors import InputError
 from tests.helpers.places import DEKTAK, EXAMPLES
 
 ROUGH = tomllib.loads((EXAMPLES / "rough_contact.toml").read_text(encoding="utf-8"))
 BEARING = tomllib.loads((EXAMPLES / "bearing_6208.toml").read_text(encoding="utf-8"))
+DRIVE = tomllib.loads((EXAMPLES / "drive.toml").read_text(encoding="utf-8"))
 
 
 def rough(name):
@@ -127,6 +128,21 @@ def test_refusal_reads_nothing(folder):
     assert "/etc/passwd" not in OPENED
 
 
-def test_a_drive_is_told_its_command():
-    with pytest.raises(InputError, match="ehlectric drive"):
-        kind_of({"source": {"dc_link": "560 V"}})
+def test_a_drive_is_no_case_of_another_page():
+    table = {"source": {"dc_link": "560 V"}}
+    assert kind_of(table) == "drive"
+    with pytest.raises(InputError, match="is a drive file"):
+        case_of(table)
+
+
+@pytest.mark.parametrize(
+    ("key", "told"),
+    [("drive_end.file", "its tables"), ("non_drive_end.file", "its tables"), ("source.file", "uploaded")],
+)
+@pytest.mark.parametrize("name", ["/etc/passwd", "../secret.toml", "bearing_6208.toml"])
+def test_a_drive_opens_no_file_that_was_not_uploaded(folder, key, told, name):
+    OPENED.clear()
+    table = Inputs(DRIVE).changed({key: name}).table
+    with pytest.raises(InputError, match=told):
+        drive_of(table, folder)
+    assert not [path for path in OPENED if name.rpartition("/")[2] in path]

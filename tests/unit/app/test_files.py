@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ehlectric.app.answers.files import MOST_CASE, MOST_FILES, file_title
+from ehlectric.app.compute.cases import drive_of
 from ehlectric.app.compute.files import drawn, packed, uploaded, write
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.uploads import MOST_TOGETHER
@@ -32,6 +33,7 @@ def silent(_done, _of, _text):
         ("line_contact", "contact"),
         ("oil_contact", "contact"),
         ("moving_roughness", "motion"),
+        ("drive", "drive"),
     ],
 )
 def test_an_example_is_opened_as_it_is(tmp_path, name, kind):
@@ -49,6 +51,63 @@ def test_a_case_asks_for_its_surface(tmp_path):
     assert found.table["roughness"][0]["file"] == "surfaces/dektak-1.csv"
     assert (tmp_path / "surfaces" / "dektak-1.csv").read_bytes() == DEKTAK.read_bytes()
     assert uploaded(case, tmp_path).missing == (), "it is there from before"
+
+
+DRIVE = """
+[source]
+{source}
+[circuit]
+winding_rotor_capacitance = "50 pF"
+rotor_frame_capacitance = "500 pF"
+[breakdown]
+arc_resistance = "10 ohm"
+extinction_current = "10 mA"
+recovery_time = "100 ns"
+[drive_end]
+file = "../bearings/bearing_6208.toml"
+bearing.radial_load = "900 N"
+"""
+DESCRIBED = """
+dc_link = "560 V"
+modulation = "six-step"
+fundamental_frequency = "100 Hz"
+rise_time = "100 ns"
+"""
+
+
+def test_a_drive_takes_the_tables_of_its_bearing_file(tmp_path):
+    drive = {"drive.toml": DRIVE.format(source=DESCRIBED).encode()}
+    assert uploaded(drive, tmp_path).missing == ("bearing_6208.toml",)
+    found = uploaded({"bearing_6208.toml": example("bearing_6208"), **drive}, tmp_path)
+    assert (found.name, found.kind, found.missing) == ("drive.toml", "drive", ())
+    expected = tomllib.loads(example("bearing_6208").decode())
+    expected["bearing"]["radial_load"] = "900 N"
+    assert found.table["drive_end"] == expected
+    assert drive_of(found.table, tmp_path).drive_end.bearing.radial_load == 900.0
+
+
+def test_a_drive_takes_its_waveform_along(tmp_path):
+    drive = DRIVE.format(source='file = "C:/data/scope.csv"').encode()
+    bearing = {"bearing_6208.toml": example("bearing_6208")}
+    assert uploaded({"drive.toml": drive, **bearing}, tmp_path).missing == ("scope.csv",)
+    wave = b"time [s],voltage [V]\n" + b"".join(b"%e,%d\n" % (1e-8 * k, 100 * (k % 2)) for k in range(100))
+    found = uploaded({"drive.toml": drive, **bearing, "scope.csv": wave}, tmp_path)
+    assert found.table["source"]["file"] == "surfaces/scope.csv"
+    assert (tmp_path / "surfaces" / "scope.csv").read_bytes() == wave
+    assert drive_of(found.table, tmp_path).source.file == str(tmp_path / "surfaces" / "scope.csv")
+
+
+def test_a_drive_is_written_as_by_the_command(tmp_path):
+    table = tomllib.loads(example("drive").decode())
+    table = {**table, "drive": {**table["drive"], "duration": "1 ms"}, "remedies": []}
+    found = write(table, "", tmp_path, silent)
+    assert set(found.names) == {"summary.json", "events.csv", "drive.nc"}
+    path = packed(Path(found.folder), "all", table, "drive", tmp_path)
+    with zipfile.ZipFile(path) as archive:
+        assert {"drive.toml", *found.names} <= set(archive.namelist())
+    figures = drawn(Path(found.folder), "figures", table, "drive", tmp_path, silent)
+    with zipfile.ZipFile(figures) as archive:
+        assert "drive_voltages.svg" in archive.namelist()
 
 
 def test_surfaces_of_a_case_that_is_refused_do_not_stay(tmp_path):

@@ -85,8 +85,8 @@ def test_a_group_that_is_switched_on_again_has_its_last_values():
     typed = EXAMPLE.changed({"motor": motor})
     memory.note(typed)
     memory.note(typed.changed({"motor": None}))
-    assert memory.table(group("Motor")) == motor
-    assert memory.table(group("Insulating coating")) == dict(group("Insulating coating").start)
+    assert memory.table(group("Motor"), EXAMPLE) == motor
+    assert memory.table(group("Insulating coating"), EXAMPLE) == dict(group("Insulating coating").start)
 
 
 def test_an_own_oil_comes_back_after_one_of_the_library():

@@ -158,7 +158,7 @@ def _missing(table: Mapping[str, Any], contents: Mapping[str, bytes], folder: Pa
         name = _plain(key, path)
         if paths.setdefault(name, path) != path:
             raise InputError(key, got=shown(path), takes=f"one file of the name {name}")
-    inner = {table.get("case"), *(_file_at(table, end) for end in ENDS)}
+    inner = [table.get("case"), *(_file_at(table, end) for end in ENDS)]
     return tuple(
         name
         for name, path in paths.items()

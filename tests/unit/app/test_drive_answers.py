@@ -1,0 +1,264 @@
+"""Answers about a drive: the numbers of the commands check and drive, and figures of them."""
+
+import json
+from dataclasses import asdict
+
+import pytest
+
+from ehlectric.app.answers.told import DRIVE_PLACES
+from ehlectric.app.compute.drives.answer import quick_answer, simulate
+from ehlectric.app.compute.drives.numbers import text_of
+from ehlectric.app.pages.starts import DRIVE
+from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.drive.quick import expected, quick_drive
+from ehlectric.errors import CODES, InputError
+from ehlectric.runs.by_kind import run
+from ehlectric.runs.meaning import check
+
+SHORT = DRIVE.changed({"drive.duration": "2 ms"})
+
+
+def case_of(inputs):
+    return DriveCase.from_written(inputs.table)
+
+
+def quick(**changes):
+    return quick_answer(DRIVE.changed(changes).table)
+
+
+@pytest.fixture(scope="module")
+def simulated(tmp_path_factory):
+    """Answer of a simulation, the folder of its files, and the progress that was told."""
+    folder, told = tmp_path_factory.mktemp("session"), []
+    answer = simulate(dict(SHORT.table), folder, folder / "out", lambda *one: told.append(one))
+    return answer, folder / "out", told
+
+
+def number(text):
+    """Number of a text with its unit, in the unit of the text."""
+    return float(text.replace("\u202f", "").split()[0])
+
+
+def test_the_first_answer_has_the_numbers_of_check():
+    answer, meaning = quick(), check(case_of(DRIVE))
+    about = meaning.summary["drive_end"]
+    assert number(answer.number("at-peak").text) == pytest.approx(about["voltage_at_peak"], rel=5e-3)
+    assert number(answer.number("first-break").text) == pytest.approx(about["breakdown_voltage"], rel=5e-3)
+    assert number(answer.number("capacitance").text) == pytest.approx(1e12 * about["capacitance"], rel=5e-3)
+    assert answer.number("first-break").bound == "≤"
+    assert [(line.name, line.text) for line in answer.lines] == [(row.name, row.text) for row in meaning.rows]
+    assert [one.code for one in answer.warnings if one.code] == [one.code for one in meaning.warnings]
+    assert (answer.simulated, answer.figures, answer.remedies) == (False, {}, None)
+
+
+def test_both_ends_are_told_apart():
+    other = {**DRIVE.value("drive_end"), "bearing": {**DRIVE.value("drive_end.bearing"), "base": "6206"}}
+    answer = quick(non_drive_end=other)
+    note = answer.number("capacitance").note
+    assert "drive end; non-drive end: " in note
+    found = check(case_of(DRIVE.changed({"non_drive_end": other}))).summary
+    assert number(note.rpartition(": ")[2]) == pytest.approx(
+        1e12 * found["non_drive_end"]["capacitance"], rel=5e-3
+    )
+
+
+def level(**changes):
+    """Level and text of the verdict before a simulation, and its margin by the divider."""
+    case = case_of(DRIVE.changed(changes))
+    found = check(case).summary
+    verdict = expected(case, found)
+    return verdict.level, verdict.text, verdict.margin
+
+
+def test_verdict_by_the_divider():
+    """The divider is linear in the voltage of the DC link: the margin is inversely proportional to it."""
+    red, text, margin = level()
+    assert (red, "above their breakdown voltage" in text) == ("red", True)
+    low, text, other = level(**{"source.dc_link": "56 V"})
+    assert other == pytest.approx(10.0 * margin)
+    assert "below their breakdown voltage" in text
+    # Weibull's law of the example, with a shape of 5, leaves a chance at a quarter of the breakdown voltage.
+    assert low == "yellow"
+    assert level(**{"source.dc_link": "56 V", "breakdown.weibull_shape": None})[0] == "green"
+    assert level(**{"source.dc_link": "10 V"})[0] == "green"
+
+
+@pytest.mark.parametrize(
+    ("changes", "grade", "told"),
+    [
+        ({"circuit.grounding_ring_resistance": "1 ohm"}, "grey", "grounding ring"),
+        ({"circuit.common_mode_inductance": "1 mH"}, "grey", "ring together"),
+        ({"circuit.ground_inductance": "1 uH"}, "grey", "ring together"),
+        (
+            {
+                "drive_end.bearing.element_material": "silicon-nitride",
+                "drive_end.bearing.element_capacitance": "5 pF",
+            },
+            "green",
+            "ceramic",
+        ),
+        (
+            {
+                "source.dc_link": "10 V",
+                "source.overshoot": "20 %",
+                "source.ringing_frequency": "2 MHz",
+                "source.ringing_time": "1 us",
+            },
+            "yellow",
+            "ringing",
+        ),
+    ],
+    ids=str,
+)
+def test_what_the_divider_leaves_out_is_told(changes, grade, told):
+    found, text, _ = level(**changes)
+    assert found == grade
+    assert told in text
+
+
+def test_behind_an_inductance_there_is_no_voltage_by_the_divider():
+    answer = quick(**{"circuit.common_mode_inductance": "1 mH"})
+    assert not answer.number("at-peak").known
+    assert "simulate" in answer.number("divider").note
+
+
+def test_films_that_have_to_be_solved_are_told_at_their_key():
+    changes = {"drive_end.lubricant.viscosity_law": "constant"}
+    assert quick_drive(case_of(DRIVE.changed(changes)))[1] == "drive_end.lubricant.viscosity_law"
+    with pytest.raises(InputError, match="a simulation with solved contacts") as caught:
+        quick(**changes)
+    assert caught.value.key == "drive_end.lubricant.viscosity_law"
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "told"),
+    [
+        ("source.rise_time", "-1 ns", "source.rise_time"),
+        ("drive_end.bearing.radial_load", "much", "drive_end.bearing.radial_load"),
+        ("remedies", [{"title": "wrong", "changes": {"circuit.ring": 1}}], "remedies.1.changes.circuit.ring"),
+    ],
+)
+def test_a_wrong_value_is_told_at_its_key(key, value, told):
+    with pytest.raises(InputError) as caught:
+        quick(**{key: value})
+    assert caught.value.key == told
+
+
+def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
+    answer, out, told = simulated
+    path = tmp_path / "drive.toml"
+    path.write_text(SHORT.toml(), encoding="utf-8")
+    summary = run(path, tmp_path / "out").summary
+    page = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    for found in (summary, page):
+        del found["seconds"]
+    assert page == json.loads(json.dumps(summary))
+    assert (out / "events.csv").read_bytes() == (tmp_path / "out" / "events.csv").read_bytes()
+    one = summary["drive_end"]
+    assert number(answer.number("discharges").text) == pytest.approx(one["events_per_second"], rel=5e-3)
+    assert number(answer.number("peak").text) == pytest.approx(one["peak_voltage"], rel=5e-3)
+    assert number(answer.number("energy").text) == pytest.approx(1e9 * one["energy_mean"], rel=5e-3)
+    assert answer.judged.numbers.lower() == summary["verdict"].lower()
+    assert answer.judged.level == "red"
+    parts = [done for done, of, _ in told if of]
+    assert parts == sorted(parts)
+    assert parts[-1] == 100
+
+
+def test_remedies_stand_side_by_side(simulated):
+    answer, out, _ = simulated
+    titles = [row[0] for row in answer.remedies.rows]
+    assert titles == ["as it is", *(one["title"] for one in SHORT.value("remedies"))]
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    worst = max(summary[end]["events_per_second"] for end in ENDS)
+    assert float(answer.remedies.rows[0][1]) == pytest.approx(worst, rel=5e-3)
+    chart = answer.figures["remedies"]
+    # A ring leaves no discharge: its mark is the upper bound.
+    ring = summary["remedies"][0]["drive_end"]
+    assert ring["events"] == 0
+    marks = {
+        (x, round(y)) for trace in chart.plot["data"] for x, y in zip(trace["x"], trace["y"], strict=True)
+    }
+    assert (pytest.approx(ring["events_per_second_high"]), 1) in [(x, y) for x, y in marks]
+
+
+def test_figures_are_plain_and_small(simulated):
+    answer, *_ = simulated
+    assert list(answer.figures) == [
+        *("voltages", "remedies", "histogram"),
+        *("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"),
+    ]
+    for figure in answer.figures.values():
+        assert len(json.dumps(figure.plot, allow_nan=False)) < 100_000
+        assert figure.table.rows
+        assert figure.label
+    json.dumps({name: asdict(one) for name, one in answer.figures.items()}, default=dict)
+
+
+def test_shares_of_a_distribution_are_all_discharges(simulated):
+    answer, *_ = simulated
+    for name in ("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"):
+        for trace in answer.figures[name].plot["data"]:
+            assert sum(trace["y"]) == pytest.approx(100.0, rel=1e-3)
+
+
+def test_discharges_of_the_shown_time_are_marked(simulated):
+    """Each mark is an event of the table of events."""
+    answer, out, _ = simulated
+    events = (out / "events.csv").read_text(encoding="utf-8").splitlines()[1:]
+    volts = [float(row.split(",")[3]) for row in events]
+    marks = [trace for trace in answer.figures["voltages"].plot["data"] if trace["name"] == "discharge"]
+    found = [volt for trace in marks for volt in trace["y"]]
+    assert found
+    assert all(any(abs(volt - one) < 1e-4 * abs(one) for one in volts) for volt in found)
+
+
+def test_without_discharges_there_are_no_distributions(tmp_path):
+    calm = SHORT.changed({"source.dc_link": "20 V", "remedies": None})
+    answer = simulate(dict(calm.table), tmp_path, tmp_path / "out", lambda *_: None)
+    assert answer.judged.level == "green"
+    assert answer.judged.lead == "No discharge in 2 ms"
+    assert "at most" in answer.judged.numbers
+    assert list(answer.figures) == ["voltages", "histogram"]
+    assert not answer.number("energy").known
+
+
+def test_a_choke_is_simulated(tmp_path):
+    """Right after an edge the choke has all of the voltage; the capacitances share it later."""
+    changes = {"circuit.common_mode_inductance": "1 uH", "circuit.common_mode_resistance": "50 ohm"}
+    choked = SHORT.changed({**changes, "remedies": None})
+    answer = simulate(dict(choked.table), tmp_path, tmp_path / "out", lambda *_: None)
+    # Such a choke is done within a microsecond, so that the films have nearly the voltage without it.
+    assert number(answer.number("peak").text) > 3.0
+
+
+def test_warnings_have_a_place():
+    assert set(DRIVE_PLACES) == set(CODES)
+    answer = quick(**{"circuit.machine": None})
+    names = {one.name for one in answer.shown}
+    assert all(set(one.beside) <= names for one in answer.warnings)
+
+
+def test_estimated_capacitances_are_told_beside_them():
+    geometry = {
+        "stack_length": "120 mm",
+        "bore_diameter": "110 mm",
+        "air_gap": "0.5 mm",
+        "slots": 36,
+        "slot_opening": "3 mm",
+        "copper_depth": "2 mm",
+        "slot_permittivity": 2,
+        "liner_width": "50 mm",
+        "liner_thickness": "0.3 mm",
+        "liner_permittivity": 3.5,
+    }
+    answer = quick(circuit={"machine": geometry})
+    assert "capacitances-estimated" in [one.code for one in answer.number("machine").told]
+
+
+def test_texts_of_numbers():
+    assert text_of(None, "V") == "none"
+    assert text_of(0.0, "J") == "0 J"
+    assert text_of(1.7e-8, "J") == "17 nJ"
+    assert text_of(28600.0, "1/s") == "28\u202f600"
+    assert text_of(123.4, "1/s") == "123"

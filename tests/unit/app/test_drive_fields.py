@@ -1,0 +1,188 @@
+"""Fields of a drive: their keys, units and sliders, and the rules by which new inputs displace others."""
+
+import pytest
+
+from ehlectric.app.catalogue import choices
+from ehlectric.app.fields.amounts import in_unit, si_unit
+from ehlectric.app.fields.defaults import default_of
+from ehlectric.app.fields.drive import DRIVE_GROUPS, OTHER
+from ehlectric.app.fields.drive_rules import (
+    DESCRIBED,
+    HALF,
+    MEASURED,
+    PRESETS,
+    changes_of,
+    remedies_of,
+    with_remedy,
+    without_remedy,
+)
+from ehlectric.app.fields.ends import ENDS, bearing_at, end_and_key
+from ehlectric.app.fields.memory import Memory
+from ehlectric.app.fields.rules import changed, is_own, own_values
+from ehlectric.app.inputs import Inputs
+from ehlectric.app.pages.starts import BEARING, DRIVE, drive_with
+from ehlectric.cases import units
+from ehlectric.cases.drives import case as drive_case
+from ehlectric.cases.drives import source as drive_source
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.input_keys import describe, input_field, number_of
+from ehlectric.cases.quantity import Quantity
+
+FIELDS = {field.key: field for group in DRIVE_GROUPS for field in group.fields}
+KEYS = [key for key, field in FIELDS.items() if field.kind != "ways" and key != "title"]
+NUMBERS = [key for key in KEYS if FIELDS[key].kind in ("number", "count")]
+
+
+def drive(**changes):
+    return DriveCase.from_written(DRIVE.changed(changes).table)
+
+
+def test_names_of_tables_are_those_of_the_cases():
+    assert ENDS == drive_case.ENDS
+    assert set(DESCRIBED) == set(drive_source.DESCRIBED)
+    assert set(MEASURED) == set(drive_source.MEASURED)
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_every_key_is_one_of_a_drive_file_and_is_described(key):
+    input_field(key)
+    assert describe(key)
+
+
+@pytest.mark.parametrize("key", NUMBERS)
+def test_units_and_sliders_are_those_of_the_key(key):
+    field, kind = FIELDS[key], number_of(input_field(key))
+    if isinstance(kind, Quantity) and field.unit not in ("", "%", "degC"):
+        expected = units.factor(field.unit, kind.unit)
+        assert in_unit(f"1 {field.unit}", si_unit(field.unit)) == pytest.approx(expected, rel=1e-12)
+    for place in (0.0, 0.37, 1.0):
+        written = field.from_slider(place)
+        if isinstance(kind, Quantity):
+            kind.parse(written, written=True)
+        elif kind is not None:
+            kind.parse(written)
+
+
+def test_titles_of_groups_differ():
+    titles = [group.title for group in DRIVE_GROUPS]
+    assert len(set(titles)) == len(titles)
+
+
+def test_lists_of_the_library_are_those_of_a_bearing():
+    listed = [key for key in KEYS if FIELDS[key].kind == "choice" and not FIELDS[key].choices]
+    assert listed
+    assert all(end_and_key(key)[1] in choices() for key in listed)
+
+
+def test_the_start_is_the_example_and_has_fields_for_all_of_it():
+    assert DRIVE.value("drive.contacts") == "atlas"
+    assert set(DRIVE.flat()) - {"remedies"} <= set(FIELDS)
+    assert drive().title == "Drive of a pump"
+
+
+@pytest.mark.parametrize("key", [key for key, field in FIELDS.items() if field.kind == "ways"])
+def test_every_way_of_the_example_makes_a_case(key):
+    for place, way in enumerate(FIELDS[key].ways):
+        if not way.listed:
+            continue
+        start = DRIVE if not key.startswith(ENDS[1]) else DRIVE.changed({ENDS[1]: DRIVE.value(ENDS[0])})
+        found = changed(start, Memory(DRIVE_GROUPS).way(FIELDS[key], place, start))
+        DriveCase.from_written(found.table)
+        assert FIELDS[key].way(found) == place or not way.key
+
+
+def test_six_step_modulation_takes_the_keys_of_the_carrier_away_and_back():
+    six = changed(DRIVE, {"source.modulation": "six-step"})
+    DriveCase.from_written(six.changed({"remedies": None}).table)
+    assert six.value("source.switching_frequency") is None
+    back = changed(six, {"source.modulation": "sinusoidal"})
+    DriveCase.from_written(back.table)
+
+
+def test_a_measured_waveform_displaces_the_described_source_and_comes_back():
+    file = changed(DRIVE, {"source.file": "surfaces/surface-1.csv"})
+    assert dict(file.value("source")) == {"file": "surfaces/surface-1.csv"}
+    way = FIELDS["source.way"]
+    assert way.way(file) == 0
+    back = changed(file, Memory(DRIVE_GROUPS).way(way, 1, file))
+    assert back.value("source.file") is None
+    DriveCase.from_written(back.table)
+
+
+def test_a_bearing_of_a_drive_follows_the_rules_of_a_bearing():
+    """The same change of the bearing alone is the reference."""
+    for changes in (
+        {"bearing.base": "nu-208"},
+        {"bearing.clearance_class": "C3"},
+        {"lubricant.base": "fva-3"},
+        {"bearing.film_factor": "inlet-shear"},
+        {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}},
+    ):
+        found = changed(DRIVE, {f"drive_end.{key}": value for key, value in changes.items()})
+        assert bearing_at(found, "drive_end") == changed(bearing_at(DRIVE, "drive_end"), changes)
+        assert found.changed({"drive_end": None}) == DRIVE.changed({"drive_end": None})
+
+
+def test_own_values_and_defaults_of_a_bearing_of_a_drive():
+    own = own_values(DRIVE, "drive_end.bearing.base")
+    assert own["drive_end.bearing.bore"] == "40 mm"
+    assert default_of(DRIVE, "drive_end.bearing.bore") == "40 mm"
+    assert not is_own(DRIVE, "drive_end.bearing.base")
+    found = changed(DRIVE, own)
+    assert is_own(found, "drive_end.bearing.base")
+    DriveCase.from_written(found.table)
+
+
+def test_the_other_end_begins_as_the_drive_end_and_remembers():
+    memory = Memory(DRIVE_GROUPS)
+    other = memory.table(OTHER, DRIVE)
+    assert other == DRIVE.value("drive_end")
+    typed = DRIVE.changed({"non_drive_end": other, "non_drive_end.bearing.radial_load": "500 N"})
+    memory.note(typed)
+    assert memory.table(OTHER, DRIVE)["bearing"]["radial_load"] == "500 N"
+    assert OTHER.tells(DRIVE)
+    assert not OTHER.tells(typed)
+
+
+@pytest.mark.parametrize("title", PRESETS)
+def test_every_usual_remedy_is_a_case_and_can_be_taken_back(title):
+    start = DRIVE.changed({"remedies": None})
+    on = start.changed({"remedies": with_remedy(start, title, changes_of(start, title))})
+    assert list(remedies_of(on)) == [title]
+    (variant,) = DriveCase.from_written(on.table).variants()
+    assert variant != DriveCase.from_written(on.table)
+    assert without_remedy(on, title) == []
+
+
+def test_usual_remedies_of_the_example_are_those_of_the_list():
+    for title, changes in remedies_of(DRIVE).items():
+        assert changes == changes_of(DRIVE, title)
+
+
+def test_half_of_the_switching_frequency_follows_it():
+    found = changed(DRIVE, {"source.switching_frequency": "16 kHz"})
+    assert remedies_of(found)[HALF] == {"source.switching_frequency": "8 kHz"}
+    own = DRIVE.changed({"remedies": [{"title": "slow", "changes": {"source.switching_frequency": "3 kHz"}}]})
+    kept = changed(own, {"source.switching_frequency": "16 kHz"})
+    assert remedies_of(kept)["slow"] == {"source.switching_frequency": "3 kHz"}
+
+
+def test_a_bearing_in_its_drive():
+    motor = {"winding_rotor_capacitance": "7 pF", "rotor_frame_capacitance": "900 pF", "rise_time": "1 us"}
+    bearing = BEARING.changed(
+        {"bearing.inner_speed": "1500 rpm", "motor": {"common_mode_voltage": "300 V", **motor}}
+    )
+    case = DriveCase.from_written(drive_with(bearing).table)
+    assert case.drive_end.bearing.radial_load == 1800.0
+    assert case.circuit.winding_rotor_capacitance == pytest.approx(7e-12)
+    assert case.source.rise_time == pytest.approx(1e-6)
+    assert case.bearings[0].bearing.inner_speed == pytest.approx(157.0796, rel=1e-6)
+    # A bearing without a strength gets the assumed one, which a drive needs.
+    bare = DriveCase.from_written(drive_with(BEARING.changed({"discharge": None})).table)
+    assert bare.drive_end.discharge.dielectric_strength == pytest.approx(15e6)
+
+
+def test_an_address_holds_a_drive_with_its_remedies():
+    from urllib.parse import parse_qsl
+
+    assert Inputs.of_query(parse_qsl(DRIVE.address())) == DRIVE
