@@ -11,7 +11,7 @@ from tests.helpers.processes import alive, wait_until
 
 EXAMPLE = tomllib.loads((EXAMPLES / "drive.toml").read_text(encoding="utf-8"))
 
-# By the capacitive divider of the example: 50 pF over the sum of 50 pF, 500 pF and both bearings, times 280 V.
+# By the capacitive divider of the example: 280 V times 50 pF over 50 pF, 500 pF and both bearings.
 AT_PEAK = 12.9
 
 
@@ -96,7 +96,7 @@ def test_a_simulation_can_be_stopped(own_server, open_page):
 
 
 @pytest.mark.slow
-def test_a_drive_file_is_opened_from_any_page_and_fits_a_phone(open_page, app_server, tmp_path):
+def test_a_drive_file_is_opened_from_any_page_and_fits_a_phone(open_page, app_server):
     page = open_page(app_server, "/", width=400, height=800)
     page.get_by_test_id("upload-case").locator("input").set_input_files(EXAMPLES / "drive.toml")
     page.wait_for_url("**/drive?*")

@@ -10,7 +10,8 @@ from nicegui import ui
 
 from ehlectric.app.answers.calls import DRIVE_QUICK, DRIVE_SIMULATED
 from ehlectric.app.answers.drive import DriveAnswer
-from ehlectric.app.fields.drive import DRIVE_GROUPS, SOURCE
+from ehlectric.app.fields.drive import DRIVE_GROUPS
+from ehlectric.app.fields.source import SOURCE
 from ehlectric.app.following import Following
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.downloads import Downloads
