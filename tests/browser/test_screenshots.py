@@ -9,6 +9,7 @@ from PIL import Image
 from tests.browser.driving import wait_for_number
 from tests.browser.outputs import address_of, downloaded, overflow
 from tests.browser.test_contact_page import wait_until_solved
+from tests.browser.test_drive import AT_PEAK, short, simulate
 from tests.browser.test_first_page import capacitance
 from tests.browser.test_sweep_page import run, sweep, wait_for_points
 
@@ -30,6 +31,11 @@ def folder(tmp_path):
 def bearing(page):
     wait_for_number(page, "capacitance", capacitance())
     page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
+
+
+def drive(page):
+    wait_for_number(page, "at-peak", AT_PEAK)
+    simulate(page)
 
 
 def contact(page):
@@ -59,6 +65,7 @@ def compared(page):
 # Name of the picture: address of the page, and what waits until it is complete.
 _PAGES = {
     "bearing": (lambda: "/", bearing),
+    "drive": (lambda: address_of("/drive", short("0.05 s")), drive),
     "contact": (lambda: "/contact", contact),
     "contact-point": (lambda: "/contact?contact.geometry=point", contact_point),
     "sweep": (lambda: address_of("/sweep", sweep(6)), swept),

@@ -57,7 +57,8 @@ class DriveView:
     def show(self, answer: DriveAnswer) -> None:
         """Show an answer."""
         self._body.set_visibility(True)
-        self._body.props(f'data-simulated="{str(answer.simulated).lower()}"')
+        self._body.props["data-simulated"] = str(answer.simulated).lower()
+        self._body.update()
         self._verdict.show(answer.judged)
         for name, box in self._numbers.items():
             box.show(answer.number(name))
