@@ -187,6 +187,7 @@ DRIVE_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "threshold-constant": ("first-break", "discharges"),
         "arc-burns-on": ("discharges",),
         "few-discharges": ("discharges",),
+        "current-density-high": ("current-density",),
         "coating-breakdown": ("at-peak", "peak"),
     }
 )

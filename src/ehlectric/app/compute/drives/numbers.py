@@ -10,7 +10,7 @@ from ehlectric.app.answers.bearing import Number, Table
 from ehlectric.app.answers.told import Told, beside
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.quantity import unit_for
-from ehlectric.cases.row import amount
+from ehlectric.cases.row import UNITS, amount, number_text
 from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.tables.drive import end_cells, remedy_cells
 
@@ -57,6 +57,9 @@ def simulated_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tup
         _of_ends(summary, "mean-voltage", "Mean voltage of a discharge", "voltage_mean", "V"),
         _of_ends(summary, "energy", "Mean energy of a discharge", "energy_mean", "J"),
         _of_ends(summary, "power", "Power of the discharges", "power", "W"),
+        _of_ends(
+            summary, "current-density", "Current density over the Hertz areas", "current_density", "A/mm²"
+        ),
         _of_ends(summary, "capacitance", "Bearing capacitance", "capacitance", "F"),
         _source(summary),
     ]
@@ -164,8 +167,8 @@ def text_of(value: float | None, unit: str) -> str:
         return _NONE
     if unit == "1/s":
         return _short(value)
-    if unit == "%":
-        return f"{100.0 * value:.3g} %"
+    if unit in UNITS and UNITS[unit][1] != 1.0:
+        return f"{number_text(value * UNITS[unit][1])} {unit}"
     factor, prefixed = unit_for(abs(value), unit, least=1.0) if value else (1.0, unit)
     return f"{factor * value:.3g} {prefixed}"
 

@@ -19,6 +19,7 @@ from ehlectric.app.pages.parts import lines_html
 # Numbers of either answer, in their order.
 _NUMBERS = (
     *("discharges", "at-peak", "peak", "first-break", "mean-voltage", "energy", "power"),
+    "current-density",
     *("capacitance", "divider", "source", "machine"),
 )
 _FIGURES = (
