@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
+from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.discharge.verdict import Level, Verdict, level_of, ratio_text, strength_interval, weibull_part
+from ehlectric.discharge.verdict import STRENGTH_UNKNOWN, Level, Verdict, ratio_text
 from ehlectric.drive.keys import NAMES_OF_ENDS
-
-# Probability at which a threshold of Weibull's law counts as low: each edge tries another one.
-_LOW = 0.001
+from ehlectric.drive.verdict import SELDOM, most_by_law
 
 _RING = (
     "The grounding ring leads the charge of the shaft away, which the divider leaves out: "
@@ -22,6 +20,7 @@ _INDUCTANCE = (
     "An inductance and the capacitances of the machine ring together, which the divider leaves out: "
     "simulate the drive to see the voltage of the bearings."
 )
+_SCATTER = "Thresholds scatter, so that some films break down at lower voltages."
 _RINGING = "The ringing of the source lifts the voltage above the divider's."
 
 
@@ -60,7 +59,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     case : DriveCase
         Drive.
     summary : mapping
-        Tables of ``drive.summary.prepared_summary``.
+        Tables of ``drive.summary.checked_summary``.
 
     Returns
     -------
@@ -89,7 +88,8 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     )
     if circuit.grounding_ring_resistance is not None:
         return Verdict("grey", f"No verdict without a simulation: {numbers} {_RING}", margin)
-    level, doubts = _level(margin, about["weibull_shape"]), []
+    level = _level(about, (one.bearing.kind for one in case.bearings))
+    doubts = [_SCATTER] if level == "yellow" and margin >= 1.0 and about["weibull_shape"] else []
     if case.source.overshoot:
         doubts.append(_RINGING)
     if touching:
@@ -107,9 +107,13 @@ _LEADS: Mapping[Level, str] = {
 }
 
 
-def _level(margin: float, shape: float | None) -> Level:
-    """Level of a margin within what is uncertain of the strength, and with its scatter."""
-    low, high = strength_interval(margin)
-    if shape is not None and math.isfinite(shape):
-        low *= weibull_part(shape, _LOW)
-    return level_of(low, high)
+def _level(about: Mapping[str, Any], kinds: Iterable[str]) -> Level:
+    """Level of a bearing from its voltage at the peak, within what is uncertain of its breakdown voltage."""
+    part = 1.0 - STRENGTH_UNKNOWN
+    if about["films"] == "formula":
+        # Films of the atlas are far more exact than the strength is known.
+        part /= max(map(formula_factor, kinds))
+    voltage, at = about["voltage_at_peak"], about["breakdown_voltage"]
+    if voltage >= (1.0 + STRENGTH_UNKNOWN) * at:
+        return "red"
+    return "green" if most_by_law({**about, "peak_voltage": voltage}, part) <= SELDOM else "yellow"

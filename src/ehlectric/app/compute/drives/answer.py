@@ -25,6 +25,7 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.quick import expected, quick_drive
 from ehlectric.drive.solver import prepare
 from ehlectric.drive.summary import checked_summary
+from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import bearing_warnings, machine_warnings
 from ehlectric.errors import InputError
 from ehlectric.runs.by_kind import run_drive
@@ -118,7 +119,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     return DriveAnswer(
         title=case.title,
         simulated=True,
-        judged=judged_after(summary),
+        judged=judged_after(drive_verdict(case, summary, outcome.warnings)),
         how=f"Simulated in {summary['seconds']:.3g} s, as ehlectric drive does it.",
         shown=shown,
         ends=ends_table(summary),

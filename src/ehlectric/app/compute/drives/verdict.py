@@ -4,33 +4,31 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any
 
 from ehlectric.app.answers.bearing import Judged
-from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.row import amount
 from ehlectric.discharge.verdict import Verdict
-from ehlectric.drive.keys import NAMES_OF_ENDS
+from ehlectric.report.light import light_of
 
-_MEANING = {
-    "green": "Below the breakdown voltage no film breaks down, and the shaft voltage does no harm.",
-    "yellow": "The voltage is near the breakdown voltage, within what is uncertain. Discharges can mark the "
-    "raceways.",
-    "red": "The voltage is above the breakdown voltage: the films break down, and discharges can mark the "
-    "raceways.",
+# What a verdict before a simulation means, and one after it.
+_BEFORE: Mapping[str, str] = {
+    "green": "The voltage by the divider stays below what breaks the films down.",
+    "yellow": "The voltage is near the breakdown voltage, within what is uncertain.",
+    "red": "The voltage is above the breakdown voltage: the films break down at edges of the source.",
     "grey": "The divider alone cannot say whether this drive discharges.",
 }
+_AFTER: Mapping[str, str] = {
+    "green": "No film broke down, and none is expected to.",
+    "yellow": "Discharges can mark the raceways and age the oil; they are not sure here.",
+    "red": "Discharges can mark the raceways and age the oil. Compare remedies.",
+    "grey": "These numbers must not be used.",
+}
 _NOT_SIMULATED = "How often, and with which energy, the simulation says."
-
-_DISCHARGES = "Discharges can mark the raceways, and age the oil. Compare them with remedies."
-_NO_DISCHARGE = "No film broke down in the simulated time; a longer time gives a lower bound of the rate."
-_BURNING = "An arc burns on: the source feeds it, so that few discharges are counted."
 
 # End of a sentence; numbers such as 1.44 have no space behind their point.
 _END = re.compile(r"(?<=[.!?]) (?=[A-Z])")
 
-# Share of time with a burning arc from which it is told.
-_MOSTLY = 0.2
+# Beginnings of sentences on what is assumed.
+_ASSUMED = ("Upper bound", "Dielectric strength", "The table of dielectric", "The Weibull law of")
 
 
 def judged_before(verdict: Verdict) -> Judged:
@@ -43,33 +41,28 @@ def judged_before(verdict: Verdict) -> Judged:
     ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
     """
     first, *others = _END.split(verdict.text)
+    return _judged(verdict, _BEFORE, first, others, _NOT_SIMULATED)
+
+
+def judged_after(verdict: Verdict) -> Judged:
+    """Verdict on a simulated drive, which is that of its report."""
+    first, *others = _END.split(verdict.text)
+    assumed = [text for text in others if text.startswith(_ASSUMED)]
+    reasons = [text for text in others if text not in assumed]
+    return _judged(verdict, _AFTER, first, reasons, " ".join(assumed))
+
+
+def _judged(
+    verdict: Verdict, meaning: Mapping[str, str], first: str, reasons: list[str], assumptions: str
+) -> Judged:
     lead, _, rest = first.partition(": ")
+    light = light_of(verdict.level, verdict.text)
     return Judged(
         level=verdict.level,
         lead=lead.rstrip("."),
-        meaning=_MEANING[verdict.level],
+        meaning=meaning[verdict.level],
         numbers=rest[:1].upper() + rest[1:],
-        reasons=tuple(others),
-        assumptions=_NOT_SIMULATED,
+        reasons=tuple(reasons),
+        assumptions=assumptions,
+        bound=light.bound,
     )
-
-
-def judged_after(summary: Mapping[str, Any]) -> Judged:
-    """Verdict on a simulated drive, from its summary."""
-    names = [name for end, name in NAMES_OF_ENDS.items() if summary[end]["events"]]
-    burning = max(summary[end]["burning_time_share"] for end in ENDS) > _MOSTLY
-    duration = amount(summary["drive"]["duration"], "s")
-    if not summary["converged"]:
-        return Judged(
-            "grey", "No verdict", "A contact is not converged: do not use these numbers.", "", (), ""
-        )
-    if names:
-        where = "both bearings" if len(names) > 1 else f"the {names[0]} bearing"
-        level, lead, meaning = "red", f"Discharges in {where}", _DISCHARGES
-    elif burning:
-        level, lead, meaning = "red", "An arc burns on", _BURNING
-    else:
-        level, lead, meaning = "green", f"No discharge in {duration}", _NO_DISCHARGE
-    told = summary["verdict"]
-    reasons = (_BURNING,) if burning and names else ()
-    return Judged(level, lead, meaning, f"{told[:1].upper()}{told[1:]}", reasons, "")
