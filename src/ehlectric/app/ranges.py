@@ -45,7 +45,7 @@ class Range:
 
 
 def sweep_inputs(inputs: Inputs) -> Inputs | None:
-    """Inputs of the sweep page from an address: its own, or those of a bearing or contact page.
+    """Inputs of the sweep page from an address: its own, or those of the page of a case.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def sweep_inputs(inputs: Inputs) -> Inputs | None:
     """
     if isinstance(inputs.value("case"), Mapping):
         return inputs
-    if inputs.value("bearing") or inputs.value("contact"):
+    if any(inputs.value(table) for table in ("bearing", "drive_end", "contact")):
         return Inputs({"case": _of_case(inputs.table)})
     return None
 

@@ -43,7 +43,7 @@ class SweepChoices:
     Attributes
     ----------
     kind : str
-        "bearing" or "contact".
+        "bearing", "drive" or "contact".
     variables : tuple of Variable
         Inputs that may vary, the common ones first.
     values : mapping of str to str
@@ -203,7 +203,7 @@ class SweepPoint:
     number : int
         Number of the point.
     path : str
-        "/" for a bearing, "/contact" for a contact.
+        "/" for a bearing, "/drive" for a drive, "/contact" for a contact.
     query : str
         Query of the address, which holds the inputs of the point with all digits.
     """

@@ -22,7 +22,7 @@ from ehlectric.sweep.inputs import Sweep
 _FILE, _CASE = "file", "case"
 
 # Keys that may name the file of a case, of which a page has the tables.
-_CASES = (_CASE, *(f"{end}.{_FILE}" for end in ENDS))
+_CASES = (_CASE, *(f"{case}{end}.{_FILE}" for case in ("", "case.") for end in ENDS))
 
 Change = Callable[[str, str], str]
 
@@ -70,13 +70,9 @@ def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
     Raises
     ------
     InputError
-        If the tables are no valid sweep, name another file, or vary a drive, which has no page.
+        If the tables are no valid sweep, or name another file.
     """
-    sweep = Sweep.from_written(with_own_files(table, folder))
-    if isinstance(sweep.case, DriveCase):
-        takes = "the case of a contact or a bearing; ehlectric sweep varies drives"
-        raise InputError("case", "is a drive", takes=takes)
-    return sweep
+    return Sweep.from_written(with_own_files(table, folder))
 
 
 def kind_of(table: Mapping[str, Any]) -> FileKind:

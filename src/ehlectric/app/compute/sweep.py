@@ -10,16 +10,17 @@ from typing import Any
 
 from ehlectric.app.answers.sweep import SweepChoices, SweepPlan, SweepPoint, Variable
 from ehlectric.app.compute import cases
-from ehlectric.app.compute.cases import case_of
+from ehlectric.app.compute.cases import run_case_of
+from ehlectric.app.compute.drives import swept
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.amounts import in_unit, split
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.ranges import number_of_text
 from ehlectric.bearing.quick.ways import is_quick
-from ehlectric.cases.any_case import AnyCase, case_of_dict
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
-from ehlectric.cases.drives.swept import SweptCase
+from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drives.swept import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.quantity import Count, Quantity
@@ -54,6 +55,7 @@ _COMMON = (
     "contact.load",
     "contact.max_hertz_pressure",
     "contact.temperature",
+    *swept.COMMON,
 )
 
 # Results that are shown most often, the breakdown voltage of the case before them.
@@ -77,6 +79,7 @@ _RESULTS = {
         "field.max_strength",
         "discharge.capacitance",
     ),
+    "drive": swept.RESULTS,
 }
 
 
@@ -90,9 +93,9 @@ def sweep_of(table: Mapping[str, Any]) -> Sweep:
     """
     case = table.get("case")
     if not isinstance(case, Mapping):
-        raise InputError.missing("case", "a table with the inputs of a bearing or a contact")
+        raise InputError.missing("case", "a table with the inputs of a bearing, a drive or a contact")
     try:
-        case_of(case)
+        run_case_of(case)
     except InputError as error:
         raise error.under("case") from None
     sweep = cases.sweep_of(table)
@@ -108,21 +111,31 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
     Parameters
     ----------
     table : mapping
-        Nested tables of a bearing or contact file.
+        Nested tables of a bearing, drive or contact file.
 
     Raises
     ------
     InputError
         If the tables are no valid case.
     """
-    case = case_of(table)
-    kind = "bearing" if isinstance(case, BearingCase) else "contact"
-    keys = dict.fromkeys((breakdown_of(case).value, *_RESULTS[kind]))
+    case = run_case_of(table)
+    kind = next((name for name, one in _KINDS.items() if isinstance(case, one)), "contact")
+    keys = dict.fromkeys(filter(None, (breakdown_of(case).value, *_RESULTS[kind])))
     return SweepChoices(kind, tuple(_variables(table, case)), {key: named(key, case) for key in keys})
 
 
-def _variables(table: Mapping[str, Any], case: AnyCase) -> Iterator[Variable]:
-    written, resolved = Inputs(table).flat(), flattened(case.to_dict())
+# Classes of cases, and pages, by kind; a contact has another one.
+_KINDS = {"bearing": BearingCase, "drive": DriveCase}
+_PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact"}
+
+
+def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
+    if isinstance(case, DriveCase):
+        written, resolved = swept.texts_of(table, case), swept.values_of(case)
+        fields = swept.fields()
+    else:
+        written, resolved = Inputs(table).flat(), flattened(case.to_dict())
+        fields = {field.key: field for group in BEARING_GROUPS for field in group.fields}
     numbers = [
         key
         for key, value in resolved.items()
@@ -133,7 +146,6 @@ def _variables(table: Mapping[str, Any], case: AnyCase) -> Iterator[Variable]:
         common = _COMMON.index(key) if key in _COMMON else len(_COMMON)
         return common, key not in written, key not in INPUT_NAMES
 
-    fields = {field.key: field for group in BEARING_GROUPS for field in group.fields}
     for key in sorted(numbers, key=rank):
         slider, text = fields.get(key), str(written.get(key, ""))
         if slider is not None and slider.kind != "number":
@@ -282,7 +294,8 @@ def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:
         raise InputError("the sweep has been replaced by another one; run it again")
     if not 0 <= number < len(results.points):
         raise InputError("number", got=number, takes=f"from 0 to {len(results.points) - 1}")
-    path = "/" if isinstance(results.case, BearingCase) else "/contact"
+    kind = next((name for name, one in _KINDS.items() if isinstance(results.case, one)), "contact")
+    path = _PAGES[kind]
     inputs, vary = results.points[number].inputs, table.get("vary", {})
     units = {key: _written_unit(vary, key) for key in inputs}
     found = point_table(results.case, table["case"], inputs, units)
@@ -307,9 +320,10 @@ def point_table(
     """
     wanted = case.replace(inputs)
     changed: dict[str, Any] = tomllib.loads(Inputs(table).toml())
-    set_keys(changed, {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()})
+    texts = {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()}
+    set_keys(changed, swept.in_tables(table, texts) if isinstance(case, DriveCase) else texts)
     try:
-        if case_key(case_of_dict(changed, written=True)) == case_key(wanted):
+        if case_key(swept_case_of_dict(changed, written=True)) == case_key(wanted):
             return changed
     except InputError:
         # As where a load replaces a Hertz pressure: the file must not have both.

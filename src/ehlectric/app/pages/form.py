@@ -14,6 +14,7 @@ from ehlectric.app.catalogue import choices
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.contact import geometry_of, groups_of
 from ehlectric.app.fields.defaults import default_of
+from ehlectric.app.fields.drive import DRIVE_GROUPS
 from ehlectric.app.fields.ends import end_and_key
 from ehlectric.app.fields.field import Field, Group
 from ehlectric.app.fields.memory import Memory
@@ -360,7 +361,9 @@ class Form:
 
 
 def groups_for(case: Inputs) -> Sequence[Group]:
-    """Groups of fields of a case: those of a bearing, or of a contact of its geometry."""
+    """Groups of fields of a case: those of a drive, of a bearing, or of a contact of its geometry."""
+    if case.value("drive_end"):
+        return DRIVE_GROUPS
     return BEARING_GROUPS if case.value("bearing") else groups_of(geometry_of(case))
 
 

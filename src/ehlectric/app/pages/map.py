@@ -24,6 +24,9 @@ _KEYS = """(event) => {
 }"""
 _STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
 
+# Words of the link to the case of a point, by the address of its page.
+_OPEN = {"/": "Open its bearing", "/drive": "Open its drive", "/contact": "Open its contact"}
+
 # States of points whose own words say too little.
 _STATES = {
     "do not use": 'solved, but "do not use"',
@@ -230,7 +233,7 @@ class MapPart:
                     with ui.element("li"):
                         ui.label(text)
             if self._address:
-                name = "Open its bearing" if self._address.startswith("/?") else "Open its contact"
+                name = _OPEN[self._address.partition("?")[0]]
                 link = ui.link(f"{name} (new tab)", self._address, new_tab=True)
                 link.props('data-testid="open-point"')
             else:

@@ -14,7 +14,7 @@ from ehlectric.app.fields.words import in_field_unit
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.form import Form, groups_for
 from ehlectric.app.pages.parts import card
-from ehlectric.app.pages.starts import start
+from ehlectric.app.pages.starts import DRIVE, start
 from ehlectric.app.ranges import Range, case_of_link, lists_of, ranges_of, with_ranges
 from ehlectric.errors import InputError
 
@@ -23,6 +23,7 @@ Change = Callable[[Inputs], Awaitable[None]]
 # Examples that may be the base case. Their films are computed as they say.
 EXAMPLES = {
     "bearing_6208": "Ball bearing 6208 in a drive",
+    "drive": "Inverter, motor and both bearings",
     "discharge": "Line contact with breakdown",
     "oil_contact": "Ball on disc",
 }
@@ -182,7 +183,7 @@ class RangesForm:
         """Show the base case."""
         case = Inputs(self._inputs.value("case") or {})
         self._title.text = str(case.value("title") or "Case without a title")
-        path = "/" if case.value("bearing") else "/contact"
+        path = "/drive" if case.value("drive_end") else "/" if case.value("bearing") else "/contact"
         self._page.props["href"] = f"{path}?{case.address()}"
         self._page.update()
         self._kind.set_visibility(bool(case.value("bearing")))
@@ -199,7 +200,7 @@ class RangesForm:
         await self._change(self._inputs.changed({f"case.{key}": value}))
 
     async def _example(self, event: Any) -> None:
-        table = dict(start(str(event.value)).table)
+        table = dict((DRIVE if event.value == "drive" else start(str(event.value))).table)
         await self._change(Inputs({"case": table | ({"contacts": "atlas"} if "bearing" in table else {})}))
 
     async def _take_over(self, link: str) -> None:
@@ -207,7 +208,7 @@ class RangesForm:
         if found is not None:
             await self._change(Inputs({"case": found}))
         elif link:
-            self._link.tell("this link has no bearing and no contact: copy one of their pages")
+            self._link.tell("this link has no bearing, drive or contact: copy one of their pages")
 
     async def _contacts(self, value: str) -> None:
         await self._change(self._inputs.changed({"case.contacts": value}))

@@ -372,7 +372,10 @@ def _in_words(plan: SweepPlan) -> str:
     where = f"on {plan.workers} core{'s' if plan.workers > 1 else ''}"
     text = f"{plan.points} points {where}"
     if plan.seconds is None:
-        text += ": each takes as long as one solution, a second for a contact and ten or more for a bearing."
+        text += (
+            ": each takes as long as one solution, a second for a contact or a quick drive, ten or more "
+            "for a bearing."
+        )
     else:
         text += f", without solving contacts: about {duration(plan.seconds)}."
     if plan.refused:

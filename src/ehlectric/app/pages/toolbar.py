@@ -78,7 +78,7 @@ class Toolbar:
             if opens:
                 if path != PATHS["drive"]:
                     _button("Compare", "compare", self.compare)
-                if path not in (PATHS["sweep"], PATHS["drive"]):
+                if path != PATHS["sweep"]:
                     _button("Vary", "vary", self.vary)
                 if path == PATHS["bearing"]:
                     _button("In its drive", "in-drive", self.in_drive)
