@@ -63,6 +63,14 @@ def test_both_ends_are_told_apart():
     )
 
 
+def test_a_warning_of_both_ends_stands_once():
+    other = {**DRIVE.value("drive_end"), "bearing": {**DRIVE.value("drive_end.bearing"), "base": "6206"}}
+    told = [one for one in quick(non_drive_end=other).warnings if one.code == "atlas-contacts"]
+    assert len(told) == 1
+    assert "drive_end: " in told[0].text
+    assert "non_drive_end: " in told[0].text
+
+
 def level(**changes):
     """Level and text of the verdict before a simulation, and its margin by the divider."""
     case = case_of(DRIVE.changed(changes))

@@ -119,6 +119,9 @@ class Toolbar:
         """Open the page that compares, with this case on both sides."""
         table = dict(self.session.inputs.table)
         case = table.get("case", table)
+        if "drive_end" in case:
+            self._tell(error="drives are compared by their remedies, on the page Drive")
+            return
         self._go("/compare", Inputs({"a": case, "b": case}))
 
     def vary(self) -> None:

@@ -11,6 +11,7 @@ from ehlectric.app.answers.told import DRIVE_PLACES
 from ehlectric.app.compute.cases import drive_of
 from ehlectric.app.compute.drives.numbers import (
     ends_table,
+    merged,
     prepared_numbers,
     remedies_table,
     simulated_numbers,
@@ -64,7 +65,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
     found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case))
-    told = told_of(found, places=DRIVE_PLACES)
+    told = merged(told_of(found, places=DRIVE_PLACES))
     shown = prepared_numbers(summary, told)
     films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}
     how = "; ".join(f"Contacts {HOW[way]}: films may be {error} off" for way, error in sorted(films))
@@ -113,7 +114,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     # A core is left for the pages.
     outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
     summary = outcome.summary
-    told = told_of(outcome.warnings, places=DRIVE_PLACES)
+    told = merged(told_of(outcome.warnings, places=DRIVE_PLACES))
     shown = simulated_numbers(summary, told)
     progress(0, 0, "drawing")
     return DriveAnswer(

@@ -69,6 +69,15 @@ def simulated_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tup
     return _told(found, told)
 
 
+def merged(told: Iterable[Told]) -> tuple[Told, ...]:
+    """Warnings of which those of one code, as of both bearings, are one with both texts."""
+    found: dict[str, Told] = {}
+    for one in told:
+        before = found.get(one.code)
+        found[one.code] = one if before is None else replace(before, text=f"{before.text}. {one.text}")
+    return tuple(found.values())
+
+
 def within(told: Iterable[Told], numbers: Iterable[Number]) -> tuple[Told, ...]:
     """Warnings of which each names the numbers that there are alone; the others stand in a list."""
     names = {one.name for one in numbers}
