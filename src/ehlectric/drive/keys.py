@@ -94,7 +94,8 @@ _END: Keys = {
         "share of time in which asperities close the films", "", "share of contact"
     ),
     "voltage_ratio": ResultKey(
-        "voltage across the films per volt of the source right after an edge, by the capacitive divider",
+        "voltage across the films per volt of the source right after an edge, by the capacitive divider; "
+        "inductances are left out",
         "",
         "bearing voltage ratio",
     ),

@@ -12,6 +12,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.bearings import BearingElement, bearing_element
+from ehlectric.drive.circuit.divider import capacitive_divider
 from ehlectric.drive.circuit.modes import Modes, modes_of
 from ehlectric.drive.circuit.motor import film_nodes, states_of
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
@@ -80,12 +81,8 @@ class PreparedDrive:
 
     @property
     def divider(self) -> tuple[float, float]:
-        """Voltage across the films of each bearing per volt of the source, right after an edge.
-
-        The elements are at their first position.
-        """
-        first, second = self.modes.films_source[0]
-        return abs(float(first)), abs(float(second))
+        """Voltage across the films of each bearing per volt of the source, by the capacitances."""
+        return capacitive_divider(self.case.circuit, self.elements)
 
 
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
@@ -231,16 +228,7 @@ def _trace(ready: PreparedDrive) -> float:
 def _highest(ready: PreparedDrive) -> float:
     """About the highest voltage across a film [V]: twice the divider's, as discharges shift it by itself."""
     over = 1.0 if ready.ringing is None else 1.0 + ready.ringing.overshoot
-    # Right after an edge an inductance has all of it; then the capacitances share it.
-    share = max(ready.divider) or _static_share(ready)
-    return 2.0 * over * share * ready.highest_source
-
-
-def _static_share(ready: PreparedDrive) -> float:
-    """Voltage across the films per volt between winding and frame, by the capacitances alone."""
-    found = ready.case.circuit.capacitances
-    across = found["rotor_frame_capacitance"] + sum(one.mean_capacitance for one in ready.elements)
-    return found["winding_rotor_capacitance"] / (found["winding_rotor_capacitance"] + across)
+    return 2.0 * over * max(ready.divider) * ready.highest_source
 
 
 def _chunks(ready: PreparedDrive) -> Iterator[Segments]:

@@ -1,0 +1,31 @@
+"""Capacitive divider of a motor with its bearings, against the quotient of capacitances."""
+
+import pytest
+
+from ehlectric.bearing.meter.path import Path
+from ehlectric.drive.circuit.divider import capacitive_divider
+from tests.helpers.drives import element, motor
+
+INDUCTANCES = (
+    {},
+    {"common_mode_inductance": "1 mH", "common_mode_resistance": "2 ohm"},
+    {"ground_inductance": "1 uH"},
+    {"ground_inductance": "1 uH", "frame_earth_capacitance": "10 nF", "cable_capacitance": "1 nF"},
+)
+
+
+@pytest.mark.parametrize("keys", INDUCTANCES)
+def test_divider_is_that_of_the_capacitances(keys):
+    """C_wr/(C_wr + C_rf + C_DE + C_NDE), whatever lies before the winding."""
+    circuit, bearings = motor(**keys), [element(300e-12), element(200e-12)]
+    share = 50.0 / (50.0 + 500.0 + 300.0 + 200.0)
+    assert capacitive_divider(circuit, bearings) == pytest.approx((share, share), rel=1e-12)
+
+
+@pytest.mark.parametrize("keys", INDUCTANCES)
+def test_a_coating_takes_its_part(keys):
+    """Films of 300 pF in series with a coating of 600 pF: 200 pF, of whose voltage they have two thirds."""
+    circuit = motor(**keys)
+    bearings = [element(300e-12, path=Path(coating=600e-12)), element(200e-12)]
+    share = 50.0 / (50.0 + 500.0 + 200.0 + 200.0)
+    assert capacitive_divider(circuit, bearings) == pytest.approx((share * 2.0 / 3.0, share), rel=1e-12)
