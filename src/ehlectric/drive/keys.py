@@ -23,7 +23,10 @@ _ABOUT: Keys = {
     "converged": ResultKey("whether the films of both bearings are converged"),
     "warnings": ResultKey("warnings, to be read before the numbers are used"),
     "warning_codes": ResultKey("code of each warning, in the same order"),
-    "verdict": ResultKey("answer in a sentence: how often which bearing discharges, and with which energy"),
+    "verdict": ResultKey(
+        "answer: how often which bearing discharges, with which energy, and what it rests on"
+    ),
+    "level": ResultKey('colour of the answer: "green", "yellow", "red", or "grey" where there is none'),
     "inputs": ResultKey("the drive file, with both bearings"),
 }
 _SOURCE: Keys = {

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.discharge.verdict import Verdict
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from ehlectric.drive.keys import EVENT_COLUMNS, NAMES_OF_ENDS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.storage.dataset import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
+from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.display import Shown, headline
@@ -73,11 +75,16 @@ class DriveResult(Shown):
         """Warnings that tell where the result is unreliable, each once."""
         return tuple(drive_warnings(self.solution))
 
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Answer, as sentences and as a colour."""
+        summary = {"converged": self.converged, **drive_summary(self.solution)}
+        return drive_verdict(self.case, summary, self.warnings)
+
     def summary(self) -> dict[str, Any]:
         """Results nested as in summary.json, SI units; None in place of NaN."""
-        told = [(one.code, str(one)) for one in self.warnings]
         remedies = [(title, changes, drive_summary(found)) for title, changes, found in self.remedies]
-        return whole_summary(self.solution, remedies, told, self.seconds, self.version)
+        return whole_summary(self.solution, remedies, self.warnings, self.seconds, self.version)
 
     def events(self) -> list[dict[str, Any]]:
         """Table of discharges in the order of time, SI units; the first 200 000 of them.

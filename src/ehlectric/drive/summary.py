@@ -10,13 +10,13 @@ import numpy as np
 
 from ehlectric.bearing.accuracy import film_error
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.cases.row import number_text
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Record
-from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import event_rate, spread
+from ehlectric.drive.verdict import drive_verdict
+from ehlectric.errors import ResultWarning
 from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:
@@ -182,30 +182,10 @@ def _densities(solution: DriveSolution, b: int) -> dict[str, Any]:
     }
 
 
-def verdict(summary: dict[str, Any]) -> str:
-    """Answer in a sentence, from a summary of both bearings."""
-    return "; ".join(_told(name, summary[end]) for end, name in NAMES_OF_ENDS.items()) + "."
-
-
-def _told(name: str, end: dict[str, Any]) -> str:
-    """Clause about the discharges and the largest voltage of one bearing."""
-    largest = f"largest voltage {end['peak_voltage']:.3g} V"
-    if not end["events"]:
-        return (
-            f"{name}: no discharge, at most {number_text(end['events_per_second_high'])} a second; {largest}"
-        )
-    rate, low, high = (number_text(end[f"events_per_second{bound}"]) for bound in ("", "_low", "_high"))
-    energy = 1e9 * end["energy_mean"]
-    return (
-        f"{name}: {rate} discharges a second ({low} to {high} at 95 %) of "
-        f"{end['voltage_mean']:.3g} V and {energy:.3g} nJ on average; {largest}"
-    )
-
-
 def whole_summary(
     solution: DriveSolution,
     remedies: Sequence[tuple[str, dict[str, Any], dict[str, Any]]],
-    warnings: Sequence[tuple[str, str]],
+    warnings: Sequence[ResultWarning],
     seconds: float,
     version: str,
 ) -> dict[str, Any]:
@@ -217,22 +197,24 @@ def whole_summary(
         Solved drive.
     remedies : sequence of tuple
         Title, changes and tables of each remedy.
-    warnings : sequence of tuple
-        Code and text of each warning.
+    warnings : sequence of ResultWarning
+        Warnings.
     seconds : float
         Computing time [s].
     version : str
         Version of ehlectric.
     """
     tables = drive_summary(solution)
+    verdict = drive_verdict(solution.case, {"converged": solution.converged, **tables}, warnings)
     return {
         "schema": SCHEMA,
         "version": version,
         "title": solution.case.title,
         "converged": solution.converged,
-        "warnings": [text for _, text in warnings],
-        "warning_codes": [code for code, _ in warnings],
-        "verdict": verdict(tables),
+        "warnings": [str(warning) for warning in warnings],
+        "warning_codes": [warning.code for warning in warnings],
+        "verdict": verdict.text,
+        "level": verdict.level,
         "inputs": solution.case.to_dict(),
         **tables,
         "remedies": [

@@ -10,7 +10,6 @@ from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.row import amount, number_text
 from ehlectric.cases.units import rpm
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.verdict import drive_verdict
 from ehlectric.figures.names import with_units_kept
 from ehlectric.report.content import Block, Section
 from ehlectric.report.drawn import pictures_of
@@ -36,7 +35,7 @@ def drive_part(result: DriveResult) -> Part:
         What the report says of this result.
     """
     summary, case = result.summary(), result.case
-    verdict = drive_verdict(case, summary, result.warnings)
+    verdict = result.verdict
     return Part(
         kind=_kind(case),
         command="drive",
