@@ -343,9 +343,11 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "waveform-clipped": Cause("The range of the oscilloscope was probably exceeded."),
         "waveform-coarse": Cause("A measured waveform has few different voltages."),
         "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
+        "record-repeated": Cause("A measured waveform is repeated, with a jump from its end to its begin."),
+        "circuit-undamped": Cause("An oscillation of the circuit of a drive is hardly damped."),
         "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
         "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
-        "arc-burns-on": Cause("An arc of a drive burns for much of the time."),
+        "arc-burns-on": Cause("After breakdowns, films of a drive conduct for much of the time."),
         "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),
         # Files of other versions
         "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),

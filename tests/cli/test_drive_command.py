@@ -101,7 +101,11 @@ def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
     [
         ('file = "bearing.toml"', 'file = "no.toml"', "drive_end.file, no.toml: cannot be read"),
         ('modulation = "sinusoidal"', 'modulation = "sine"', "source.modulation: got 'sine'"),
-        ('current = "10 mA"', 'current = "10 A"', "breakdown.extinction_voltage: got 100 V"),
+        (
+            'current = "10 mA"',
+            'current = "10 A"',
+            "breakdown.extinction_current: got 10 A through",
+        ),
         ('.toml"', '.toml"\nbearing.composite_rq = "1 um"', "drive_end.bearing.contact_resistance: missing"),
     ],
 )

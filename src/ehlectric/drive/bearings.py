@@ -47,7 +47,8 @@ class BearingElement:
     touching : float
         Share of time in which asperities close the films.
     touch_resistance : float
-        Resistance of the closed films [Ohm]; infinite where they never close.
+        Resistance of the elements that touch both rings, mean number of them while any does [Ohm]; infinite
+        where the bearing has no resistance of a closed contact.
     hertz_area : float
         Sum of the dry contact areas that conduct [m^2].
     largest_area : float
@@ -55,8 +56,8 @@ class BearingElement:
     transit : float
         Time in which oil passes the most loaded contact with the inner ring [s].
     real_area : float
-        Real area of contact of an element that touches both rings [m^2]; 0 where it is not known, or nothing
-        touches.
+        Real area of contact of all elements that touch both rings, while any does [m^2]; 0 where it is not
+        known, or nothing touches.
     """
 
     capacitance: Array
@@ -128,7 +129,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
         step=2.0 * math.pi / (bearing.elements * first.equilibrium.cage_speed * count),
         path=shaft_path(solution),
         touching=touching,
-        touch_resistance=_IN_SERIES * (bearing.contact_resistance or math.inf),
+        touch_resistance=_IN_SERIES * (bearing.contact_resistance or math.inf) / max(duty.closed, 1.0),
         hertz_area=float(np.sum(areas)),
         largest_area=float(np.max(areas)),
         transit=2.0 * float(np.max(first.inner.values.semi_axis_x)) / solution.inner.speed,

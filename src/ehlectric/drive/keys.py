@@ -97,8 +97,8 @@ _END: Keys = {
         "share of time in which asperities close the films", "", "share of contact"
     ),
     "voltage_ratio": ResultKey(
-        "voltage across the films per volt of the source right after an edge, by the capacitive divider; "
-        "inductances are left out",
+        "voltage across the films per volt of the source right after an edge, by the capacitive divider, "
+        "with the elements at their first position; inductances are left out",
         "",
         "bearing voltage ratio",
     ),
@@ -110,9 +110,10 @@ _END: Keys = {
     "peak_voltage": ResultKey("largest voltage across the films", "V", "largest bearing voltage"),
     "rms_voltage": ResultKey("root mean square of the voltage across the films", "V", "rms bearing voltage"),
     "burning_time_share": ResultKey(
-        "part of the time for which an arc burns; also of arcs that have not gone out at the end",
+        "part of the time for which the films conduct by an arc, from breakdown until they insulate again "
+        "(`recovery_time` after the arc goes out); also of arcs that still burn at the end",
         "",
-        "share of time with a burning arc",
+        "share of time with conducting films",
     ),
     "time_above": ResultKey("share of time above each of the voltages, by the voltage in volts"),
     **{
@@ -142,8 +143,8 @@ _END: Keys = {
         "peak current through asperities",
     ),
     "real_area": ResultKey(
-        "real area of contact of an element whose asperities touch both rings, mean over the elements by how "
-        "often each does; null without `[bearing.summits]` of the bearing file, and where nothing touches",
+        "real area of contact of all elements whose asperities touch both rings, mean over the time in which "
+        "any does; null without `[bearing.summits]` of the bearing file, and where nothing touches",
         "m**2",
         "real area of contact",
     ),

@@ -21,6 +21,7 @@ from ehlectric.drive.keys import LIMITS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.source.modulation import steps_of
 from ehlectric.drive.source.oscilloscope import read_waveform
+from ehlectric.drive.source.quality import edge_warnings, repeat_warnings
 from ehlectric.drive.source.resampling import resample
 from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.source.waveform import Waveform
@@ -34,6 +35,10 @@ _PERIODS, _SETTLING = 50.0, 1.0
 
 # Part of a period by which a whole number of periods may be rounded.
 _WHOLE = 1e-6
+
+# Least time for which a measured source stays at its first voltage before measuring begins [s], and that time
+# in times of recovery. A discharge by the step from rest to that voltage is none of the record's.
+_REST, _RECOVERIES = 1e-3, 10.0
 
 # Periods of the carrier that a trace covers, and samples of a measured source.
 _TRACED, _SAMPLES = 2.0, 4000.0
@@ -182,11 +187,23 @@ def _measured(case: DriveCase) -> tuple[Waveform | None, tuple[ResultWarning, ..
             value_unit=source.value_unit,
             scale=source.scale,
         )
-        if source.resample is not None:
-            waveform = resample(waveform, source.resample)
     except InputError as error:
         raise error.under("source") from None
-    return waveform, told
+    if source.resample is not None:
+        waveform, told = _resampled(waveform, told, source.file, source.resample)
+    return waveform, (*told, *repeat_warnings(source.file, waveform, case.drive.duration))
+
+
+def _resampled(
+    waveform: Waveform, told: tuple[ResultWarning, ...], file: str, step: float
+) -> tuple[Waveform, tuple[ResultWarning, ...]]:
+    """Waveform at a coarser step, and the warnings about its samples: its own edges are judged."""
+    try:
+        coarse = resample(waveform, step)
+    except InputError as error:
+        raise error.retold("source.resample", error.text) from None
+    others = (one for one in told if one.code != "edges-unresolved")
+    return coarse, (*others, *edge_warnings(file, coarse))
 
 
 def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> None:
@@ -195,10 +212,14 @@ def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> 
     for end, one in zip(ENDS, elements, strict=True):
         least = float(np.min(one.breakdown))
         if lowest >= least:
+            takes = f"less than {least:.3g} V, at which the films of {end} break down"
+            if case.breakdown.extinction_voltage is not None:
+                raise InputError("breakdown.extinction_voltage", got=f"{lowest:.3g} V", takes=takes)
+            current, through = case.breakdown.extinction_current, case.breakdown.arc_resistance
             raise InputError(
-                "breakdown.extinction_voltage",
-                got=f"{lowest:.3g} V (extinction_current times arc_resistance, where it is given)",
-                takes=f"less than {least:.3g} V, at which the films of {end} break down",
+                "breakdown.extinction_current",
+                got=f"{current:.3g} A through arc_resistance of {through:.3g} ohm, which is {lowest:.3g} V",
+                takes=takes,
             )
 
 
@@ -206,7 +227,8 @@ def _times(case: DriveCase, waveform: Waveform | None) -> tuple[float, float, fl
     """Largest voltage of the source [V], time in which the circuit settles, and duration [s]."""
     source = case.running_source
     if waveform is not None:
-        return float(np.max(np.abs(waveform.values))), 0.0, case.drive.duration or waveform.duration
+        settling = max(_REST, _RECOVERIES * case.breakdown.recovery_time)
+        return float(np.max(np.abs(waveform.values))), settling, case.drive.duration or waveform.duration
     assert source.dc_link is not None and source.fundamental_frequency is not None
     # Whole periods of the carrier, so that a chunk of the source ends there.
     carrier = source.switching_frequency or 6.0 * source.fundamental_frequency
@@ -235,7 +257,7 @@ def _chunks(ready: PreparedDrive) -> Iterator[Segments]:
     """Pieces of the source."""
     source = ready.case.running_source
     if ready.waveform is not None:
-        return sampled(ready.waveform, ready.duration)
+        return sampled(ready.waveform, ready.duration, ready.settling)
     assert source.rise_time is not None
     start, intervals = steps_of(source, ready.settling + ready.duration, ready.settling)
     return edges(start, intervals, source.rise_time, ready.ringing)

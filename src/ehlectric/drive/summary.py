@@ -14,6 +14,7 @@ from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Record
 from ehlectric.drive.solution import DriveSolution
+from ehlectric.drive.source.modulation import edge_rate
 from ehlectric.drive.statistics import event_rate, spread
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.errors import ResultWarning
@@ -68,9 +69,7 @@ def _source(case: DriveCase, highest: float) -> dict[str, Any]:
 def edges_per_second(case: DriveCase) -> float | None:
     """Steps of the common-mode voltage in a second [1/s]; None for a measured source."""
     source = case.running_source
-    if source.measured or source.fundamental_frequency is None:
-        return None
-    return 6.0 * (source.switching_frequency or source.fundamental_frequency)
+    return None if source.measured else edge_rate(source)
 
 
 def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:

@@ -56,12 +56,12 @@ def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterabl
     Returns
     -------
     Verdict
-        Red where a bearing discharges at least twenty times in the simulated time, or an arc burns in it for
-        a fifth of that time. Green where no bearing discharges, none could more than once a minute with a
-        strength that is 20 % lower, by the law of its threshold at the largest voltage, and no warning says
-        that films may break down at lower voltages. Yellow between both, and where a strength that is 20 %
-        higher would end the discharges, as it may where thresholds hardly scatter. Grey where the numbers
-        must not be used. It has no margin.
+        Red where a bearing discharges at least twenty times in the simulated time, or its films conduct for
+        a fifth of that time after breakdowns. Green where no bearing discharges, none could more than once a
+        minute with a strength that is 20 % lower, by the law of its threshold at the largest voltage, and no
+        warning says that films may break down at lower voltages. Yellow between both, and where a strength
+        that is 20 % higher would end the discharges, as it may where thresholds hardly scatter. Grey where
+        the numbers must not be used. It has no margin.
     """
     warnings = tuple(warnings)
     codes = {warning.code for warning in warnings}
@@ -163,7 +163,7 @@ def _doubts_of_rates(ends: Iterable[Mapping[str, Any]], level: Level) -> Iterato
         yield "So few discharges give no certain rate."
     burning = max(end["burning_time_share"] for end in ends)
     if burning > MOSTLY:
-        yield f"An arc burns for {100.0 * burning:.3g} % of the time."
+        yield f"After breakdowns the films conduct for {100.0 * burning:.3g} % of the time."
 
 
 def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:

@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
+from ehlectric.drive.bearings import BearingElement
+from ehlectric.drive.circuit.motor import oscillations
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import FEW
 from ehlectric.errors import ResultWarning
 
-# Share of time from which an arc is said to burn on.
+# Share of time from which films are said to conduct on.
 MOSTLY = 0.2
+
+# Quality factor from which an oscillation of the circuit is said to be hardly damped: it rings for more than
+# a hundred periods.
+_UNDAMPED = 300.0
 
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -33,7 +40,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
         Warning with its code.
     """
     yield from solution.told
-    yield from machine_warnings(solution.case)
+    yield from machine_warnings(solution.case, solution.elements)
     yield from _of_threshold(solution)
     yield from _of_time(solution)
     yield from _of_arcs(solution)
@@ -44,15 +51,30 @@ def bearing_warnings(bearings: tuple[BearingResult, BearingResult]) -> Iterator[
     """Warnings of both bearings, each with its end; those of two equal bearings are told once."""
     first, second = bearings
     if second is first:
-        yield from first.warnings
+        yield from _of_bearing(first)
         return
     for end, result in zip(ENDS, bearings, strict=True):
-        for warning in result.warnings:
+        for warning in _of_bearing(result):
             yield ResultWarning(warning.code, f"{end}: {warning}")
 
 
-def machine_warnings(case: DriveCase) -> Iterator[ResultWarning]:
-    """Note of capacitances that follow from the geometry of the machine."""
+def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
+    """Warnings of a bearing, of which that of surfaces that touch tells what a drive makes of them."""
+    for warning in result.warnings:
+        if warning.code == "touching" and lubrication(result.solution) == "conducting":
+            yield ResultWarning(
+                "touching",
+                f"lambda is {lambda_text(result.solution)}: surfaces touch, and contacts close and open all "
+                "the time. Discharges as they open are not computed, and breakdown voltages are those of smooth "
+                "films, which are hardly there: rates are uncertain; a higher speed or viscosity separates "
+                "the surfaces",
+            )
+        else:
+            yield warning
+
+
+def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
+    """Note of capacitances that follow from the geometry of the machine, and warning of its oscillations."""
     circuit = case.circuit
     if circuit.estimated:
         told = ", ".join(
@@ -62,6 +84,24 @@ def machine_warnings(case: DriveCase) -> Iterator[ResultWarning]:
             "capacitances-estimated",
             f"{told}: from the geometry of the machine without end windings, which add to them; "
             "measure them, or see what half and double of them change",
+        )
+    yield from _of_oscillations(case, bearings)
+
+
+def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
+    """Warning of an inductance that rings with the capacitances for hundreds of periods."""
+    frequency, quality = next(iter(oscillations(case.circuit, bearings)), (0.0, 0.0))
+    if quality > _UNDAMPED:
+        paths = [name for name in ("common_mode", "ground") if getattr(case.circuit, f"{name}_inductance")]
+        bare = [name for name in paths if not getattr(case.circuit, f"{name}_resistance")] or paths
+        keys = " and ".join(f"circuit.{name}_resistance" for name in bare)
+        # Above this, only the oil damps it.
+        shown = "above 10 000" if quality > 1e4 else f"of {quality:.0f}"
+        yield ResultWarning(
+            "circuit-undamped",
+            f"the circuit rings at {amount(float(f'{frequency:.3g}'), 'Hz')} with a quality factor {shown}: "
+            f"what edges excite lasts for hundreds of periods and adds up; give {keys}, as chokes and cables "
+            "have it at that frequency",
         )
 
 
@@ -89,14 +129,15 @@ def _of_time(solution: DriveSolution) -> Iterator[ResultWarning]:
 
 
 def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
-    """Warning of arcs that burn for most of the time: they are hardly discharges."""
+    """Warning of films that conduct for most of the time: arcs that burn on, or films that recover slowly."""
     for end, burning in zip(ENDS, solution.record.burning, strict=True):
         share = float(burning) / solution.record.duration
         if share > MOSTLY:
             yield ResultWarning(
                 "arc-burns-on",
-                f"an arc burns in {end} for {100.0 * share:.3g} % of the time: the source feeds it above "
-                "breakdown.extinction_current or extinction_voltage, so that few discharges are counted",
+                f"after breakdowns the films of {end} conduct for {100.0 * share:.3g} % of the time, in "
+                "which no further discharges are counted: the source feeds their arcs, or "
+                "breakdown.recovery_time is long",
             )
 
 

@@ -22,7 +22,7 @@ FileKind = Literal["contact", "motion", "bearing", "drive", "sweep"]
 _OF_SWEEPS = ("case", "vary", "design")
 
 # Tables that only drive files have.
-_OF_DRIVES = ("source", "circuit", "breakdown", "drive_end")
+_OF_DRIVES = ("source", "circuit", "breakdown", "drive", "drive_end", "non_drive_end")
 
 # Name of a file of each kind, and the command that solves it.
 _NAMES: Mapping[FileKind, tuple[str, str]] = MappingProxyType(

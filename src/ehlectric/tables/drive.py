@@ -24,7 +24,7 @@ _ROWS = (
     ("bearing voltage ratio, waveform", "waveform_ratio", "%"),
     ("largest bearing voltage", "peak_voltage", "V"),
     ("rms bearing voltage", "rms_voltage", "V"),
-    ("share of time with a burning arc", "burning_time_share", "%"),
+    ("share of time with conducting films", "burning_time_share", "%"),
     ("discharges per second", "events_per_second", "1/s"),
     ("  lower bound, 95 %", "events_per_second_low", "1/s"),
     ("  upper bound, 95 %", "events_per_second_high", "1/s"),
@@ -74,7 +74,7 @@ def prepared_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
     """
     yield Row("common-mode voltage, peak", summary["source"]["peak"], "V")
     if summary["source"]["edges_per_second"] is not None:
-        yield Row("edges per second", summary["source"]["edges_per_second"], "1/s")
+        yield Row("edges per second", number_text(summary["source"]["edges_per_second"]), "1/s")
         yield Row("fundamental frequency", summary["source"]["fundamental_frequency"], "Hz")
     for key, value in summary["circuit"].items():
         yield Row(f"capacitance {DRIVE_KEYS[f'circuit.{key}'].name}", value, "pF")

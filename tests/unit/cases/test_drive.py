@@ -90,6 +90,10 @@ def test_changes_of_one_end_and_of_both(file):
         ({"source.pole_pairs": 0}, "source.pole_pairs"),
         ({"source.pole_pairs": 1000}, "source.switching_frequency"),
         ({"source.base_frequency": "0 Hz"}, "source.base_frequency"),
+        ({"circuit.common_mode_resistance": "1 ohm"}, "circuit.common_mode_resistance"),
+        ({"circuit.ground_resistance": "1 ohm"}, "circuit.ground_resistance"),
+        ({"breakdown.renewal_time": "1 ns"}, "breakdown.renewal_time"),
+        ({"remedies": [{"title": "Nothing", "changes": {}}]}, "remedies.changes"),
     ],
 )
 def test_wrong_values_are_refused_by_key(file, changes, key):
@@ -121,6 +125,26 @@ def test_frequency_and_index_follow_the_speed(file, speed, base, frequency, inde
         == case.replace({"source.fundamental_frequency": running.fundamental_frequency}).running_source
     )
     assert DriveCase.from_dict(case.to_dict()) == case
+
+
+def test_a_frequency_that_follows_the_speed_is_not_that_of_its_rounding(file):
+    """50 Hz are 50 Hz at 1500 rpm, so that periods of the carrier are whole ones."""
+    case = DriveCase.from_toml(file).replace({"source.pole_pairs": 2})
+    assert case.running_source.fundamental_frequency == 50.0
+
+
+def test_the_motor_of_a_bearing_file_is_left_out(file):
+    """Its common-mode voltage belongs to another estimate; the drive has its own."""
+    plain = DriveCase.from_toml(file)
+    case = plain.replace(
+        {
+            "bearings.motor.common_mode_voltage": "300 V",
+            "bearings.motor.winding_rotor_capacitance": "1 nF",
+            "bearings.motor.rotor_frame_capacitance": "1 nF",
+        }
+    )
+    assert case.drive_end.motor is not None
+    assert case.bearings == plain.bearings
 
 
 def test_without_a_speed_of_the_drive_the_source_follows_that_of_the_drive_end(file):

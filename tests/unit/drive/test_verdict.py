@@ -112,7 +112,7 @@ def test_few_discharges_and_thresholds_without_scatter(drive):
         assert verdict.level == level
     burning = quiet(drive, burning_time_share=0.9)
     assert judged(drive, burning).level == "red"
-    assert "An arc burns for 90 % of the time." in judged(drive, burning).text
+    assert "After breakdowns the films conduct for 90 % of the time." in judged(drive, burning).text
 
 
 def test_no_verdict_on_numbers_that_must_not_be_used(drive):

@@ -92,6 +92,8 @@ UNSTORED = {
     "waveform-clipped",
     "waveform-coarse",
     "edges-unresolved",
+    "record-repeated",
+    "circuit-undamped",
     "capacitances-estimated",
     "threshold-constant",
     "arc-burns-on",

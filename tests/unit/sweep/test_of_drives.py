@@ -1,6 +1,5 @@
 """Sweeps of drives: the numbers of single drives, their keys, their maps, and what is refused."""
 
-import json
 from concurrent.futures import ThreadPoolExecutor
 
 import matplotlib as mpl
@@ -9,7 +8,6 @@ import pytest
 from typer.testing import CliRunner
 
 from ehlectric import DriveCase, InputError, Sweep, read_sweep, run_sweep
-from ehlectric.app.compute.cases import sweep_of
 from ehlectric.commands.app import app
 from ehlectric.drive.result import solve_drive
 from ehlectric.figures.sweep.lines import value_lines
@@ -229,15 +227,6 @@ def test_a_report_draws_maps_and_lines_of_both_bearings_once_where_they_are_the_
     assert names[:2] == ["map_drive.events_per_second", "lines_drive.events_per_second"]
     assert {"map_drive_end.energy_mean", "map_drive_end.peak_voltage", "map_drive.power"} <= set(names)
     assert not any("non_drive_end" in name for name in names)
-
-
-def test_the_app_names_the_command():
-    table = {"case": small_drive().to_dict(), "vary": {SPEED: ["1500 rpm", "3000 rpm"]}}
-    table["case"]["drive"]["speed"] = "1500 rpm"
-    for end in ("drive_end", "non_drive_end"):
-        table["case"][end]["bearing"]["inner_speed"] = "1500 rpm"
-    with pytest.raises(InputError, match=r"^case: is a drive; .* ehlectric sweep varies drives$"):
-        sweep_of(json.loads(json.dumps(table)))
 
 
 def test_the_example_is_a_map_of_the_example_of_a_drive():

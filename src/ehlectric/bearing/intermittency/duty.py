@@ -102,19 +102,24 @@ class BearingDuty:
 
     @property
     def real_area(self) -> float | None:
-        """Real area of contact of an element that touches both rings [m^2]; None where nothing says it.
+        """Real area of contact of all elements that touch both rings, while any does [m^2].
 
-        The smaller one of its two contacts, mean over elements and positions by how often each touches both
-        rings. None without summits, and where nothing touches.
+        Each has the smaller one of its two contacts; mean over time and positions. None without summits, and
+        where nothing touches.
         """
-        weights = areas = 0.0
+        areas = 0.0
         for inner, outer in self.rings:
             if inner.real_area is None or outer.real_area is None:
                 return None
             weight = inner.contact_time_share * outer.contact_time_share
-            weights += float(np.sum(weight))
             areas += float(np.sum(weight * np.minimum(inner.real_area, outer.real_area)))
-        return areas / weights if weights else None
+        return areas / len(self.rings) / self.touching_time_share if areas else None
+
+    @property
+    def closed(self) -> float:
+        """Mean number of elements that touch both rings at a time, while any does; 0 where none ever does."""
+        number = np.mean([np.sum(a.contact_time_share * b.contact_time_share) for a, b in self.rings])
+        return float(number) / self.touching_time_share if self.touching_time_share else 0.0
 
 
 def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDuty:

@@ -27,7 +27,9 @@ class Breakdown(Table):
         | None
     ) = None
     renewal_time: (
-        Annotated[float, Quantity("s", above=0.0, most=1e6, reason="after which other oil is in the contact")]
+        Annotated[
+            float, Quantity("s", least=1e-6, most=1e6, reason="after which other oil is in the contact")
+        ]
         | None
     ) = None
     touch_time: (

@@ -19,7 +19,7 @@ from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.title import Title
 from ehlectric.cases.units import ROTATION, rpm
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, shown
 from ehlectric.runtime.display import Tabled, headline
 
 # Tables of both bearings, and the name under which a change applies to both of them.
@@ -52,6 +52,13 @@ class Remedy(Table):
 
     title: Title
     changes: dict[str, Any]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.changes:
+            takes = 'values by dotted key, such as { "drive.speed" = "1500 rpm" }'
+            raise InputError("changes", got=f"none in the remedy {shown(self.title)}", takes=takes)
+        return self
 
 
 class DriveCase(Tabled, Table):
@@ -104,7 +111,10 @@ class DriveCase(Tabled, Table):
 
     @property
     def bearings(self) -> tuple[BearingCase, BearingCase]:
-        """Bearings at the drive end and the non-drive end, at the speed and temperature of the drive."""
+        """Bearings at the drive end and the non-drive end, at the speed and temperature of the drive.
+
+        Without a table ``motor`` of their own, whose voltage is that of another estimate.
+        """
         changes: dict[str, Any] = {}
         if self.drive.speed is not None:
             changes["bearing.inner_speed"] = self.drive.speed
@@ -112,9 +122,7 @@ class DriveCase(Tabled, Table):
             changes["bearing.temperature"] = self.drive.temperature
         if self.drive.contacts is not None:
             changes["contacts"] = self.drive.contacts
-        first, second = (
-            one.replace(changes) if changes else one for one in (self.drive_end, self.non_drive_end)
-        )
+        first, second = (_in_drive(one, changes) for one in (self.drive_end, self.non_drive_end))
         return first, second
 
     @property
@@ -260,6 +268,15 @@ def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         # It then stays valid where the case is written to another folder.
         found["source"] = {**source, "file": str((folder / source["file"]).absolute())}
     return found
+
+
+def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
+    """Bearing with changes, without the motor of its own file and what belongs to it."""
+    if bearing.motor is not None:
+        table = {key: part for key, part in bearing.to_dict().items() if key not in ("motor", "ranges")}
+        table["discharge"].pop("pit", None)
+        bearing = BearingCase.from_dict(table)
+    return bearing.replace(changes) if changes else bearing
 
 
 def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:

@@ -48,6 +48,12 @@ class Circuit(Table):
             if self.machine is None and getattr(self, key) is None:
                 takes = "a value; or the table circuit.machine, the geometry of the machine"
                 raise InputError.missing(key, takes)
+        for path in ("common_mode", "ground"):
+            resistance, inductance = f"{path}_resistance", f"{path}_inductance"
+            if getattr(self, resistance) and getattr(self, inductance) is None:
+                raise InputError.worded(
+                    resistance, f"is given without {inductance}, with which it is in series; give both"
+                )
         return self
 
     @property

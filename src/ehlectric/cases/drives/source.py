@@ -95,7 +95,8 @@ class Source(Table):
         """
         frequency, index, base = self.fundamental_frequency, self.modulation_index, self.base_frequency
         if self.pole_pairs is not None:
-            frequency = self.pole_pairs * abs(speed) / (2.0 * math.pi)
+            # Without the rounding of a speed in rpm, so that 50 Hz are exactly that.
+            frequency = float(f"{self.pole_pairs * abs(speed) / (2.0 * math.pi):.12g}")
         if base is not None and frequency is not None and index is not None:
             index *= min(frequency / base, 1.0)
         own = {"fundamental_frequency": frequency, "modulation_index": index}

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import product
 
+import numpy as np
+
 from ehlectric.cases.drives.breakdown import Breakdown
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.cases.drives.circuit import Circuit
@@ -96,6 +98,37 @@ def bearing_elements(
             yield Element("conductor", nodes[1], FRAME, 1.0 / one.path.resistance)
     if one.path.parallel:
         yield Element("capacitor", ROTOR, FRAME, one.path.parallel)
+
+
+def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[tuple[float, float]]:
+    """Frequency [Hz] and quality factor of each oscillation of the circuit with films that insulate.
+
+    Parameters
+    ----------
+    circuit : Circuit
+        Table ``circuit`` of the drive.
+    bearings : sequence of BearingElement
+        Bearings at both ends; their elements are at their first position.
+
+    Returns
+    -------
+    list of tuple of float
+        The least damped oscillation first; none in a circuit without inductances. With a rate s of the
+        circuit the frequency is Im s/(2 pi), and the quality factor is |s|/(-2 Re s), infinite without
+        damping.
+    """
+    if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
+        return []
+    elements = list(motor_elements(circuit))
+    for one, nodes in zip(bearings, film_nodes(bearings), strict=True):
+        elements += bearing_elements(one, nodes, 0, 0.0)
+    rates = np.linalg.eigvals(state_space(elements, source_nodes(circuit)).rates)
+    found = [
+        (float(rate.imag) / (2.0 * math.pi), abs(rate) / max(-2.0 * float(rate.real), 1e-300))
+        for rate in rates
+        if rate.imag > 0.0
+    ]
+    return sorted(found, key=lambda one: -one[1])
 
 
 def states_of(

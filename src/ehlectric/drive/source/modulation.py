@@ -16,6 +16,9 @@ from ehlectric.errors import InputError
 # Periods of the carrier, or of the fundamental in six-step operation, that are computed at once.
 _PERIODS = 2000
 
+# Most periods of the carrier in which edges are counted.
+_COUNTED = 20_000.0
+
 
 @dataclass(frozen=True, eq=False)
 class Steps:
@@ -116,6 +119,32 @@ def steps_of(source: Source, duration: float, first: float = 0.0) -> tuple[float
         steps = _six_steps(source.dc_link, source.fundamental_frequency, duration, first)
         return source.dc_link / 6.0, steps
     return -0.5 * source.dc_link, _carrier_steps(source, duration, first)
+
+
+def edge_rate(source: Source) -> float:
+    """Steps of the common-mode voltage in a second [1/s].
+
+    Steps of two phases at the same time are one, and a phase that stays at an end of the link has none:
+    mostly there are six in a period of the carrier, and two at an index of zero. They are counted over the
+    periods of the carrier in one of the fundamental, at most 20 000.
+
+    Parameters
+    ----------
+    source : Source
+        Described source.
+
+    Examples
+    --------
+    >>> inverter = {"dc_link": "560 V", "modulation": "sinusoidal", "switching_frequency": "8 kHz"}
+    >>> inverter |= {"fundamental_frequency": "50 Hz", "rise_time": "100 ns"}
+    >>> [round(edge_rate(Source.from_written({**inverter, "modulation_index": m}))) for m in (0.0, 0.9)]
+    [16000, 48000]
+    """
+    carrier, fundamental = source.switching_frequency, source.fundamental_frequency
+    if carrier is None or fundamental is None:
+        return 6.0 * (fundamental or 0.0)
+    duration = min(float(np.ceil(carrier / fundamental)), _COUNTED) / carrier
+    return sum(interval.time.size for interval in steps_of(source, duration)[1]) / duration
 
 
 def _intervals(count: int, first: int) -> Iterator[tuple[int, int]]:

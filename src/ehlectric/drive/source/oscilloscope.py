@@ -20,8 +20,8 @@ from ehlectric.errors import InputError, ResultWarning
 # Smallest number of samples, and size of the beginning of a file in which its layout is found [bytes].
 LEAST_SAMPLES, _HEAD = 16, 65_536
 
-# Largest credible voltage [V].
-_MOST = 1e9
+# Largest credible voltage [V], and largest credible sampling interval where no unit of time is stated [s].
+_MOST, _SLOW = 1e9, 1e-3
 
 # Largest relative difference of a stated length or interval from that of the times.
 _SAME = 0.01
@@ -101,6 +101,12 @@ def read_waveform(
     if values.size < LEAST_SAMPLES:
         raise InputError(path, f"has {values.size} samples", takes=f"at least {LEAST_SAMPLES}")
     start, interval = _times(path, record, heads, choice, step)
+    if choice.times_assumed and interval > _SLOW:
+        raise InputError.worded(
+            "time_unit",
+            f"missing; {path} states no unit of its times, and in seconds its samples are {interval:g} s "
+            "apart, too far for an inverter; expected 's', 'ms' or 'us'",
+        )
     _scale(path, values, choice, scale)
     waveform = Waveform(start, interval, values)
     warnings = [*_of_reading(path, record, heads, choice), *quality_warnings(str(path), waveform)]

@@ -1,4 +1,4 @@
-"""Doubts about the samples of a measured waveform: clipped, coarse in voltage, or too few on an edge."""
+"""Doubts about a measured waveform: clipped, coarse in voltage, too few samples on an edge, or repeated."""
 
 from __future__ import annotations
 
@@ -27,6 +27,10 @@ _EDGE, _RESOLVED = 0.2, 3
 
 # Samples to each side of an edge within which it comes and goes, and most edges that are looked at.
 _AROUND, _MOST = 4, 100_000
+
+# Least jump from the end of a repeated record to its begin that is told, as a part of its range, and least
+# time beyond the record, as a part of it, for which it is told at all.
+_SEAM, _BEYOND = 0.05, 1e-3
 
 
 def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
@@ -59,13 +63,50 @@ def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]
             f"{source} has only {levels} different voltages in {np.ptp(values):.4g} V: measure with a "
             "smaller range, or with more bits",
         )
-    unresolved, edges = unresolved_edges(values)
+    yield from edge_warnings(source, waveform)
+
+
+def edge_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
+    """Warning "edges-unresolved" about steep edges with too few samples.
+
+    Parameters
+    ----------
+    source : str
+        Name of the file, for the text.
+    waveform : Waveform
+        Samples that are not constant.
+    """
+    unresolved, edges = unresolved_edges(waveform.values)
     if unresolved:
         yield ResultWarning(
             "edges-unresolved",
             f"{source}: of {edges} steep edges, {unresolved} have fewer than {_RESOLVED} samples between 10 "
             f"and 90 % of their height at a sampling interval of {waveform.step:.3g} s: rise times and peaks "
-            "are not resolved; measure with a higher sampling rate",
+            "are not resolved; measure or resample with a higher sampling rate",
+        )
+
+
+def repeat_warnings(source: str, waveform: Waveform, duration: float | None) -> Iterator[ResultWarning]:
+    """Warning "record-repeated" about a record that is repeated, and does not end where it begins.
+
+    Parameters
+    ----------
+    source : str
+        Name of the file, for the text.
+    waveform : Waveform
+        Samples that are not constant.
+    duration : float or None
+        Time that is simulated [s]; None for that of the record.
+    """
+    if duration is None or duration <= (1.0 + _BEYOND) * waveform.duration:
+        return
+    jump = float(waveform.values[0] - waveform.values[-1])
+    if abs(jump) > _SEAM * float(np.ptp(waveform.values)):
+        yield ResultWarning(
+            "record-repeated",
+            f"{source} lasts {waveform.duration:.4g} s and is repeated up to {duration:.4g} s; from its end "
+            f"to its begin the voltage jumps by {jump:.4g} V, an edge that the inverter does not have: cut "
+            "the record to whole periods, or leave drive.duration out",
         )
 
 

@@ -105,7 +105,7 @@ def _knots(interval: Steps, rise: float, ringing: Ringing | None) -> Array:
     return np.vstack([begin, end]) if count else np.empty((0, 4))
 
 
-def sampled(waveform: Waveform, duration: float) -> Iterator[Segments]:
+def sampled(waveform: Waveform, duration: float, rest: float = 0.0) -> Iterator[Segments]:
     """Pieces of a measured voltage, straight from sample to sample; the record is repeated where it is short.
 
     Parameters
@@ -113,13 +113,18 @@ def sampled(waveform: Waveform, duration: float) -> Iterator[Segments]:
     waveform : Waveform
         Evenly sampled voltage.
     duration : float
-        Time that the pieces cover [s].
+        Time that the pieces of samples cover [s].
+    rest : float
+        Time before them, for which the voltage is that of the first sample [s].
 
     Yields
     ------
     Segments
-        Pieces of one chunk of samples.
+        The rest, and pieces of one chunk of samples.
     """
+    if rest:
+        none = np.zeros(1)
+        yield Segments(np.array([rest]), waveform.values[:1].astype(float), none, none.astype(complex))
     left = round(duration / waveform.step)
     while left > 0:
         for first in range(0, min(left, waveform.values.size - 1), _SAMPLES):

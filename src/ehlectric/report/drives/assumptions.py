@@ -33,10 +33,10 @@ _DECIDES: Mapping[str, str] = MappingProxyType(
     {
         "circuit.winding_rotor_capacitance": "bearing voltage, by the capacitive divider",
         "circuit.rotor_frame_capacitance": "bearing voltage; charge and energy that an arc can take",
-        "circuit.winding_frame_capacitance": "voltage of the winding behind an inductance or a resistance; "
-        "nothing without one",
+        "circuit.winding_frame_capacitance": "voltage of the winding behind an inductance; nothing without "
+        "one",
         "circuit.frame_earth_capacitance": "voltage of the frame against earth",
-        "circuit.cable_capacitance": "edges behind an inductance or a resistance",
+        "circuit.cable_capacitance": "edges behind an inductance",
         "circuit.common_mode_inductance": "edges and ringing at the winding",
         "circuit.common_mode_resistance": "edges and ringing at the winding",
         "circuit.ground_inductance": "voltage of the frame against earth",

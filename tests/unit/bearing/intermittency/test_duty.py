@@ -221,9 +221,12 @@ def test_summits_that_touch_a_full_film_leave_no_green_verdict():
 
 
 def test_real_area_of_elements_that_touch():
-    """Hertz area times pi n beta Rq F_1(l), while at least one spot is there, of the smaller contact."""
+    """Hertz area times pi n beta Rq F_1(l), while at least one spot is there, of the smaller contact.
+
+    Mean over time of the sum over the elements that touch both rings, over the time in which any does.
+    """
     solution = solved(bearing__composite_rq="0.1 um", **SUMMITS)
-    duty, weights, areas = duty_of(solution), [], []
+    duty, areas, numbers, times = duty_of(solution), [], [], []
     for position, rings in zip(solution.positions, duty.rings, strict=True):
         pairs, loaded = [], position.inner.solved & position.outer.solved
         for ring, found in zip(position.rings, rings, strict=True):
@@ -234,11 +237,13 @@ def test_real_area_of_elements_that_touch():
             share = -np.expm1(-spots)
             pairs.append((share, hertz * math.pi * 2e9 * 50e-6 * 1e-7 * overlap / share))
         (inner, first), (outer, second) = pairs
-        weights.extend(inner * outer)
-        areas.extend(np.minimum(first, second))
-    expected = np.average(areas, weights=weights)
-    assert duty.real_area == pytest.approx(expected, rel=1e-6, abs=0.0)
-    assert 0.0 < duty.real_area < 0.1 * np.max(hertz)
+        numbers.append(np.sum(inner * outer))
+        areas.append(np.sum(inner * outer * np.minimum(first, second)))
+        times.append(1.0 - np.prod(1.0 - inner * outer))
+    assert duty.real_area == pytest.approx(np.sum(areas) / np.sum(times), rel=1e-6, abs=0.0)
+    assert duty.closed == pytest.approx(np.sum(numbers) / np.sum(times), rel=1e-6)
+    assert 1.0 < duty.closed < len(hertz)
+    assert 0.0 < duty.real_area < 0.1 * np.sum(hertz)
 
 
 def test_rare_spots_are_met_one_at_a_time():
@@ -254,4 +259,5 @@ def test_rare_spots_are_met_one_at_a_time():
     )
     assert 0.0 < few.rings[0][0].expected_spots[0] < 2e-3
     assert few.real_area == pytest.approx(fewer.real_area, rel=1e-3, abs=0.0)
+    assert few.closed == pytest.approx(1.0, rel=1e-3)
     assert duty_of(solved()).real_area is None

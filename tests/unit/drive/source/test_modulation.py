@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.cases.drives.source import Source
-from ehlectric.drive.source.modulation import sinusoidal, space_vector, steps_of
+from ehlectric.drive.source.modulation import edge_rate, sinusoidal, space_vector, steps_of
 from ehlectric.drive.source.segments import Ringing, edges
 
 LINK = 600.0
@@ -42,6 +42,27 @@ def test_levels_of_six_steps():
     time, voltage = levels(source("six-step"), 0.1)
     assert time == pytest.approx(np.arange(30) / 300.0)
     assert voltage == pytest.approx(LINK / 6.0 * np.where(np.arange(30) % 2 == 0, 1.0, -1.0))
+
+
+@pytest.mark.parametrize(
+    ("one", "rate"),
+    [
+        # All phases switch together.
+        (source(modulation_index=0.0), 2 * 2000.0),
+        (source(modulation_index=0.9), 6 * 2000.0),
+        (source("space-vector", modulation_index=0.9), 6 * 2000.0),
+        (source("six-step"), 6 * 50.0),
+    ],
+)
+def test_rate_of_edges(one, rate):
+    assert edge_rate(one) == pytest.approx(rate, rel=1e-12)
+
+
+def test_clamped_phases_have_no_edges():
+    """At an index of 1.5 a sine is above the carrier, and below it, for acos(2/3)/pi of the time each."""
+    switched = 1.0 - 2.0 * np.arccos(2.0 / 3.0) / np.pi
+    one = source(modulation_index=1.5, switching_frequency=200e3)
+    assert edge_rate(one) == pytest.approx(switched * 6 * 200e3, rel=1e-3)
 
 
 @given(index=st.floats(0.0, 1.0), angle=st.floats(-10.0, 10.0))

@@ -268,13 +268,22 @@ def test_a_single_voltage_among_other_columns_needs_no_name(tmp_path):
 
 def test_a_file_without_heads_has_its_times_first(tmp_path):
     read, warnings = read_waveform(
-        written(tmp_path, "\n".join(f"{k} {v:.4f}" for k, v in enumerate(wave(30))))
+        written(tmp_path, "\n".join(f"{1e-3 * k:.3f} {v:.4f}" for k, v in enumerate(wave(30))))
     )
-    assert (read.step, codes(warnings)) == (1.0, ["units-assumed"])
+    assert (read.step, codes(warnings)) == (1e-3, ["units-assumed"])
     assert "column 2 is in V and that column 1 is in s" in warnings[0].text
     path = written(tmp_path, "\n".join(GOOD))
     assert read_waveform(path, time_unit="us", value_unit="mV")[1] == ()
     assert read_waveform(path, time_unit="us", value_unit="mV")[0].step == pytest.approx(1e-6)
+
+
+def test_slow_times_without_a_unit_are_refused(tmp_path):
+    """Times in milliseconds are not taken as seconds; a unit that the user gives is believed."""
+    path = written(tmp_path, "\n".join(f"{0.1 * k:.1f},{value:.4f}" for k, value in enumerate(wave(30))))
+    assert "samples are 0.1 s apart, too far for an inverter" in refused(path)
+    assert refused(path).startswith("time_unit: missing;")
+    assert read_waveform(path, time_unit="ms")[0].step == pytest.approx(1e-4)
+    assert read_waveform(path, time_unit="s")[0].step == pytest.approx(0.1)
 
 
 def test_a_file_without_times_needs_the_interval(tmp_path):

@@ -10,6 +10,7 @@ from ehlectric.drive.source.quality import (
     few_levels,
     longest_run,
     quality_warnings,
+    repeat_warnings,
     unresolved_edges,
 )
 from ehlectric.drive.source.waveform import Waveform
@@ -131,6 +132,20 @@ def test_a_spike_of_one_sample_is_not_resolved():
     values[500] = 3.0
     found, _ = unresolved_edges(values)
     assert found == 1
+
+
+@pytest.mark.parametrize(
+    ("cut", "duration", "told"),
+    [(0, None, False), (0, 3e-5, False), (25, None, False), (25, 7.4e-6, False), (25, 3e-5, True)],
+)
+def test_a_seam_of_a_repeated_record_is_told(cut, duration, told):
+    """A record of whole periods ends where it begins; one that is cut jumps back by its swing."""
+    values = np.cos(2.0 * np.pi * np.arange(100 - cut + 1) / 100.0)
+    found = list(repeat_warnings("scope.csv", Waveform(0.0, 1e-7, values), duration))
+    assert [one.code for one in found] == (["record-repeated"] if told else [])
+    if told:
+        assert "lasts 7.5e-06 s and is repeated up to 3e-05 s" in str(found[0])
+        assert "jumps by 1 V" in str(found[0])
 
 
 def test_each_doubt_is_told_once_with_its_numbers():

@@ -64,7 +64,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         raise InputError(key, got="films that have to be solved", takes="a simulation with solved contacts")
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
-    found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case))
+    found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
     told = merged(told_of(found, places=DRIVE_PLACES))
     shown = prepared_numbers(summary, told)
     films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}

@@ -29,10 +29,10 @@ def prepared_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tupl
     """
     return _told(
         [
-            _at_edge(summary, "at-peak", "Bearing voltage at the peak", "voltage_at_peak", "V"),
+            _of_ends(summary, "at-peak", "Bearing voltage at the peak", "voltage_at_peak", "V"),
             _breakdown(summary),
             _of_ends(summary, "capacitance", "Bearing capacitance", "capacitance", "F"),
-            _at_edge(summary, "divider", "Capacitive divider", "voltage_ratio", "%"),
+            _of_ends(summary, "divider", "Capacitive divider", "voltage_ratio", "%"),
             _source(summary),
             *_machine(summary),
         ],
@@ -118,14 +118,6 @@ def _of_ends(
     own = f"{first}{', ' if notes[0] else ''}{notes[0]}"
     other = f"{second}: {texts[1]}{', ' if notes[1] else ''}{notes[1]}"
     return Number(name, label, texts[0], note=f"{own}; {other}", known=values[0] is not None)
-
-
-def _at_edge(summary: Mapping[str, Any], name: str, label: str, key: str, unit: str) -> Number:
-    """Number by the divider, which has none behind an inductance."""
-    if any(summary[end][key] for end in ENDS):
-        return _of_ends(summary, name, label, key, unit)
-    note = "an inductance holds the edge back; simulate the drive"
-    return Number(name, label, "none", note=note, known=False)
 
 
 def _bounds(end: Mapping[str, Any]) -> str:

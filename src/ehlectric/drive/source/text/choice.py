@@ -35,6 +35,11 @@ class Choice:
     time_factor: float
     assumed: tuple[str, ...]
 
+    @property
+    def times_assumed(self) -> bool:
+        """Whether seconds are assumed as the unit of the times."""
+        return f"{self.time} is in s" in self.assumed
+
 
 def choice_of(
     path: Path,
