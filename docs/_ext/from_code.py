@@ -461,7 +461,7 @@ _GROUPS = {
     "Files": ("save", "load", "read_sweep", "read_motion"),
     "Figures": ("figure", "figure_names", "save_figures"),
     "Reports": ("write_report",),
-    "Drives": ("solve_drive", "DriveCase", "DriveResult", "write_netlist"),
+    "Drives": ("solve_drive", "DriveCase", "DriveResult", "write_netlist", "write_drive_netlist"),
     "Errors": ("InputError", "ConvergenceError", "LostError"),
 }
 

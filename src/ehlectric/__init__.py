@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ehlectric.contact.results import PointResult, Result
     from ehlectric.discharge.verdict import Verdict
     from ehlectric.drive.result import DriveResult, solve_drive
+    from ehlectric.drive.spice.drive import write_drive_netlist
     from ehlectric.drive.spice.files import write_netlist
     from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning
     from ehlectric.figures.results import figure, figure_names, save_figures
@@ -62,6 +63,7 @@ __all__ = [  # noqa: RUF022
     "figure_names",
     "save_figures",
     "write_report",
+    "write_drive_netlist",
     "write_netlist",
     "Result",
     "PointResult",
@@ -102,6 +104,7 @@ _HOMES = {
     "figure_names": "figures.results",
     "save_figures": "figures.results",
     "write_report": "report.files",
+    "write_drive_netlist": "drive.spice.drive",
     "write_netlist": "drive.spice.files",
     "Result": "contact.results",
     "PointResult": "contact.results",

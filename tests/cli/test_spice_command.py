@@ -127,3 +127,17 @@ def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
     (tmp_path / "examples").symlink_to(EXAMPLES)
     exec(compile(block, "spice.md", "exec"), {})
     assert "+ speed=3000 ; rpm" in (tmp_path / "bearing.lib").read_text()
+
+
+def test_a_drive_is_written_with_its_inverter(ehlectric, tmp_path):
+    """Both bearings, the arc of the drive, and a bench with its source and its circuit."""
+    assert ehlectric("init", "drive.toml", "--kind", "drive", "--no-schema").returncode == 0
+    done = ehlectric("spice", "drive.toml", "--contacts", "formula", "-o", "b.lib", "--bench", "bench.cir")
+    assert done.returncode == 0, done.stderr
+    for text in ("bearing_6208 shaft housing", "V_ext 100 mV", "R_arc 10 Ω", "b.lib, bench.cir"):
+        assert text in " ".join(done.stdout.split())
+    assert run_netlist(tmp_path / "bench.cir")["winding_peak_to_peak"] == pytest.approx(560.0, rel=1e-6)
+    for words in (ARC[:2], ARC[2:], ("--speeds", "500 rpm")):
+        done = ehlectric("spice", "drive.toml", *words)
+        assert done.returncode == 2
+        assert done.stderr.startswith(f"error: {words[0]}: got it beside a drive file; expected ")

@@ -1,11 +1,12 @@
-"""The command that writes a bearing as a netlist for circuit simulators."""
+"""The command that writes a bearing, or those of a drive, as a netlist for circuit simulators."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
@@ -23,14 +24,18 @@ from ehlectric.errors import InputError
 
 if TYPE_CHECKING:
     from ehlectric.cases.row import Row
-    from ehlectric.drive.spice.subcircuit import Subcircuit
+    from ehlectric.drive.spice.subcircuit import Arc, Subcircuit
+    from ehlectric.runtime.progress import Progress
+
+# Writes the subcircuits, and the test bench if there is one; the files written.
+Writer: TypeAlias = "Callable[[Path, Path | None], list[Path]]"
 
 # Options by the names of their inputs.
 _OPTIONS = {"arc_resistance": "--arc-resistance", "extinction_voltage": "--extinction-voltage"}
 
 
 def spice(
-    bearing_file: Annotated[Path, file_argument("FILE", "Bearing file, in TOML.", ".toml")],
+    input_file: Annotated[Path, file_argument("FILE", "Bearing file or drive file, in TOML.", ".toml")],
     output: Annotated[
         Path,
         typer.Option(
@@ -45,7 +50,8 @@ def spice(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Write a test bench with the drive of the table [motor] into this file.",
+            help="Write a test bench with the drive into this file: that of the drive file, or of the table "
+            "[motor] of a bearing file.",
             show_default=False,
             autocompletion=files_ending(".cir"),
         ),
@@ -91,44 +97,79 @@ def spice(
 
     It has the capacitance of the films and the leak through their oil, the coating of a ring and the parallel
     capacitance, and with both of its options a switch that closes where the films break down. Every parameter
-    has a line with its unit. The table [motor] is only needed for --bench.
+    has a line with its unit. The table [motor] is only needed for --bench. Of a drive file both bearings are
+    written, with the arc of its table [breakdown]; the bench has its inverter and its circuit.
 
     Exit status 0: written. 2: the input is wrong, or there is another file of this name. 3: a contact is not
     converged, the files are still written; or memory ran out.
     """
     with user_errors(), _named_as_options():
-        from ehlectric.drive.spice.bench import drive_of
-        from ehlectric.drive.spice.files import arc_of, check_targets, write_subcircuit
-        from ehlectric.drive.spice.over_speed import solve_at_speeds, speeds_of
-        from ehlectric.drive.spice.subcircuit import check_strength, subcircuit_of
-        from ehlectric.runs import by_kind
+        from ehlectric.drive.spice.files import arc_of, check_targets
         from ehlectric.runs.kinds import expect
         from ehlectric.runtime.files import clear_left_behind
 
-        expect(bearing_file, "bearing")
-        case = by_kind.read_bearing(bearing_file)
-        case = case.replace({"contacts": contacts}) if contacts else case
+        kind = expect(input_file, "bearing", "drive")
+        given = {"--arc-resistance": arc_resistance, "--extinction-voltage": extinction_voltage}
+        if kind == "drive":
+            _refuse_with_drive({**given, "--speeds": speeds})
         arc = arc_of(arc_resistance, extinction_voltage)
         check_targets(output, bench)
-        if arc is not None:
-            check_strength(case)
-        if bench is not None:
-            drive_of(case)
-        others = () if speeds is None else speeds_of(case, speeds)
         with progress_bar(shown=not quiet) as progress:
-            results = solve_at_speeds(case, others, progress)
-        subcircuit = subcircuit_of(results, arc)
+            if kind == "drive":
+                found, write = _drive(input_file, contacts, progress)
+            else:
+                found, write = _bearing(input_file, contacts, arc, speeds, progress, motor=bench is not None)
         clear_left_behind(output.parent)
-        files = write_subcircuit(subcircuit, output, bench)
+        files = write(output, bench)
     if not quiet:
-        print_rows(_rows(subcircuit), subcircuit.case.title)
+        for one in found:
+            print_rows(_rows(one), one.case.title)
         echo_files(files)
-        warn(subcircuit.warnings())
-        for note in subcircuit.notes:
+        warn(dict.fromkeys(warning for one in found for warning in one.warnings()))
+        for note in dict.fromkeys(note for one in found for note in one.notes):
             say(f"note: {note}", err=True)
-    if not all(result.converged for result in results):
+    if not all(result.converged for one in found for result in one.results):
         say("error: not converged: a contact of the bearing", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _refuse_with_drive(options: Mapping[str, str | None]) -> None:
+    """Refuse options whose values a drive file has."""
+    for name, value in options.items():
+        if value is not None:
+            raise InputError(name, got="it beside a drive file", takes="the value of the drive file, or none")
+
+
+def _bearing(
+    path: Path, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
+) -> tuple[tuple[Subcircuit, ...], Writer]:
+    """Subcircuit of a bearing file, and what writes it."""
+    from ehlectric.drive.spice.bench import drive_of
+    from ehlectric.drive.spice.files import write_subcircuit
+    from ehlectric.drive.spice.over_speed import solve_at_speeds, speeds_of
+    from ehlectric.drive.spice.subcircuit import check_strength, subcircuit_of
+    from ehlectric.runs import by_kind
+
+    case = by_kind.read_bearing(path)
+    case = case.replace({"contacts": contacts}) if contacts else case
+    if arc is not None:
+        check_strength(case)
+    if motor:
+        drive_of(case)
+    others = () if speeds is None else speeds_of(case, speeds)
+    own = subcircuit_of(solve_at_speeds(case, others, progress), arc)
+    return (own,), partial(write_subcircuit, own)
+
+
+def _drive(path: Path, contacts: str, progress: Progress) -> tuple[tuple[Subcircuit, ...], Writer]:
+    """Subcircuits of the bearings of a drive file, and what writes them."""
+    from ehlectric.drive.spice.drive import drive_netlist, write_both
+    from ehlectric.runs import by_kind
+
+    case = by_kind.read_drive(path)
+    case = case.replace({"drive.contacts": contacts}) if contacts else case
+    netlist = drive_netlist(case, progress)
+    return netlist.subcircuits, partial(write_both, netlist)
 
 
 @contextmanager

@@ -19,10 +19,8 @@ from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_
 from ehlectric.drive.discharges.states import Films, Segments
 from ehlectric.drive.keys import LIMITS
 from ehlectric.drive.solution import DriveSolution
+from ehlectric.drive.source.measured import measured_source
 from ehlectric.drive.source.modulation import steps_of
-from ehlectric.drive.source.oscilloscope import read_waveform
-from ehlectric.drive.source.quality import edge_warnings, repeat_warnings
-from ehlectric.drive.source.resampling import resample
 from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.source.waveform import Waveform
 from ehlectric.drive.warnings import bearing_warnings
@@ -121,7 +119,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     films, ringing = films_of(elements, case.breakdown), ringing_of(case.running_source)
     systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
     modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
-    waveform, told = _measured(case)
+    waveform, told = measured_source(case.source, case.drive.duration)
     return PreparedDrive(
         case, results, elements, films, modes, ringing, waveform, *_times(case, waveform), told
     )
@@ -170,40 +168,6 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
         told=(*ready.told, *bearing_warnings(ready.bearings)),
         bearings=ready.bearings,
     )
-
-
-def _measured(case: DriveCase) -> tuple[Waveform | None, tuple[ResultWarning, ...]]:
-    """Measured waveform and the warnings about its file; None for a described source."""
-    source = case.source
-    if source.file is None:
-        return None, ()
-    try:
-        waveform, told = read_waveform(
-            source.file,
-            column=source.column,
-            time_column=source.time_column,
-            step=source.step,
-            time_unit=source.time_unit,
-            value_unit=source.value_unit,
-            scale=source.scale,
-        )
-    except InputError as error:
-        raise error.under("source") from None
-    if source.resample is not None:
-        waveform, told = _resampled(waveform, told, source.file, source.resample)
-    return waveform, (*told, *repeat_warnings(source.file, waveform, case.drive.duration))
-
-
-def _resampled(
-    waveform: Waveform, told: tuple[ResultWarning, ...], file: str, step: float
-) -> tuple[Waveform, tuple[ResultWarning, ...]]:
-    """Waveform at a coarser step, and the warnings about its samples: its own edges are judged."""
-    try:
-        coarse = resample(waveform, step)
-    except InputError as error:
-        raise error.retold("source.resample", error.text) from None
-    others = (one for one in told if one.code != "edges-unresolved")
-    return coarse, (*others, *edge_warnings(file, coarse))
 
 
 def _check_extinction(case: DriveCase, elements: tuple[BearingElement, ...]) -> None:

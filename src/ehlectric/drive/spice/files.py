@@ -126,7 +126,7 @@ def check_targets(path: Path, bench: Path | None) -> None:
     if bench is not None:
         if path.resolve() == bench.resolve():
             raise InputError(bench, "is the file of the subcircuit", takes="another file for the test bench")
-        _relative(path, bench)
+        relative(path, bench)
     for target in filter(None, (path, bench)):
         if not target.parent.is_dir():
             raise InputError(target, "cannot be written to, its folder does not exist")
@@ -155,13 +155,13 @@ def write_subcircuit(subcircuit: Subcircuit, path: Path, bench: Path | None) -> 
     """
     contents = {path: file_text(subcircuit.lines())}
     if bench is not None:
-        contents[bench] = file_text(bench_lines(subcircuit, _relative(path, bench)))
+        contents[bench] = file_text(bench_lines(subcircuit, relative(path, bench)))
     for target, content in contents.items():
         write(target, content)
     return list(contents)
 
 
-def _relative(path: Path, bench: Path) -> str:
+def relative(path: Path, bench: Path) -> str:
     """Path of the subcircuit as the test bench names it: relative to its folder where there is a way.
 
     Raises

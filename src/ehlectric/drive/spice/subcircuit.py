@@ -62,12 +62,15 @@ class Subcircuit:
         Arc across the films; None for a subcircuit without a switch.
     notes : tuple of str
         What the circuit leaves out, or stands for.
+    suffix : str
+        End of the name, of one of several bearings in a file.
     """
 
     results: tuple[BearingResult, ...]
     found: tuple[Equivalent, ...]
     arc: Arc | None
     notes: tuple[str, ...]
+    suffix: str = ""
 
     @property
     def case(self) -> BearingCase:
@@ -83,7 +86,7 @@ class Subcircuit:
     def name(self) -> str:
         """Name of the subcircuit."""
         base = name_of(self.case.bearing.base or "")
-        return f"bearing_{base}" if base else "bearing"
+        return "_".join(filter(None, ["bearing", base, self.suffix]))
 
     @property
     def default(self) -> Equivalent:
