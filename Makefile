@@ -113,7 +113,7 @@ docs: $(VENV)/.docs
 schemas: $(VENV)/.run
 	$(BIN)/python -c "from ehlectric.runs.schema import write_schemas; write_schemas()"
 
-figures: $(VENV)/.run
+figures: $(VENV)/.test
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet
 	cp $(RESULTS)/film.png $(RESULTS)/field_strength.png docs/figures
 	$(BIN)/ehlectric run examples/ball_contact.toml -o $(POINT_RESULTS) --quiet
@@ -131,6 +131,8 @@ figures: $(VENV)/.run
 	$(BIN)/ehlectric sweep examples/drive_map.toml -o results/drive_map --quiet
 	$(BIN)/ehlectric map results/drive_map --x drive.speed --y drive.temperature --quiet
 	cp results/drive_map/map_drive.events_per_second.png docs/figures/drive_map.png
+	$(BIN)/ehlectric export $(POINT_RESULTS) -o results/ball.vtkhdf --quiet
+	$(BIN)/python docs/_ext/vtk_picture.py results/ball.vtkhdf docs/figures/paraview.png
 
 screenshots: $(VENV)/.test
 	EHLECTRIC_SCREENSHOTS=$(CURDIR)/docs/figures/app EHLECTRIC_BROWSER=required \

@@ -460,7 +460,7 @@ _GROUPS = {
     "Warnings and verdicts": ("ResultWarning", "Verdict"),
     "Files": ("save", "load", "read_sweep", "read_motion"),
     "Figures": ("figure", "figure_names", "save_figures"),
-    "Reports": ("write_report",),
+    "Reports": ("write_report", "export"),
     "Drives": ("solve_drive", "DriveCase", "DriveResult", "write_netlist", "write_drive_netlist"),
     "Errors": ("InputError", "ConvergenceError", "LostError"),
 }

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ehlectric.motion.run import run_motion
     from ehlectric.motion.stored_run import read_motion
     from ehlectric.report.files import write_report
+    from ehlectric.runs.exports.files import export
     from ehlectric.runs.film_factors import film_factors
     from ehlectric.runs.results import load, save
     from ehlectric.runs.solve import solve, solve_motion
@@ -63,6 +64,7 @@ __all__ = [  # noqa: RUF022
     "figure_names",
     "save_figures",
     "write_report",
+    "export",
     "write_drive_netlist",
     "write_netlist",
     "Result",
@@ -104,6 +106,7 @@ _HOMES = {
     "figure_names": "figures.results",
     "save_figures": "figures.results",
     "write_report": "report.files",
+    "export": "runs.exports.files",
     "write_drive_netlist": "drive.spice.drive",
     "write_netlist": "drive.spice.files",
     "Result": "contact.results",

@@ -92,7 +92,8 @@ def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path)
 
 ORDER = [
     "init", "examples", "check", "schema", "run", "bearing", "drive", "spice", "bearings", "film", "oils",
-    "oil", "sweep", "map", "sensitivity", "plot", "report", "animate", "surface", "app", "reproduce",
+    "oil", "sweep", "map", "sensitivity", "plot", "report", "export", "animate", "surface", "app",
+    "reproduce",
 ]  # fmt: skip
 
 

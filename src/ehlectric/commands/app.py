@@ -13,6 +13,7 @@ from ehlectric.commands.bearing import bearing, bearings
 from ehlectric.commands.check import check
 from ehlectric.commands.contact import plot, run
 from ehlectric.commands.drive import drive
+from ehlectric.commands.export import export
 from ehlectric.commands.film import film
 from ehlectric.commands.library.oils import oil, oils
 from ehlectric.commands.maps import draw_maps, sensitivity
@@ -67,11 +68,12 @@ _COMMANDS = (
     (
         "spice",
         spice,
-        "Write a bearing as a netlist.",
+        "Write a bearing, or a drive, as a netlist.",
         (
             "spice bearing.toml -o bearing.lib",
             'spice bearing.toml --arc-resistance "1 ohm" --extinction-voltage "1 V" --bench bench.cir',
             'spice bearing.toml --contacts atlas --speeds "500 rpm : 3000 rpm : 7"',
+            "spice drive.toml -o bearings.lib --bench bench.cir",
         ),
     ),
     ("bearings", bearings, "List the bearings of the library.", ("bearings", "bearings --json")),
@@ -111,6 +113,12 @@ _COMMANDS = (
         report,
         "Write the report of a result.",
         ("report results", "report bearing -o bearing_6208.pdf"),
+    ),
+    (
+        "export",
+        export,
+        "Write a result for MATLAB, spreadsheets or ParaView.",
+        ("export results -o film.mat", "export bearing -o bearing.xlsx", "export results -o film.vtkhdf"),
     ),
     ("animate", animate, "Animate a moving-roughness run.", ("animate results -o moving.gif",)),
     (

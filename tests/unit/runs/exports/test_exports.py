@@ -1,0 +1,226 @@
+"""Results in files of other programs, read back by the libraries of those programs."""
+
+import shutil
+import subprocess
+
+import numpy as np
+import openpyxl
+import pytest
+from scipy.io import loadmat
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+from ehlectric import (
+    BearingCase,
+    Case,
+    InputError,
+    Sweep,
+    export,
+    run_sweep,
+    save,
+    solve,
+    solve_bearing,
+    solve_drive,
+)
+from ehlectric.runs.exports.matlab import matlab_names
+from ehlectric.runs.exports.paraview import cells
+from tests.helpers.drives import small_drive
+from tests.helpers.places import EXAMPLES
+from tests.helpers.sweep_models import SPEED
+from tests.helpers.sweep_models import case as contact
+
+LINE = {"grid.nodes": 401}
+POINT = {"grid.nodes": 65}
+
+
+@pytest.fixture(scope="module")
+def line():
+    return _solved("line_contact", LINE)
+
+
+@pytest.fixture(scope="module")
+def point():
+    return _solved("ball_contact", POINT)
+
+
+@pytest.fixture(scope="module")
+def bearing():
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": "formula"})
+    return solve_bearing(case.replace({"title": "=1+1"}), workers=1)
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return solve_drive(small_drive(**{"drive.duration": "1 ms"}), workers=1)
+
+
+def _solved(name, changes):
+    return solve(Case.from_toml(EXAMPLES / f"{name}.toml").replace(changes))
+
+
+def blocks(path):
+    """Grids of a VTKHDF file by their names."""
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    found = reader.GetOutputDataObject(0)
+    return {
+        found.GetMetaData(k).Get(found.NAME()): found.GetPartition(k, 0)
+        for k in range(found.GetNumberOfPartitionedDataSets())
+    }
+
+
+def values_of(grid, name):
+    return vtk_to_numpy(grid.GetPointData().GetArray(name))
+
+
+def points_of(grid):
+    return vtk_to_numpy(grid.GetPoints().GetData())
+
+
+def sizes_of(grid, name):
+    """Sizes of all cells, negative for one whose corners are in the wrong order."""
+    size = vtkCellSizeFilter()
+    size.SetInputData(grid)
+    size.Update()
+    return vtk_to_numpy(size.GetOutput().GetCellData().GetArray(name))
+
+
+def test_paraview_reads_film_and_field_of_a_point_contact(point, tmp_path):
+    """All points and values; the cells of the field fill the gap, whose volume is that of its mean height."""
+    grids = blocks(export(point, tmp_path / "ball.vtkhdf"))
+    dataset = point.to_xarray()
+    film, field = grids["film"], grids["field"]
+    x, y = np.meshgrid(dataset["x"], dataset["y"], indexing="ij")
+    expected = np.column_stack([x.ravel(), y.ravel(), dataset["thickness"].values.ravel()])
+    assert np.array_equal(points_of(film), expected)
+    assert np.array_equal(values_of(film, "pressure"), dataset["pressure"].values.ravel())
+    assert np.array_equal(values_of(field, "strength"), dataset["strength"].values.ravel())
+    assert np.array_equal(points_of(field)[:, 2], dataset["z"].values.ravel())
+    volumes = sizes_of(field, "Volume")
+    assert np.all(volumes > 0.0)
+    z = dataset["z"].values
+    heights = z[..., -1] - z[..., 0]
+    over = np.trapezoid(np.trapezoid(heights, dataset["y_field"], axis=1), dataset["x_field"])
+    assert np.sum(volumes) == pytest.approx(over, rel=1e-6)
+
+
+def test_paraview_reads_film_and_field_of_a_line_contact(line, tmp_path):
+    grids = blocks(export(line, tmp_path / "line.vtkhdf"))
+    dataset = line.to_xarray()
+    points = points_of(grids["film"])
+    assert np.array_equal(points[:, 0], dataset["x"])
+    assert np.array_equal(points[:, 1], dataset["thickness"])
+    assert np.array_equal(values_of(grids["field"], "potential"), dataset["potential"].values.ravel())
+    heights = dataset["y"].values[:, -1] - dataset["y"].values[:, 0]
+    area = np.sum(sizes_of(grids["field"], "Area"))
+    assert area == pytest.approx(np.trapezoid(heights, dataset["x_field"]), rel=1e-6)
+
+
+def test_cells_of_a_cube_are_those_of_vtk():
+    """Corners of a hexahedron: around the bottom, then around the top."""
+    (cube,) = cells((2, 2, 2))
+    corners = np.array([[k // 4, k // 2 % 2, k % 2] for k in cube])
+    assert corners.tolist() == [
+        [0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1],
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["line", "point", "bearing", "drive"])
+def test_a_mat_file_has_all_arrays_and_the_summary(name, request, tmp_path):
+    result = request.getfixturevalue(name)
+    found = loadmat(export(result, tmp_path / "result.mat"), squeeze_me=True, simplify_cells=True)
+    dataset = result.to_xarray()
+    variables = {key: variable for variable, key in found["keys"].items()}
+    assert set(variables) == set(map(str, dataset.variables))
+    for key, values in dataset.variables.items():
+        if values.dtype.kind in "biuf":
+            np.testing.assert_array_equal(found[variables[key]], np.squeeze(values.values))
+        # An empty text is an empty array.
+        unit = found["units"][variables[key]]
+        assert (unit if isinstance(unit, str) else "") == values.attrs.get("units", "")
+    assert found["summary"]["version"] == result.summary()["version"]
+
+
+def test_octave_reads_a_mat_file(line, tmp_path):
+    """Sizes, a value of the summary and a unit, as a user types them."""
+    octave = shutil.which("octave-cli")
+    if octave is None:
+        pytest.skip("needs Octave")
+    export(line, tmp_path / "line.mat")
+    typed = (
+        "load line.mat; printf('%d %d\\n', size(strength)); printf('%.17g\\n', min(thickness)); "
+        "printf('%.17g\\n', summary.film.minimum_thickness); printf('%s\\n', units.pressure)"
+    )
+    done = subprocess.run(
+        [octave, "--norc", "--eval", typed], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    size, least, told, unit = done.stdout.split("\n")[:4]
+    dataset = line.to_xarray()
+    assert size == "{} {}".format(*dataset["strength"].shape)
+    assert float(least) == float(dataset["thickness"].min())
+    assert float(told) == line.summary()["film"]["minimum_thickness"]
+    assert unit == "Pa"
+
+
+def test_names_of_matlab_are_valid_and_different():
+    long = "a" * 70
+    names = matlab_names([long, long + "b", "1.x", "_y", "while", "µ", "units"], taken=["units"])
+    assert all(len(name) <= 63 for name in names.values())
+    assert len(set(names.values())) == 7
+    assert names["1.x"] == "x1_x"
+    assert names["while"] == "xWhile"
+    assert names["units"] == "units_2"
+
+
+def test_a_workbook_has_summary_inputs_and_table(bearing, tmp_path):
+    """Numbers are numbers with their units, and a title that begins like a formula is a text."""
+    book = openpyxl.load_workbook(export(bearing, tmp_path / "bearing.xlsx"))
+    assert book.sheetnames == ["summary", "inputs", "table"]
+    rows = {row[0].value: row for row in book["summary"].iter_rows(min_row=2)}
+    name, value, unit = rows["bearing.capacitance"][1:]
+    # Workbooks have numbers with 16 digits.
+    assert value.value == pytest.approx(bearing.summary()["bearing"]["capacitance"], rel=1e-15, abs=0.0)
+    assert unit.value == "F"
+    assert "capacitance" in name.value
+    title = rows["title"][2]
+    assert (title.value, title.data_type) == ("=1+1", "s")
+    inputs = {row[0].value: row[2:] for row in book["inputs"].iter_rows(min_row=2)}
+    load, unit = inputs["bearing.radial_load"]
+    assert (load.value, unit.value) == (1800.0, "N")
+    frame = bearing.to_dataframe()
+    table = list(book["table"].iter_rows(values_only=True))
+    assert len(table) == len(frame) + 1
+    assert [head.partition(" [")[0] for head in table[0]] == list(map(str, frame.columns))
+    column = list(frame.columns).index("load")
+    assert [row[column] for row in table[1:]] == pytest.approx(list(frame["load"]), rel=1e-15)
+
+
+def test_a_sweep_and_a_folder_are_exported(tmp_path):
+    sweep = Sweep.from_dict({"case": contact().replace({"grid.nodes": 401}), "vary": {SPEED: [1.0, 2.0]}})
+    assert run_sweep(sweep, tmp_path / "sweep", workers=1).summary()["solved"] == 2
+    book = openpyxl.load_workbook(export(tmp_path / "sweep", tmp_path / "sweep.xlsx"))
+    heads, *rows = book["table"].iter_rows(values_only=True)
+    assert [row[heads.index("contact.entrainment_speed [m/s]")] for row in rows] == [1.0, 2.0]
+    found = loadmat(export(str(tmp_path / "sweep"), tmp_path / "sweep.mat"), squeeze_me=True)
+    assert found["contact_entrainment_speed"].tolist() == [1.0, 2.0]
+
+
+def test_a_stored_result_is_exported_as_the_one_that_was_saved(line, tmp_path):
+    save(line, tmp_path / "out")
+    first = export(tmp_path / "out", tmp_path / "a.vtkhdf")
+    second = export(line, tmp_path / "b.vtkhdf")
+    assert np.array_equal(points_of(blocks(first)["field"]), points_of(blocks(second)["field"]))
+
+
+def test_what_cannot_be_exported_is_refused(bearing, tmp_path):
+    with pytest.raises(InputError, match=r"got '\.csv'; expected a name that ends in \.mat, "):
+        export(bearing, tmp_path / "a.csv")
+    with pytest.raises(InputError, match="holds film and field of a contact"):
+        export(bearing, tmp_path / "a.vtkhdf")
+    with pytest.raises(InputError, match="its folder does not exist"):
+        export(bearing, tmp_path / "none" / "a.mat")
+    with pytest.raises(InputError, match="nothing"):
+        export(tmp_path / "nothing", tmp_path / "a.mat")
+    assert not list(tmp_path.iterdir())
