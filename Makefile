@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-public lock clean
+.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-public lock packages clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -27,6 +27,7 @@ help:
 	@echo "make figures draw the figures of the README again"
 	@echo "make screenshots  take the pictures of the web app for the documentation again"
 	@echo "make bench   run the benchmarks and print their tables"
+	@echo "make packages  build wheel and source distribution, and try them in a new environment"
 	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
 
 $(BIN)/python:
@@ -146,6 +147,13 @@ bench-public: $(VENV)/.dev
 
 lock:
 	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --extra app --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
+	uv pip compile pyproject.toml --extra app --extra excel --extra parquet --extra cluster --universal --python-version 3.11 --no-header --quiet --constraint requirements.lock --generate-hashes --output-file requirements.hashes
+
+# Both packages from the source, and what users do with the wheel in an empty folder and a new environment.
+packages: $(VENV)/.dev
+	rm -rf dist
+	$(BIN)/python -m hatchling build --directory dist
+	packaging/try.sh dist $(PYTHON)
 
 clean:
 	rm -rf $(VENV) results docs/_build docs/_generated docs/auto_gallery docs/api/generated .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage

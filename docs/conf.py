@@ -19,6 +19,7 @@ extensions = [
     "architecture",
     "example_figures",
     "from_code",
+    "licences",
     "measured_figures",
     "myst_parser",
     "numpydoc",

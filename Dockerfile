@@ -1,0 +1,21 @@
+# The web app of ehlectric in a container, with the locked versions of its dependencies:
+#   docker build -t ehlectric .
+#   docker run --rm -p 8080:8080 ehlectric
+# It prints an address with a token; open it with the name of your machine.
+FROM python:3.13-slim AS wheel
+WORKDIR /source
+COPY . .
+RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
+
+FROM python:3.13-slim
+COPY --from=wheel /wheels /wheels
+COPY requirements.lock /wheels/
+RUN pip install --no-cache-dir --constraint /wheels/requirements.lock "$(ls /wheels/*.whl)[app,excel]" \
+ && rm -r /wheels \
+ && useradd --create-home ehlectric
+USER ehlectric
+WORKDIR /home/ehlectric
+EXPOSE 8080
+# Ctrl-C and docker stop end the app with all that it computes.
+STOPSIGNAL SIGINT
+ENTRYPOINT ["ehlectric", "app", "--host", "0.0.0.0", "--port", "8080", "--no-browser"]
