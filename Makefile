@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-public lock packages clean
+.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-public lock packages paper clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -28,6 +28,7 @@ help:
 	@echo "make screenshots  take the pictures of the web app for the documentation again"
 	@echo "make bench   run the benchmarks and print their tables"
 	@echo "make packages  build wheel and source distribution, and try them in a new environment"
+	@echo "make paper   build the PDF of the paper on the software; takes pandoc from the registry"
 	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
 
 $(BIN)/python:
@@ -148,6 +149,11 @@ bench-public: $(VENV)/.dev
 lock:
 	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --extra app --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
 	uv pip compile pyproject.toml --extra app --extra excel --extra parquet --extra cluster --universal --python-version 3.11 --no-header --quiet --constraint requirements.lock --generate-hashes --output-file requirements.hashes
+
+# PDF of the paper on the software, by pandoc and typst from the registry.
+paper: $(VENV)/.dev
+	$(BIN)/python -m pip install --quiet pypandoc_binary typst
+	$(BIN)/python paper/build.py
 
 # Both packages from the source, and what users do with the wheel in an empty folder and a new environment.
 packages: $(VENV)/.dev
