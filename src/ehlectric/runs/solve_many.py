@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import ExitStack
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sized
+from contextlib import ExitStack, closing
 from functools import partial
 from os import PathLike
 from typing import Any, Generic, NamedTuple, TypeVar, overload
@@ -18,6 +18,7 @@ from ehlectric.errors import InputError, LostError, shown
 from ehlectric.runs.solve import Solvable, case_of
 from ehlectric.runtime.log import log_warnings
 from ehlectric.runtime.memory import is_out_of_memory
+from ehlectric.runtime.progress import Progress, told_to
 from ehlectric.runtime.tasks import finished_tasks
 from ehlectric.runtime.workers import Crew, cores, processes
 
@@ -46,24 +47,30 @@ class Solved(NamedTuple, Generic[R]):
 
 
 @overload
-def solve_many(cases: Iterable[LineCase], workers: int | None = None) -> Iterator[Solved[Result]]: ...
-@overload
-def solve_many(cases: Iterable[PointCase], workers: int | None = None) -> Iterator[Solved[PointResult]]: ...
+def solve_many(
+    cases: Iterable[LineCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[Result]]: ...
 @overload
 def solve_many(
-    cases: Iterable[Case], workers: int | None = None
+    cases: Iterable[PointCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[PointResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[Case], workers: int | None = None, *, progress: Progress | None = None
 ) -> Iterator[Solved[Result | PointResult]]: ...
 @overload
 def solve_many(
-    cases: Iterable[BearingCase], workers: int | None = None
+    cases: Iterable[BearingCase], workers: int | None = None, *, progress: Progress | None = None
 ) -> Iterator[Solved[BearingResult]]: ...
 @overload
 def solve_many(
-    cases: Iterable[Solvable], workers: int | None = None
+    cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
 ) -> Iterator[Solved[Result | PointResult | BearingResult]]: ...
 
 
-def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterator[Solved[Any]]:
+def solve_many(
+    cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[Any]]:
     """Solve many contacts and bearings in parallel, and yield each as it finishes.
 
     Parameters
@@ -74,6 +81,9 @@ def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterato
         Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
         this process, one after the other. Processes take some seconds to start: 1 is faster for a few cases
         of a second or less, such as bearings whose contacts are not solved.
+    progress : callable, optional
+        Called before each case is yielded with the number of finished cases, the number of all cases, which
+        is 0 where ``cases`` has no length, and the title of the case. ``print`` will do.
 
     Yields
     ------
@@ -84,7 +94,8 @@ def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterato
     Raises
     ------
     InputError
-        If ``workers`` is not a whole number of at least 1, or ``cases`` is a single case.
+        If ``workers`` is not a whole number of at least 1, ``cases`` is a single case, or ``progress`` cannot
+        be called.
     LostError
         If the processes cannot start or work no longer. This also happens if a script calls ``solve_many``
         without ``if __name__ == "__main__":``, as every process imports the script again. A notebook does
@@ -110,18 +121,28 @@ def solve_many(cases: Iterable[Solvable], workers: int | None = None) -> Iterato
         raise InputError(
             "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
         )
-    number = workers or cores()
+    number, report = workers or cores(), told_to(progress)
     given = enumerate(cases)
-    return _here(given) if number == 1 else _in_processes(given, number)
+    found = _here(given) if number == 1 else _in_processes(given, number)
+    return _reported(found, len(cases) if isinstance(cases, Sized) else 0, report)
 
 
-def _here(cases: Iterator[tuple[int, Solvable]]) -> Iterator[Solved[Any]]:
+def _reported(found: Generator[Solved[Any], None, None], of: int, report: Progress) -> Iterator[Solved[Any]]:
+    """Finished cases, each told before it is yielded."""
+    with closing(found):
+        for done, one in enumerate(found, 1):
+            title = "" if one.result is None else one.result.case.title
+            report(done, of, title or f"case {one.number}")
+            yield one
+
+
+def _here(cases: Iterator[tuple[int, Solvable]]) -> Generator[Solved[Any], None, None]:
     """Cases solved in this process."""
     for index, case in cases:
         yield _told(index, solve_case(case))
 
 
-def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Iterator[Solved[Any]]:
+def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Generator[Solved[Any], None, None]:
     """Cases solved in processes of this machine."""
     with ExitStack() as crews:
         crew: Crew = crews.enter_context(processes(number))

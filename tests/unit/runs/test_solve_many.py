@@ -43,6 +43,22 @@ def test_an_error_stands_in_the_place_of_a_result():
     assert "nowhere.toml: cannot be read" in str(found[2].error)
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_progress_is_told_for_each_case(workers):
+    """How many are finished, of how many; their number is not known of what has no length."""
+    told = []
+    given = [CASES[0].replace({"title": "Slow"}), {"contact": {}}]
+    found = [
+        one.number for one in solve_many(given, workers=workers, progress=lambda *values: told.append(values))
+    ]
+    titles = {0: "Slow", 1: "case 1"}
+    assert told == [(done, 2, titles[number]) for done, number in enumerate(found, 1)]
+    list(solve_many(iter(given), workers=1, progress=lambda *values: told.append(values)))
+    assert told[-1] == (2, 0, "case 1")
+    with pytest.raises(InputError, match=r"^progress: got True; expected a function"):
+        solve_many(given, progress=True)
+
+
 def test_in_processes():
     found = {number: result for number, result, error in solve_many(CASES, workers=2) if error is None}
     assert {number: result == solve(CASES[number]) for number, result in found.items()} == {
