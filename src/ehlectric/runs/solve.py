@@ -14,10 +14,12 @@ from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.any_case import case_of_dict, case_of_file
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.table import read_toml
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
 from ehlectric.contact.solver import solve as solve_stationary
+from ehlectric.drive.result import DriveResult, solve_drive
 from ehlectric.errors import ConvergenceError, InputError, printable, shown
 from ehlectric.lubricant.own import Laws
 from ehlectric.motion.result import MotionResult
@@ -28,7 +30,7 @@ from ehlectric.runtime.log import LOGGER, log_warnings
 from ehlectric.runtime.progress import Progress, silent, told_to
 
 # A case, its tables, or the path of its file.
-Solvable: TypeAlias = Case | BearingCase | Mapping[str, Any] | str | PathLike[str]
+Solvable: TypeAlias = Case | BearingCase | DriveCase | Mapping[str, Any] | str | PathLike[str]
 
 
 @overload
@@ -71,6 +73,14 @@ def solve(
 ) -> BearingResult: ...
 @overload
 def solve(
+    case: DriveCase,
+    *,
+    progress: Progress | None = None,
+    require_convergence: bool = False,
+    workers: int | None = None,
+) -> DriveResult: ...
+@overload
+def solve(
     case: Mapping[str, Any] | str | PathLike[str],
     *,
     progress: Progress | None = None,
@@ -91,17 +101,18 @@ def solve(
     beside_smooth: bool = True,
     laws: Laws | None = None,
     workers: int | None = None,
-) -> Result | PointResult | BearingResult:
-    """Solve a contact or a bearing.
+) -> Result | PointResult | BearingResult | DriveResult:
+    """Solve a contact, a bearing or a drive.
 
     Parameters
     ----------
-    case : Case, BearingCase, mapping, str or Path
-        Case of a stationary contact or of a bearing, its nested tables, or the path of its TOML file.
+    case : Case, BearingCase, DriveCase, mapping, str or Path
+        Case of a stationary contact, of a bearing or of a drive, its nested tables, or the path of its TOML
+        file.
     progress : callable, optional
         Called with a number of parts done, the number of all parts, and a text. The parts of a contact are
         percent of the expected work; they never decrease, and reach 100 at the end. Those of a bearing are
-        its contacts.
+        its contacts, and those of a drive percent of the simulated time.
     require_convergence : bool
         Whether to raise a ConvergenceError if a film does not converge, instead of returning the result with
         ``converged`` false.
@@ -113,13 +124,13 @@ def solve(
         Laws of your own for the oil of a contact, in place of those of the case: Python functions of pressure
         and temperature. The contact needs a temperature.
     workers : int, optional
-        Number of processes that solve the contacts of a bearing; by default the number of cores. With
+        Number of processes that solve the contacts of bearings; by default the number of cores. With
         several processes, a script needs ``if __name__ == "__main__":``; a notebook does not.
 
     Returns
     -------
-    Result, PointResult or BearingResult
-        Result of a line contact, a point contact or a bearing. Its warnings are logged, too.
+    Result, PointResult, BearingResult or DriveResult
+        Result of a line contact, a point contact, a bearing or a drive. Its warnings are logged, too.
 
     Raises
     ------
@@ -143,12 +154,12 @@ def solve(
     """
     found = case_of(case)
     told_to(progress)
-    if laws is not None and (not isinstance(laws, Laws) or isinstance(found, BearingCase)):
+    if laws is not None and (not isinstance(laws, Laws) or not isinstance(found, Case)):
         raise InputError(
             "laws", got=shown(type(laws).__name__), takes="Laws of functions, for a case of a contact"
         )
-    if isinstance(found, BearingCase):
-        return _bearing(found, progress, workers, solvers, require_convergence=require_convergence)
+    if isinstance(found, BearingCase | DriveCase):
+        return _of_bearings(found, progress, workers, solvers, require_convergence=require_convergence)
     if found.motion is not None:
         takes = "solve_motion(case), run_motion(case, folder), or a case without it"
         raise InputError("motion", "is a table of transient contacts;", takes=takes)
@@ -167,25 +178,29 @@ def solve(
     return result
 
 
-def _bearing(
-    case: BearingCase,
+def _of_bearings(
+    case: BearingCase | DriveCase,
     progress: Progress | None,
     workers: int | None,
     solvers: str | Solvers,
     *,
     require_convergence: bool,
-) -> BearingResult:
-    """Result of a bearing; its warnings are logged."""
+) -> BearingResult | DriveResult:
+    """Result of a bearing or of a drive; its warnings are logged."""
     if solvers_of(solvers) is not OWN:
-        raise InputError("solvers", got=shown(solvers), takes="'ehlectric' for a bearing")
-    result = solve_bearing(case, progress=progress, workers=workers)
+        raise InputError("solvers", got=shown(solvers), takes="'ehlectric' for a bearing or a drive")
+    result: BearingResult | DriveResult
+    if isinstance(case, BearingCase):
+        result = solve_bearing(case, progress=progress, workers=workers)
+    else:
+        result = solve_drive(case, progress=progress, workers=workers)
     if require_convergence and not result.converged:
         raise ConvergenceError("a contact of the bearing")
     log_warnings(case.title, result.warnings)
     return result
 
 
-def case_of(given: object) -> Case | BearingCase:
+def case_of(given: object) -> Case | BearingCase | DriveCase:
     """Case that is given as itself, as its nested tables, or by the path of its file.
 
     Raises
@@ -193,23 +208,26 @@ def case_of(given: object) -> Case | BearingCase:
     InputError
         If it is none of these, or not valid.
     """
-    if isinstance(given, Case | BearingCase):
+    if isinstance(given, Case | BearingCase | DriveCase):
         return given
     if isinstance(given, Mapping):
-        _refuse_sweep("case", given)
-        return case_of_dict(given)
+        drive = _is_drive("case", given)
+        return DriveCase.from_dict(given) if drive else case_of_dict(given)
     if isinstance(given, str | PathLike):
         path = Path(given)
-        _refuse_sweep(path, read_toml(path))
-        return case_of_file(path)
-    takes = "a Case, a BearingCase, a dict, or the path of a TOML file"
+        drive = _is_drive(path, read_toml(path))
+        return DriveCase.from_toml(path) if drive else case_of_file(path)
+    takes = "a Case, a BearingCase, a DriveCase, a dict, or the path of a TOML file"
     sweep = "; run_sweep solves a Sweep" if type(given).__name__ == "Sweep" else ""
     raise InputError("case", got=shown(type(given).__name__), takes=takes + sweep)
 
 
-def _refuse_sweep(name: object, table: Mapping[str, Any]) -> None:
-    if kind_of_tables(table) == "sweep":
+def _is_drive(name: object, table: Mapping[str, Any]) -> bool:
+    """Whether tables are those of a drive; those of a sweep are refused."""
+    kind = kind_of_tables(table)
+    if kind == "sweep":
         raise InputError(name, "is a sweep;", takes="run_sweep(Sweep.from_toml(path), folder)")
+    return kind == "drive"
 
 
 def solvers_of(given: str | Solvers) -> Solvers:

@@ -12,8 +12,10 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
+from ehlectric.cases.drives.case import DriveCase
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
+from ehlectric.drive.result import DriveResult, solve_drive
 from ehlectric.errors import InputError, LostError, shown
 from ehlectric.runs.solve import Solvable, case_of
 from ehlectric.runtime.log import log_warnings
@@ -25,7 +27,7 @@ from ehlectric.runtime.workers import Crew, cores, processes
 R = TypeVar("R")
 
 # Result of a case, or the error in its place.
-_Outcome = Result | PointResult | BearingResult | Exception
+_Outcome = Result | PointResult | BearingResult | DriveResult | Exception
 
 
 class Solved(NamedTuple, Generic[R]):
@@ -35,7 +37,7 @@ class Solved(NamedTuple, Generic[R]):
     ----------
     number : int
         Number of the case in the order in which the cases were given, from 0.
-    result : Result, PointResult, BearingResult or None
+    result : Result, PointResult, BearingResult, DriveResult or None
         Result of the case, which may not be converged; None if there is an error.
     error : Exception or None
         Error that ``solve`` would have raised, or a ``LostError`` if the process of the case was killed.
@@ -65,17 +67,17 @@ def solve_many(
 @overload
 def solve_many(
     cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
-) -> Iterator[Solved[Result | PointResult | BearingResult]]: ...
+) -> Iterator[Solved[Result | PointResult | BearingResult | DriveResult]]: ...
 
 
 def solve_many(
     cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
 ) -> Iterator[Solved[Any]]:
-    """Solve many contacts and bearings in parallel, and yield each as it finishes.
+    """Solve many contacts, bearings and drives in parallel, and yield each as it finishes.
 
     Parameters
     ----------
-    cases : iterable of Case, BearingCase, mapping, str or Path
+    cases : iterable of Case, BearingCase, DriveCase, mapping, str or Path
         Whatever ``solve`` takes. The iterable is read as the processes get free, so it may be endless.
     workers : int, optional
         Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
@@ -117,7 +119,8 @@ def solve_many(
     """
     if isinstance(workers, bool) or not (workers is None or (isinstance(workers, int) and workers >= 1)):
         raise InputError("workers", got=shown(workers), takes="a whole number of at least 1")
-    if isinstance(cases, Case | BearingCase | Mapping | str | PathLike) or not isinstance(cases, Iterable):
+    single = isinstance(cases, Case | BearingCase | DriveCase | Mapping | str | PathLike)
+    if single or not isinstance(cases, Iterable):
         raise InputError(
             "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
         )
@@ -171,9 +174,11 @@ def _told(index: int, outcome: _Outcome) -> Solved[Any]:
 
 
 def solve_case(given: Solvable) -> _Outcome:
-    """Result of a case, or the error that its solution raises; a bearing is solved in this process alone."""
+    """Result of a case, or the error that its solution raises; bearings are solved in this process alone."""
     try:
         case = case_of(given)
+        if isinstance(case, DriveCase):
+            return solve_drive(case, workers=1)
         solver = partial(solve_bearing, workers=1) if isinstance(case, BearingCase) else solve
         return solver(case)  # type: ignore[arg-type]
     except Exception as error:

@@ -14,6 +14,7 @@ from ehlectric import (
     BearingResult,
     Case,
     ConvergenceError,
+    DriveResult,
     InputError,
     MotionResult,
     PointResult,
@@ -23,11 +24,13 @@ from ehlectric import (
     run_motion,
     save,
     solve,
+    solve_many,
     solve_motion,
 )
 from ehlectric.contact.solver import solve as solve_stationary
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.drives import small_drive
 from tests.helpers.places import EXAMPLES
 
 CONTACT = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}}
@@ -63,6 +66,22 @@ def test_a_bearing_in_every_form(tmp_path):
     assert results[0] == results[1] == results[2]
 
 
+def test_a_drive_in_every_form(tmp_path):
+    drive = small_drive(**{"drive.duration": "1 ms"})
+    (tmp_path / "drive.toml").write_text(drive.to_toml(), encoding="utf-8")
+    forms = (drive, drive.to_dict(), tmp_path / "drive.toml")
+    results = [solve(form, workers=1) for form in forms]
+    assert {type(result) for result in results} == {DriveResult}
+    (many,) = solve_many([drive], workers=1)
+    events = [result.events() for result in (*results, many.result)]
+    assert events[0]
+    assert all(one == events[0] for one in events)
+    with pytest.raises(
+        InputError, match="solvers: got 'paper'; expected 'ehlectric' for a bearing or a drive"
+    ):
+        solve(drive, solvers="paper")
+
+
 def test_a_point_contact():
     contact = {"geometry": "point", "radius_x": 0.01, "radius_y": 0.01, "load": 20, "reduced_modulus": 226e9}
     table = {"contact": contact | {"entrainment_speed": 2}, "lubricant": {"base": "paper"}}
@@ -77,7 +96,7 @@ def test_a_point_contact():
         (Sweep.from_dict({"case": CONTACT, "vary": {"grid.nodes": [201]}}), "run_sweep solves a Sweep"),
         (MOTION, r"motion: is a table of transient contacts; expected solve_motion\(case\)"),
         ("nowhere.toml", "nowhere.toml: cannot be read"),
-        (5, "case: got 'int'; expected a Case, a BearingCase, a dict, or the path of a TOML file"),
+        (5, "case: got 'int'; expected a Case, a BearingCase, a DriveCase, a dict, or the path of a TOML file"),
         ({"contcat": {}}, "contcat: unknown key"),
     ],
 )  # fmt: skip
