@@ -1,7 +1,8 @@
 # The web app of ehlectric in a container, with the locked versions of its dependencies:
 #   docker build -t ehlectric .
 #   docker run --rm -p 8080:8080 ehlectric
-# It prints an address with a token; open it with the name of your machine.
+# It prints an address with a token, http://localhost:8080/?token=... Open it as it is on this machine; on another one put
+# the name of this machine in place of localhost. If you publish another port (-p 9000:8080), change the port too.
 FROM python:3.13-slim AS wheel
 WORKDIR /source
 COPY . .

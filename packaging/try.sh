@@ -15,7 +15,7 @@ mkdir "$place/folder"
 cd "$place/folder"
 ehlectric --version
 python -c 'import ehlectric, pathlib; print(pathlib.Path(ehlectric.__file__).parent)'
-ehlectric examples --quiet
+ehlectric examples -o . --quiet
 ehlectric run line_contact.toml -o line --quiet
 ehlectric run rough_contact.toml -o rough --quiet --no-plots
 ehlectric bearing bearing_6208.toml --contacts atlas -o bearing --quiet

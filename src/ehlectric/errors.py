@@ -343,7 +343,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "waveform-clipped": Cause("The range of the oscilloscope was probably exceeded."),
         "waveform-coarse": Cause("A measured waveform has few different voltages."),
         "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
-        "record-repeated": Cause("A measured waveform is repeated, with a jump from its end to its begin."),
+        "record-repeated": Cause("A measured waveform is repeated, with a jump from its end to its start."),
         "circuit-undamped": Cause("An oscillation of the circuit of a drive is hardly damped."),
         "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
         "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),

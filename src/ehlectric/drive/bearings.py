@@ -125,7 +125,7 @@ def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> Be
         capacitance=films,
         conductance=0.0 if ceramic or tau is None else oil_conductance(solution, tau),
         breakdown=np.full(count, math.inf) if ceramic else strengths,
-        shape=circuits[0].shape or breakdown.weibull_shape or math.inf,
+        shape=breakdown.weibull_shape or circuits[0].shape or math.inf,
         step=2.0 * math.pi / (bearing.elements * first.equilibrium.cage_speed * count),
         path=shaft_path(solution),
         touching=touching,

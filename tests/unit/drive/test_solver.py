@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
+from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.drive.bearings import bearing_element
 from ehlectric.drive.discharges.record import FILM, OFF, ON
 from ehlectric.drive.result import solve_drive
 from ehlectric.drive.solver import prepare, solve
@@ -102,6 +104,18 @@ def test_an_inductance_without_resistance_is_told(case):
     assert "give circuit.common_mode_resistance," in told[0]
     damped = solve_drive(quick.replace({"circuit.common_mode_resistance": "100 ohm"}), workers=1)
     assert "circuit-undamped" not in [one.code for one in damped.warnings]
+
+
+@pytest.mark.slow
+def test_the_scatter_of_the_drive_file_is_before_that_of_the_bearing_file(case):
+    """As a sweep over the shape asks for."""
+    law = {"shape": 10.0, "reference_area": "1 mm^2", "scale": "20 V/um"}
+    keys = {f"discharge.weibull.{key}": value for key, value in law.items()}
+    bearing = case.drive_end.replace({**keys, "contacts": "solved"})
+    result = solve_bearing(bearing, workers=2)
+    for given, shape in ((None, 10.0), (5.0, 5.0)):
+        breakdown = case.breakdown.model_copy(update={"weibull_shape": given})
+        assert bearing_element(result, breakdown, ENDS[0]).shape == shape
 
 
 def test_closed_films_conduct_as_those_of_the_netlist(case):

@@ -28,7 +28,7 @@ _EDGE, _RESOLVED = 0.2, 3
 # Samples to each side of an edge within which it comes and goes, and most edges that are looked at.
 _AROUND, _MOST = 4, 100_000
 
-# Least jump from the end of a repeated record to its begin that is told, as a part of its range, and least
+# Least jump from the end of a repeated record to its start that is told, as a part of its range, and least
 # time beyond the record, as a part of it, for which it is told at all.
 _SEAM, _BEYOND = 0.05, 1e-3
 
@@ -105,7 +105,7 @@ def repeat_warnings(source: str, waveform: Waveform, duration: float | None) -> 
         yield ResultWarning(
             "record-repeated",
             f"{source} lasts {waveform.duration:.4g} s and is repeated up to {duration:.4g} s; from its end "
-            f"to its begin the voltage jumps by {jump:.4g} V, an edge that the inverter does not have: cut "
+            f"to its start the voltage jumps by {jump:.4g} V, an edge that the inverter does not have: cut "
             "the record to whole periods, or leave drive.duration out",
         )
 
