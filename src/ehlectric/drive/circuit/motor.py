@@ -114,7 +114,7 @@ def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[t
     -------
     list of tuple of float
         The least damped oscillation first; none in a circuit without inductances. With a rate s of the
-        circuit the frequency is Im s/(2 pi), and the quality factor is |s|/(-2 Re s), infinite without
+        circuit the frequency is Im s/(2 pi), and the quality factor is abs(s)/(-2 Re s), infinite without
         damping.
     """
     if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
