@@ -69,7 +69,7 @@ def event_rate(counts: Array, duration: float) -> Rate:
 
 @dataclass(frozen=True)
 class Spread:
-    """Mean, median, 95th percentile and largest value; None without an event."""
+    """Mean, median, 95th percentile and largest value; None without an event that tells it."""
 
     mean: float | None
     median: float | None
@@ -77,15 +77,15 @@ class Spread:
     largest: float | None
 
 
-def spread(values: Array, mean: float, largest: float) -> Spread:
+def spread(values: Array, mean: float | None, largest: float | None) -> Spread:
     """Spread of the values of events.
 
     Parameters
     ----------
     values : ndarray, shape (m,)
         Values of events, or of a part of them, from which the percentiles follow.
-    mean, largest : float
-        Mean and largest value of all events.
+    mean, largest : float or None
+        Mean and largest value of all events; None without an event.
 
     Examples
     --------
@@ -93,6 +93,6 @@ def spread(values: Array, mean: float, largest: float) -> Spread:
     Spread(mean=2.0, median=2.0, high=2.9, largest=3.0)
     """
     if values.size == 0:
-        return Spread(None, None, None, None)
+        return Spread(mean, None, None, largest)
     median, high = (float(value) for value in np.percentile(values, [50.0, 95.0]))
     return Spread(mean, median, high, largest)

@@ -154,15 +154,16 @@ def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
         "power": float(record.sums[b, ENERGY]) / record.duration,
     }
     for name, column in _COLUMNS.items():
-        mean = float(record.sums[b, column]) / max(count, 1)
-        found |= _spread(name, np.abs(own[:, column]), mean, float(record.largest[b, column]))
+        total, largest = float(record.sums[b, column]), float(record.largest[b, column])
+        found |= _spread(name, np.abs(own[:, column]), count, total, largest)
     lasting = own[:, OFF] - own[:, ON]
-    mean = float(record.sums[b, OFF] - record.sums[b, ON]) / max(count, 1)
-    return found | _spread("time", lasting, mean, float(np.max(lasting, initial=0.0)))
+    total = float(record.sums[b, OFF] - record.sums[b, ON])
+    return found | _spread("time", lasting, count, total, float(np.max(lasting, initial=0.0)))
 
 
-def _spread(name: str, values: np.ndarray, mean: float, largest: float) -> dict[str, Any]:
-    one = spread(values, mean, largest)
+def _spread(name: str, values: np.ndarray, count: int, total: float, largest: float) -> dict[str, Any]:
+    """Statistics of a value of ``count`` events, of which the first ones are known one by one."""
+    one = spread(values, total / count, largest) if count else spread(values, None, None)
     return {f"{name}_{key}": getattr(one, key) for key in ("mean", "median", "high", "largest")}
 
 

@@ -13,6 +13,9 @@ from ehlectric.arrays import Array
 ON, OFF, FILM, VOLTAGE, CHARGE, ENERGY, PEAK, PLACE = range(8)
 COLUMNS = 8
 
+# Events that are kept one by one; of all others only counts and sums are.
+KEPT = 200_000
+
 
 @dataclass(frozen=True, eq=False)
 class Record:

@@ -16,14 +16,11 @@ from ehlectric.drive.circuit.modes import Modes
 from ehlectric.drive.discharges.march import advance, start_clocks
 from ehlectric.drive.discharges.meters import Meters
 from ehlectric.drive.discharges.pieces import Circuits
-from ehlectric.drive.discharges.record import COLUMNS, FILM, OFF, ON, VOLTAGE, Record
+from ehlectric.drive.discharges.record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
 from ehlectric.drive.discharges.states import ARC, RECOVERING, Films, Segments, State
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384
-
-# Events that are kept one by one; of all others only counts and sums are.
-KEPT = 200_000
 
 # Bins of the histograms, rows of the trace, and parts of the highest voltage: within which the voltage is
 # straight between two times, and below which the ringing of the source is over.

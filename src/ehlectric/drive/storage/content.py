@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.drive.discharges.record import COLUMNS
+from ehlectric.drive.discharges.record import COLUMNS, KEPT
 from ehlectric.runtime.checks.schema import (
     Rule,
     UnfitError,
@@ -136,9 +136,21 @@ def check(dataset: xr.Dataset, variants: int) -> None:
         for name in names if dimension in sizes else ():
             if name not in dataset:
                 raise UnfitError(f"{name} is missing")
+    _check_events(dataset)
     number_of(dataset.attrs, "seconds")
     text_of(dataset.attrs, "version")
     json_of(dataset.attrs, TEXTS, partial(_are_warnings, variants=variants))
+
+
+def _check_events(dataset: xr.Dataset) -> None:
+    """Check that the events one by one are among those that are counted."""
+    counted = np.sum(dataset["block_events"].values, axis=-1)
+    kept = np.asarray(dataset["event_count"].values, dtype=int)
+    films = dataset["event_bearing"].values if "event_bearing" in dataset else np.zeros(0)
+    for total, own in zip(counted, np.split(films.astype(int), np.cumsum(kept)[:-1]), strict=True):
+        numbers = np.bincount(own, minlength=2)
+        if np.any(numbers > total) or (own.size < KEPT and np.any(numbers != total)):
+            raise UnfitError("event_bearing does not belong to block_events")
 
 
 def _are_warnings(value: Any, variants: int) -> bool:

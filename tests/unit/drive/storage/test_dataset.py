@@ -8,7 +8,9 @@ import pytest
 from ehlectric import InputError, load, save, solve_drive
 from ehlectric.drive import files as of_drives
 from ehlectric.drive.result import DriveResult
+from ehlectric.drive.storage.content import check
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.checks.schema import UnfitError
 from tests.helpers.drives import drive_with_remedy
 
 
@@ -77,3 +79,14 @@ def test_the_file_of_another_result_is_refused(drive, tmp_path):
     other = drive.to_xarray().assign_attrs(schema="ehlectric.bearing.solution/1")
     with pytest.raises(InputError, match="is not the result of a drive"):
         of_drives.result_of(other, tmp_path / "drive.nc")
+
+
+def test_events_of_another_bearing_than_counted_are_refused(drive):
+    """They would have no statistics, or those of the other bearing."""
+    dataset = drive.to_xarray()
+    films = dataset["event_bearing"]
+    assert films.size > 10
+    check(dataset, 2)
+    for edited in (films * 0, films * 0 + 1, 1 - films):
+        with pytest.raises(UnfitError, match="event_bearing does not belong to block_events"):
+            check(dataset.assign(event_bearing=edited), 2)
