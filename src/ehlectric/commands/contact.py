@@ -18,10 +18,10 @@ from ehlectric.commands.options import (
     Output,
     Plots,
     Quiet,
+    ResultFile,
     Style,
     Uncertainty,
     figure_options,
-    file_argument,
     one_of,
 )
 from ehlectric.commands.terminal import (
@@ -119,14 +119,7 @@ def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
 
 
 def plot(
-    result: Annotated[
-        Path,
-        file_argument(
-            "RESULT",
-            "Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.",
-            ".nc",
-        ),
-    ],
+    result: ResultFile,
     output: Annotated[
         Path | None,
         typer.Option(

@@ -7,19 +7,12 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, file_argument, files_ending
+from ehlectric.commands.options import Quiet, ResultFile, files_ending
 from ehlectric.commands.terminal import echo_files, user_errors
 
 
 def export(
-    result: Annotated[
-        Path,
-        file_argument(
-            "RESULT",
-            "Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.",
-            ".nc",
-        ),
-    ],
+    result: ResultFile,
     output: Annotated[
         Path,
         typer.Option(
@@ -42,12 +35,10 @@ def export(
     Exit status 0: written. 2: the result has no such form, or the file cannot be written.
     """
     with user_errors():
-        from ehlectric.runs.exports.files import check_target, stored
         from ehlectric.runs.exports.files import export as write
         from ehlectric.runs.kinds import refuse_input
 
-        check_target(output)
         refuse_input(result)
-        file = write(stored(result), output)
+        file = write(result, output)
     if not quiet:
         echo_files([file])

@@ -57,6 +57,14 @@ def file_argument(metavar: str, help_text: str, *suffixes: str) -> typer.models.
 
 
 CaseFile = Annotated[Path, file_argument("CASE", "Case file of a contact, in TOML.", ".toml")]
+ResultFile = Annotated[
+    Path,
+    file_argument(
+        "RESULT",
+        "Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.",
+        ".nc",
+    ),
+]
 Quiet = Annotated[
     bool, typer.Option("--quiet", "-q", help="Print no tables, no progress and no warnings, only errors.")
 ]

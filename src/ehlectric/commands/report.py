@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, file_argument, files_ending, one_of
+from ehlectric.commands.options import Quiet, ResultFile, files_ending, one_of
 from ehlectric.commands.terminal import echo_files, progress_line, user_errors
 from ehlectric.errors import InputError, shown
 
@@ -15,14 +15,7 @@ _FORMATS = ("html", "pdf")
 
 
 def report(
-    result: Annotated[
-        Path,
-        file_argument(
-            "RESULT",
-            "Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.",
-            ".nc",
-        ),
-    ],
+    result: ResultFile,
     output: Annotated[
         Path | None,
         typer.Option(

@@ -65,9 +65,9 @@ def _of_bearing(result: BearingResult) -> Iterator[ResultWarning]:
             yield ResultWarning(
                 "touching",
                 f"lambda is {lambda_text(result.solution)}: surfaces touch, and contacts close and open all "
-                "the time. Discharges as they open are not computed, and breakdown voltages those of smooth "
-                "films, which are hardly there: rates are uncertain; a higher speed or viscosity separates "
-                "the surfaces",
+                "the time. Discharges as they open are not computed, and breakdown voltages are those of "
+                "smooth films, which are hardly there: rates are uncertain; a higher speed or viscosity "
+                "separates the surfaces",
             )
         else:
             yield warning

@@ -149,7 +149,7 @@ def _bearing(result: BearingResult) -> Part:
 
 
 def _shared(result: Any) -> dict[str, Any]:
-    """What parts of contacts and bearings have in common, by the names of the attributes of ``Part``."""
+    """Values that contacts and bearings give to a ``Part`` in the same way, by its attributes."""
     return {
         "lead": lead_of(result),
         "warnings": result.warnings,

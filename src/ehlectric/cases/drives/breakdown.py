@@ -48,6 +48,11 @@ class Breakdown(Table):
         return self
 
     @property
+    def extinction_key(self) -> str:
+        """Key of the extinction that is given."""
+        return "extinction_current" if self.extinction_voltage is None else "extinction_voltage"
+
+    @property
     def lowest_voltage(self) -> float:
         """Voltage across an arc below which it goes out [V]."""
         if self.extinction_voltage is not None:

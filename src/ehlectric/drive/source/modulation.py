@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from types import MappingProxyType
 
@@ -121,6 +122,7 @@ def steps_of(source: Source, duration: float, first: float = 0.0) -> tuple[float
     return -0.5 * source.dc_link, _carrier_steps(source, duration, first)
 
 
+@lru_cache(maxsize=64)
 def edge_rate(source: Source) -> float:
     """Steps of the common-mode voltage in a second [1/s].
 

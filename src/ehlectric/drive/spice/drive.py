@@ -20,11 +20,10 @@ from ehlectric.drive.source.measured import measured_source
 from ehlectric.drive.source.modulation import steps_of
 from ehlectric.drive.source.segments import edges
 from ehlectric.drive.source.waveform import Waveform
-from ehlectric.drive.spice.files import check_targets, relative
-from ehlectric.drive.spice.subcircuit import Arc, Subcircuit, check_strength, file_text, subcircuit_of
+from ehlectric.drive.spice.files import check_targets, write_lines
+from ehlectric.drive.spice.subcircuit import Arc, Subcircuit, check_strength, subcircuit_of
 from ehlectric.drive.spice.text import SIGNATURE, Parameter, comment, number
 from ehlectric.errors import InputError
-from ehlectric.runtime.files import write
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__
 
@@ -189,19 +188,13 @@ def _subcircuit(case: DriveCase, end: str, result: BearingResult) -> Subcircuit:
         return subcircuit_of([result], Arc(breakdown.arc_resistance, breakdown.lowest_voltage))
     except InputError as error:
         if error.key == "extinction_voltage":
-            kind = "voltage" if breakdown.extinction_voltage is not None else "current"
-            raise error.retold(f"breakdown.extinction_{kind}", f"{error.text} of {end}") from None
+            raise error.retold(f"breakdown.{breakdown.extinction_key}", f"{error.text} of {end}") from None
         raise error.under(end) from None
 
 
 def write_both(netlist: DriveNetlist, path: Path, bench: Path | None) -> list[Path]:
     """Write the file of the subcircuits, and that of the test bench if there is one."""
-    contents = {path: file_text(netlist.lines())}
-    if bench is not None:
-        contents[bench] = file_text(netlist.bench(relative(path, bench)))
-    for target, content in contents.items():
-        write(target, content)
-    return list(contents)
+    return write_lines(netlist.lines(), path, netlist.bench, bench)
 
 
 def _about(source: Source) -> str:

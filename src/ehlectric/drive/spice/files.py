@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 from ehlectric.bearing.result import BearingResult
@@ -126,7 +127,7 @@ def check_targets(path: Path, bench: Path | None) -> None:
     if bench is not None:
         if path.resolve() == bench.resolve():
             raise InputError(bench, "is the file of the subcircuit", takes="another file for the test bench")
-        relative(path, bench)
+        _relative(path, bench)
     for target in filter(None, (path, bench)):
         if not target.parent.is_dir():
             raise InputError(target, "cannot be written to, its folder does not exist")
@@ -153,15 +154,39 @@ def write_subcircuit(subcircuit: Subcircuit, path: Path, bench: Path | None) -> 
     InputError
         If the test bench lacks an input, or a file cannot be written.
     """
-    contents = {path: file_text(subcircuit.lines())}
+    return write_lines(subcircuit.lines(), path, partial(bench_lines, subcircuit), bench)
+
+
+def write_lines(
+    lines: Iterator[str], path: Path, bench_of: Callable[[str], Iterator[str]], bench: Path | None
+) -> list[Path]:
+    """Write the lines of a library, and those of a test bench that includes it, if there is one.
+
+    Parameters
+    ----------
+    lines : iterator of str
+        Lines of the library.
+    path : Path
+        File of the library.
+    bench_of : callable
+        Lines of the test bench, from the path of the library as the bench names it.
+    bench : Path or None
+        File of the test bench.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+    """
+    contents = {path: file_text(lines)}
     if bench is not None:
-        contents[bench] = file_text(bench_lines(subcircuit, relative(path, bench)))
+        contents[bench] = file_text(bench_of(_relative(path, bench)))
     for target, content in contents.items():
         write(target, content)
     return list(contents)
 
 
-def relative(path: Path, bench: Path) -> str:
+def _relative(path: Path, bench: Path) -> str:
     """Path of the subcircuit as the test bench names it: relative to its folder where there is a way.
 
     Raises

@@ -1,1 +1,1 @@
-"""What a report says of drives: their numbers, assumptions, remedies, discharges and limits."""
+"""Parts of a report about drives: numbers, assumptions, remedies, discharges and limits."""

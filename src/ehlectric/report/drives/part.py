@@ -55,7 +55,7 @@ def drive_part(result: DriveResult) -> Part:
 
 
 def _kind(case: DriveCase) -> str:
-    """What a drive is: its source and its bearings."""
+    """Phrase for a drive: its source and its bearings."""
     names = dict.fromkeys(one.bearing.base or f"{one.bearing.kind} bearing" for one in case.bearings)
     source = "a measured voltage" if case.source.measured else f"{case.source.modulation} modulation"
     return f"drive with {source}, bearings {' and '.join(names)}"

@@ -1,4 +1,4 @@
-"""What a report says of a sweep of drives: the results that it shows, and at which points they discharge."""
+"""Parts of a report about a sweep of drives: results that it shows, and points that discharge."""
 
 from __future__ import annotations
 
