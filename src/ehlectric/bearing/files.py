@@ -11,7 +11,7 @@ from ehlectric.bearing.result import BearingResult, contact_units
 from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.bearing.storage.dataset import SCHEMA, solution_of
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.errors import InputError
+from ehlectric.runtime.checks.formats import check_format
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
@@ -188,7 +188,6 @@ def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
     DamagedError
         Where its content is not as it was written.
     """
-    if str(dataset.attrs.get("schema")) != SCHEMA:
-        raise InputError(path, "is not the result of a bearing of ehlectric")
+    check_format(dataset.attrs, SCHEMA, path, "the result of a bearing")
     with refusing(path):
         return BearingResult(solution_of(dataset))

@@ -11,8 +11,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.dataset import (
-    check,
+from ehlectric.contact.kinds import KINDS
+from ehlectric.contact.problems import scales_of
+from ehlectric.contact.results import RESULTS, PointResult, Result
+from ehlectric.contact.solution import Smooth
+from ehlectric.contact.storage.content import check
+from ehlectric.contact.storage.dataset import (
+    SCHEMA,
     coarser_of,
     field_parts,
     film_columns,
@@ -20,12 +25,9 @@ from ehlectric.contact.dataset import (
     roughness_of,
     smooth_of,
 )
-from ehlectric.contact.kinds import KINDS
-from ehlectric.contact.problems import scales_of
-from ehlectric.contact.results import RESULTS, PointResult, Result
-from ehlectric.contact.solution import Smooth
 from ehlectric.errors import InputError
 from ehlectric.lubricant.own import SampledLaws, is_laws
+from ehlectric.runtime.checks.formats import check_format
 from ehlectric.runtime.checks.schema import case_of, refusing
 from ehlectric.runtime.checks.schema import json_of as attribute
 from ehlectric.runtime.files import Content, json_of, write_together
@@ -137,10 +139,11 @@ def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
     Raises
     ------
     InputError
-        Where the dataset is not the result of a contact.
+        Where the dataset is not the result of a contact, or of a later version.
     DamagedError
         Where its content is not as it was written.
     """
+    check_format(dataset.attrs, SCHEMA, path, "the result of a contact", unnamed=True)
     if "case" not in dataset.attrs:
         raise InputError(path, "is not a result of ehlectric")
     with refusing(path):

@@ -14,12 +14,12 @@ from ehlectric.cases.roughness import Roughness
 from ehlectric.contact import problems
 from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.dataset import LINE_LAYOUT, POINT_LAYOUT, Layout
 from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.contact.result_warnings import line_result_warnings, point_result_warnings
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import ConditionsT, FieldT, FilmT, Solution
 from ehlectric.contact.statistics import RoughnessStatistics, line_roughness, point_roughness
+from ehlectric.contact.storage.layouts import LINE_LAYOUT, POINT_LAYOUT, Layout
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field, solve_field
 from ehlectric.field.point import PointField, solve_point_field

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from ehlectric.cases.row import amount
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.dataset import dataset_of, film_columns
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.solution import ConditionsT, FieldT, FilmT, Solution
 from ehlectric.contact.statistics import RoughnessStatistics
+from ehlectric.contact.storage.dataset import dataset_of, film_columns
 from ehlectric.contact.summary import formulas_of, summary_of
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField

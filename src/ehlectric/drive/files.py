@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.drive.keys import EVENT_COLUMNS
-from ehlectric.errors import InputError
+from ehlectric.runtime.checks.formats import check_format
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
@@ -150,8 +150,7 @@ def result_of(dataset: xr.Dataset, path: Path) -> DriveResult:
     from ehlectric.drive.result import DriveResult
     from ehlectric.drive.storage.dataset import SCHEMA, parts_of
 
-    if str(dataset.attrs.get("schema")) != SCHEMA:
-        raise InputError(path, "is not the result of a drive of ehlectric")
+    check_format(dataset.attrs, SCHEMA, path, "the result of a drive")
     with refusing(path):
         solution, remedies, seconds, version = parts_of(dataset)
         return DriveResult(solution, tuple(remedies), seconds, version)

@@ -28,6 +28,9 @@ from ehlectric.runtime.checks.schema import (
 if TYPE_CHECKING:
     import xarray as xr
 
+# Format of the file, which tells its kind and its version.
+SCHEMA = "ehlectric.motion.run/1"
+
 # Variables over time steps, over recorded instants, and maps of them: what their values are, and their units.
 # Those of an axis that the contact does not have are left out.
 _STEPS = {

@@ -17,6 +17,7 @@ from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError
 from ehlectric.motion.companion import Companion
 from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.content import SCHEMA
 from ehlectric.motion.file import MotionFile, Record, Row, described
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MOTION, read_motion
@@ -163,6 +164,7 @@ def _begin(
     first = solver.snapshot(history.now)
     attributes = {
         "title": contact.case.title,
+        "schema": SCHEMA,
         "case": contact.case.to_toml(),
         "version": __version__,
         "date": now(),

@@ -15,10 +15,11 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.bodies import surface_ratios
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError
-from ehlectric.motion.content import solved_part
+from ehlectric.motion.content import SCHEMA, solved_part
 from ehlectric.motion.field_history import FieldHistory, strength_between
 from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.schedule import Schedule, schedule_of
+from ehlectric.runtime.checks.formats import check_format
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.netcdf import opened, read_dataset
 from ehlectric.runtime.redo import redo_file
@@ -59,13 +60,14 @@ def read_motion(path: str | Path) -> xr.Dataset:
     Raises
     ------
     InputError
-        If the file cannot be read, or has no transient run.
+        If the file cannot be read, has no transient run, or is of a later version.
     DamagedError
         If it is damaged.
     """
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
     dataset = read_dataset(path)
+    check_format(dataset.attrs, SCHEMA, path, "a motion", unnamed=True)
     if "case" not in dataset.attrs or "frame_step" not in dataset:
         raise InputError(path, "is no motion of ehlectric")
     with refusing(path):

@@ -18,6 +18,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runs.folders import stored_result
+from ehlectric.runtime.checks.formats import format_of
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.sweep.store import NAME as SWEEP
 
@@ -27,10 +28,10 @@ if TYPE_CHECKING:
 AnyResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | MotionResult
 
 
-# Results of bearings and drives, by the schemas of their files; all others are contacts.
-_OF_SCHEMAS: Mapping[str, Callable[[xr.Dataset, Path], BearingResult | DriveResult]] = {
-    BEARING: of_bearings.result_of,
-    DRIVE: of_drives.result_of,
+# Results of bearings and drives, by the kinds that their files state; all others are contacts.
+_OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
+    format_of({"schema": BEARING})[0]: of_bearings.result_of,
+    format_of({"schema": DRIVE})[0]: of_drives.result_of,
 }
 
 
@@ -70,11 +71,8 @@ def load(path: str | Path) -> AnyResult:
     if path.name == MOTION:
         return MotionResult.of(read_motion(path))
     dataset = read_dataset(path)
-    schema = str(dataset.attrs.get("schema", ""))
-    for known, result_of in _OF_SCHEMAS.items():
-        if schema.startswith(known.partition("/")[0]):
-            return result_of(dataset, path)
-    return of_contacts.result_of(dataset, path)
+    kind, _ = format_of(dataset.attrs)
+    return _OF_KINDS.get(kind, of_contacts.result_of)(dataset, path)
 
 
 def save(result: Result | PointResult | BearingResult | DriveResult, folder: str | Path) -> list[Path]:

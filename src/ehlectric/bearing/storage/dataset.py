@@ -171,8 +171,6 @@ def solution_of(dataset: xr.Dataset) -> BearingSolution:
         Where its case cannot be resolved.
     """
     attributes = dataset.attrs
-    if attributes["schema"] != SCHEMA:
-        raise UnfitError("it has another format")
     case = case_of(attributes, BearingCase.from_dict)
     check(dataset)
     conditions = _heated(resolve_bearing(case), case, dataset)

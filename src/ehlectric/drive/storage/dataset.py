@@ -15,7 +15,7 @@ from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import COLUMNS, FILM, PLACE, Record
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.storage.content import COUNTS, ELEMENTS, END, EVENTS, LATER, PATHS, RULES, SAMPLES, check
-from ehlectric.runtime.checks.schema import UnfitError, case_of
+from ehlectric.runtime.checks.schema import case_of
 from ehlectric.runtime.stored_warnings import TEXTS, texts_and_codes, warnings_of
 
 if TYPE_CHECKING:
@@ -134,8 +134,6 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
         Where a variable or an attribute is missing, or is not as it was written.
     """
     attributes = dataset.attrs
-    if attributes.get("schema") != SCHEMA:
-        raise UnfitError("it has another format")
     case = case_of(attributes, DriveCase.from_dict)
     check(dataset, 1 + len(case.remedies))
     arrays = dict.fromkeys(LATER, np.zeros((1 + len(case.remedies), 2)))

@@ -1,0 +1,1 @@
+"""Results of contacts as xarray datasets, and their NetCDF files."""
