@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-public lock packages paper clean
+.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-release bench-compare bench-public lock packages paper clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -27,6 +27,7 @@ help:
 	@echo "make figures draw the figures of the README again"
 	@echo "make screenshots  take the pictures of the web app for the documentation again"
 	@echo "make bench   run the benchmarks and print their tables"
+	@echo "make bench-release  record the times of this release in benchmarks/releases; compare them by make bench-compare"
 	@echo "make packages  build wheel and source distribution, and try them in a new environment"
 	@echo "make paper   build the PDF of the paper on the software; takes pandoc from the registry"
 	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
@@ -142,6 +143,15 @@ screenshots: $(VENV)/.test
 
 bench: $(VENV)/.dev
 	$(BIN)/python benchmarks/table.py
+
+# Run on a machine that does nothing else; times of two machines compare by their ratios to the reference.
+bench-release: $(VENV)/.dev
+	mkdir -p benchmarks/releases
+	$(BIN)/python -m pytest benchmarks/test_release.py -n 0 -q -W ignore --benchmark-columns=min,median,rounds \
+	  --benchmark-json=benchmarks/releases/$$($(BIN)/ehlectric --version | cut -d ' ' -f 2).json
+
+bench-compare: $(VENV)/.dev
+	$(BIN)/pytest-benchmark compare benchmarks/releases/*.json --group-by=name --columns=min,median,rounds
 
 bench-public: $(VENV)/.dev
 	$(BIN)/python benchmarks/public_solvers.py

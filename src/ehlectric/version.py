@@ -1,3 +1,3 @@
 """Version of ehlectric; the build of the package reads it here."""
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
