@@ -165,7 +165,8 @@ paper: $(VENV)/.dev
 	$(BIN)/python -m pip install --quiet pypandoc_binary typst
 	$(BIN)/python paper/build.py
 
-# Both packages from the source, and what users do with the wheel in an empty folder and a new environment.
+# Both packages from the source, and what users do with them in an empty folder and a new environment: with the
+# hashed versions of requirements.hashes, or with VERSIONS=newest.
 packages: $(VENV)/.dev
 	rm -rf dist
 	$(BIN)/python -m hatchling build --directory dist

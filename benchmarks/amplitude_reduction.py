@@ -27,7 +27,7 @@ from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.state import GridSolution
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "docs/data/amplitude_reduction.csv"

@@ -14,7 +14,7 @@ from tests.helpers.hot import ball, paper_line
 from ehlectric.film.accuracy.adaptive import refined_solution
 from ehlectric.film.heated.nested import film_of
 from ehlectric.film.sheared.laws import Rheology
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 EYRING = Rheology("eyring", {"eyring_stress": 5e6})
 ROUNDS = 3

@@ -30,7 +30,7 @@ from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 # Nodes along x of the finest grid and of the grids whose estimates are tested, by geometry.
 GRIDS = {"line": (12801, (801, 1601, 3201)), "point": (257, (65, 129))}

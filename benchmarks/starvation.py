@@ -26,7 +26,7 @@ from ehlectric.film.accuracy.starved import StarvedSolution, supplied_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "docs/data/starvation.csv"

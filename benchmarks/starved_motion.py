@@ -21,7 +21,7 @@ from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.unsteady import History
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]
 FILMS = ROOT / "docs/data/starved_motion.csv"

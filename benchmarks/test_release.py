@@ -42,18 +42,18 @@ def test_command(benchmark, words):
     ],
 )
 def test_contact(benchmark, example, rounds):
-    case = Case.from_file(EXAMPLES / f"{example}.toml")
+    case = Case.from_toml(EXAMPLES / f"{example}.toml")
     assert benchmark.pedantic(solve, (case,), rounds=rounds, warmup_rounds=1).converged
 
 
 @pytest.mark.parametrize(("contacts", "rounds"), [("solved", 2), ("atlas", 5), ("formula", 5)])
 def test_bearing(benchmark, contacts, rounds):
-    case = BearingCase.from_file(EXAMPLES / "bearing_6208.toml").replace({"contacts": contacts})
+    case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": contacts})
     assert benchmark.pedantic(solve, (case,), rounds=rounds, warmup_rounds=rounds > 2).converged
 
 
 def test_drive(benchmark):
-    case = DriveCase.from_file(EXAMPLES / "drive.toml")
+    case = DriveCase.from_toml(EXAMPLES / "drive.toml")
     benchmark.pedantic(solve, (case,), rounds=3, warmup_rounds=1)
 
 

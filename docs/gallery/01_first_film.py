@@ -2,9 +2,9 @@
 A first film and its field
 ==========================
 
-A roller of 14.1 mm reduced radius on steel, 1.57 MN/m, surfaces rolling at 4 m/s each, potentials of -1 V and
-+1 V. This is the first contact of Morris, Leighton and Morris, `Lubricants 2022, 10(5), 87
-<https://doi.org/10.3390/lubricants10050087>`_.
+A roller of 14.1 mm reduced radius rolls on steel under 1.57 MN/m. Both surfaces move at 4 m/s; their
+potentials are -1 V and +1 V. This is the first contact of Morris, Leighton and Morris, `Lubricants 2022,
+10(5), 87 <https://doi.org/10.3390/lubricants10050087>`_.
 """
 
 import ehlectric
@@ -24,7 +24,8 @@ case = ehlectric.Case.from_dict(
 result = ehlectric.solve(case)
 
 # %%
-# The film. The pressure follows Hertz's except for the spike before the exit, where the film is thinnest.
+# Film and pressure. The pressure follows Hertz's except for the spike before the exit, where the film is
+# thinnest.
 result.plot("film")
 
 # %%
@@ -33,8 +34,8 @@ result.plot("film")
 result.plot("field_strength")
 
 # %%
-# The field has its maximum at the exit constriction, in a strip some twenty micrometres wide. Its width is of
-# interest for the current density of a discharge.
+# The field has its maximum at the exit constriction, in a strip some twenty micrometres wide. The width
+# matters for the current density of a discharge.
 result.plot("field_profiles")
 
 # %%

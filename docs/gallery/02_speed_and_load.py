@@ -73,7 +73,7 @@ compare("minimum_thickness", r"minimum film $h_\mathrm{min}$")
 compare("central_thickness", "central film $h(0)$")
 
 # %%
-# The formulas differ from the solved film by tens of per cent, and from each other by more. The error of a
-# formula is also the error of V12/h_min computed with it. The error estimates of the solver are much smaller:
+# The formulas differ from the solved film by tens of per cent, and from each other by more. V12/h_min with
+# the film of a formula is wrong by as much. The error estimates of the solver are much smaller:
 worst = max(r.film.discretisation_error for rs in solved.values() for r in rs)
 print(f"largest discretisation error of these {2 * speeds.size} films: {100 * worst:.2f} %")

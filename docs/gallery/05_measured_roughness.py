@@ -2,8 +2,8 @@
 A measured surface in the contact
 =================================
 
-A stylus profile on the lower body, which is at rest while the other surface slides over it. Form and long
-waves are removed first; ``ehlectric surface`` shows the same steps without solving.
+A stylus profile lies on the lower body, which is at rest while the other surface slides over it. Form and
+long waves are removed first; ``ehlectric surface`` shows the same steps without solving.
 """
 
 import ehlectric

@@ -38,8 +38,8 @@ def film(count, wedge):
 reference = film(204_801, "third-order")
 
 # %%
-# True errors of the central and of the minimum film, and the estimate of the film, which is the larger one of
-# the estimates for these two.
+# True errors of the central and of the minimum film, and the estimate, which is the larger one of the
+# estimates for these two.
 figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.6), sharey=True)
 for ax, wedge in zip(axes, ("first-order", "second-order", "third-order"), strict=True):
     films = [film(n, wedge) for n in nodes]
@@ -59,8 +59,8 @@ for ax, wedge in zip(axes, ("first-order", "second-order", "third-order"), stric
 axes[0].set_ylabel("relative error [%]")
 
 # %%
-# The central film converges with the first order, and with the second order where the wedge term is of
-# second or third order, as the flow between the nodes is of second order. The third-order wedge comes with
-# the exact mean of the viscosity between two nodes, and its errors are smaller by an order of magnitude. The
-# minimum lies beside the pressure spike, a jump over two or three nodes on every grid, and converges more
-# slowly. It is an estimate, not a bound.
+# With the first-order wedge the central film converges with first order. With the wedges of second and third
+# order it converges with second order, as the flow between the nodes is of second order. The third-order
+# wedge comes with the exact mean of the fluidity, the reciprocal viscosity, between two nodes, and its errors
+# are smaller by an order of magnitude. The minimum lies beside the pressure spike, a jump over two or three
+# nodes on every grid, and converges more slowly. The estimate is not a bound of the error.

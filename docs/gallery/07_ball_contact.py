@@ -2,8 +2,8 @@
 A ball on a plane
 =================
 
-A steel ball of 10 mm radius on a steel plane, 20 N, rolling at 2 m/s, potentials of -1 V and +1 V: a point
-contact whose dry contact is a circle. Film and field are maps over the plane.
+A steel ball of 10 mm radius rolls on a steel plane at 2 m/s under 20 N; the potentials are -1 V and +1 V. It
+is a point contact whose dry contact is a circle. Film and field are maps over the plane.
 """
 
 import ehlectric
@@ -60,7 +60,7 @@ for name, zone in result.zones.items():
     print(f"  {name:<15} {1e12 * field.capacitance_of(zone):.2f} pF")
 
 # %%
-# For comparison the film formulas, which are fits to solutions like this one:
+# For comparison, the values of the film formulas, which are fits to solutions like this one:
 for name, formula in result.formulas().items():
     for quantity, thickness in vars(formula).items():
         if thickness is not None:

@@ -2,10 +2,10 @@
 A ball bearing, and how fine its grid must be
 =============================================
 
-The ball of a deep groove ball bearing 6208 on its inner ring, 600 N, mineral oil of ISO VG 68 at 70 °C,
-5 V across the film. The groove conforms closely to the ball, so that the dry contact is a long ellipse
-across entrainment, and the film is thin compared with it. Both make this contact harder to solve than a ball
-on a plane.
+The ball of a deep groove ball bearing 6208 runs on its inner ring under 600 N, in mineral oil of ISO VG 68 at
+70 °C with 5 V across the film. The groove conforms closely to the ball, so that the dry contact is a long
+ellipse across entrainment, and the film is thin compared with it. Both make this contact harder to solve than
+a ball on a plane.
 """
 
 import matplotlib.pyplot as plt
@@ -49,7 +49,7 @@ case = ehlectric.Case.from_dict(
 )
 
 # %%
-# The grid is doubled twice, from 129 x 129 nodes. The error estimate, from the two finest grids of each
+# The grid is doubled twice, from 129 x 129 nodes. The error estimate, from the finest grids of each
 # solution, is large as long as the constriction at the exit is only a few nodes wide.
 nodes = np.array([129, 257, 513])
 results = {n: ehlectric.solve(case.replace({"grid.nodes": int(n)}), require_convergence=True) for n in nodes}
@@ -94,7 +94,7 @@ for name, formula in result.formulas().items():
 result.plot("film_map")
 
 # %%
-# The field likewise.
+# The field, drawn in the same way.
 result.plot("field_map")
 
 # %%

@@ -48,7 +48,7 @@ solved = {
 }
 
 # %%
-# A constant strength of 15 V/µm: the breakdown voltage is the strength times the minimum film. At speeds
+# With a constant strength of 15 V/µm the breakdown voltage is the strength times the minimum film. At speeds
 # below the intersection with the voltage of the case the film breaks down.
 figure, ax = plt.subplots()
 for pressure, colour in pressures.items():
@@ -65,10 +65,10 @@ ax.minorticks_off()
 ax.legend(title="Hertz pressure", loc="lower right")
 
 # %%
-# A Weibull law instead, with the same scale and a shape of 10, measured on 1 mm²: in a longer line more film
-# is stressed, and it breaks down at a lower voltage. The film is not solved again; only the assessment of the
-# discharge changes. Upper panel: dots at 63.2 %, bars from 5 to 95 %. The dotted line is the constant
-# strength.
+# A Weibull law instead, with the same scale, a shape of 10 and a reference area of 1 mm²: in a longer line
+# more film is stressed, and it breaks down at a lower voltage. The film is not solved again; only the
+# assessment of the discharge changes. Upper panel: dots at 63.2 %, bars from 5 to 95 %. The dotted line is
+# the constant strength.
 result = solved["1 GPa"][3]
 weibull = {"scale": "15 V/um", "shape": 10, "reference_area": "1 mm^2"}
 lengths = {"1 mm": "#56b4e9", "10 mm": "#0072b2", "100 mm": "black"}
@@ -99,8 +99,8 @@ below.set(xlabel="voltage [V]", ylabel="probability of breakdown", ylim=(0, 1), 
 # The energy of a spark at the breakdown voltage, for a line of 10 mm. The energy of the contact alone falls
 # as the film gets thinner: its capacitance is proportional to 1/h, the square of its voltage to h². The
 # external capacitance, here 1 nF for the rotor, is constant. The grey line is the energy that melts a
-# hemisphere of 1.7 µm, the mean pit of Plazenet et al. as the paper quotes it, with 10.2 GJ/m³ for iron and
-# an efficiency of 0.183, which is an assumption.
+# hemisphere 1.7 µm wide, the mean pit of Plazenet et al. as quoted by Morris et al., with 10.2 GJ/m³ for iron
+# and an efficiency of 0.183, which is an assumption.
 pit = 10.2e9 * np.pi * MEAN_PIT**3 / 12.0 / 0.183
 figure, ax = plt.subplots()
 for pressure, colour in pressures.items():

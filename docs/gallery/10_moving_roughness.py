@@ -2,10 +2,10 @@
 Stationary and moving roughness
 ===============================
 
-A waviness on the lower surface in a contact of the paper, 1 GPa at 4 m/s. It is stationary while the other
-surface slides over it, or it is carried along in pure rolling, as real roughness is. At one instant both lie
-at the same position, and film, pressure and field are compared. ``examples/moving_roughness.toml`` is the
-same case on twice the nodes.
+The lower surface of a contact of the paper, 1 GPa at 4 m/s, is wavy. The waviness is either stationary, with
+the other surface sliding over it, or carried along in pure rolling, as real roughness is. At one instant both
+lie at the same position, and film, pressure and field are compared. ``examples/moving_roughness.toml`` is the
+same contact on twice the nodes, for a longer time.
 """
 
 from tempfile import TemporaryDirectory
@@ -41,11 +41,11 @@ with TemporaryDirectory() as folder:
     motion = read_motion(folder)
 
 # %%
-# The instant at which both lie at the same position. The black line is the film before the roughness arrives,
-# that of smooth surfaces. The pressure flattens the stationary waviness; the film varies only because the oil
-# is denser where the pressure is higher. With moving waviness the inlet lets alternately more and less oil
-# through, and this oil is carried through the contact with the surface: the film keeps the waviness, and the
-# pressure hardly varies.
+# Both wavinesses at the instant at which they lie at the same position. The black line is the film before the
+# roughness arrives, that of smooth surfaces. The pressure flattens the stationary waviness; the film varies
+# only because the oil is denser where the pressure is higher. With moving waviness the inlet lets alternately
+# more and less oil through, and this oil is carried through the contact with the surface: the film keeps the
+# waviness, and the pressure hardly varies.
 run = MotionRun.of(motion)
 frame = instant_beside(run)
 b = run.conditions.half_width

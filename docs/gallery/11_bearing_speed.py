@@ -2,7 +2,7 @@
 A bearing over its speed
 ========================
 
-A deep-groove ball bearing 6208 in a motor with a common-mode voltage of 300 V. Its films come
+A deep-groove ball bearing 6208 runs in a motor with a common-mode voltage of 300 V. Its films come
 from the atlas of films, in about a second, with a stated error. Does a film break down, and below which
 speed?
 """

@@ -2,8 +2,8 @@
 Surfaces that touch
 ===================
 
-A ball on a rough plane at 20 mm/s. The film is thinner than the roughness, so that asperities touch, carry a
-part of the load and conduct. ``examples/mixed_contact.toml`` is a similar case on more nodes.
+A ball runs on a rough plane at 20 mm/s. The film is thinner than the roughness, so that asperities touch,
+carry a part of the load and conduct. ``examples/mixed_contact.toml`` is a similar case on more nodes.
 """
 
 import ehlectric
@@ -62,8 +62,8 @@ for part in (1, 5, 50):
 # %%
 # The load share of the asperities depends on the grid more than any other number. The contact is therefore
 # solved with half the nodes as well, and both shares stand beside each other. At higher speeds oil carries
-# the load. At 0.5 m/s no asperity touches on this grid. "Mixed" also stands where the grid leaves open
-# whether there are spots at all.
+# the load. At 0.5 m/s no asperity touches on this grid. The word "mixed" is also printed where the grid
+# leaves open whether there are spots at all.
 for speed in ("20 mm/s", "0.1 m/s", "0.5 m/s"):
     at_speed = result
     if speed != "20 mm/s":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from ehlectric.runtime.memory import in_bytes, is_out_of_memory, left_of_process, out_of_memory
-from ehlectric.runtime.workers import cores
+from ehlectric.runtime.parallel.workers import cores
 
 # Memory that the libraries of every command take [bytes of address space], and that of BLAS for each core.
 # With less they do not fail in words: BLAS waits for ever, or ends the process.

@@ -9,7 +9,7 @@ from ehlectric.film.accuracy.starved import supplied_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 
 def posed(case):

@@ -12,7 +12,7 @@ from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
 from ehlectric.film.starved.motion import sums
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 
 def line(ratio, nodes=201, **contact):

@@ -56,7 +56,7 @@ def test_shape_of_thin_films():
 def test_thick_films_of_shc_320_are_not_reproduced(nodes, rows):
     """The computed film is too thick by 8 % at 0.12 m/s and by half at 1.06 m/s, as it was when recorded.
 
-    Inlet shear heating explains 6 % of the 33 %, and starvation or shear thinning are not modelled.
+    Inlet shear heating explains 6 % of the 33 %, and starvation and shear thinning are not part of the case.
     """
     ratio, speed, film, computed = ratios("ball_on_glass_shc320", "shc320", nodes, rows)
     recorded = load("ball_on_glass_shc320").column("recorded")[rows]

@@ -22,7 +22,7 @@ from ehlectric.app.processes import Bounds, Raised, Returned, Worker, new_contex
 from ehlectric.app.scratch import Scratch
 from ehlectric.errors import LostError
 from ehlectric.runtime.memory import available_memory
-from ehlectric.runtime.workers import cores
+from ehlectric.runtime.parallel.workers import cores
 
 __all__ = ["Job", "Limits", "ReplacedError", "Share", "Work"]
 

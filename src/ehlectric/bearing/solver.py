@@ -20,8 +20,8 @@ def solve_bearing(
 ) -> BearingResult:
     """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
 
-    Contacts with each ring are solved at six loads, and at the loads of light elements; the contacts of all
-    elements are interpolated between them.
+    Contacts with each ring are solved at five loads, those of rollers at ten, and at the loads of light
+    elements; the contacts of all elements are interpolated between them.
 
     Parameters
     ----------

@@ -14,7 +14,10 @@ from ehlectric.commands.terminal import print_rows, print_verdict, user_errors, 
 
 def check(
     file: Annotated[
-        Path, file_argument("FILE", "Case, bearing or sweep file, in TOML; also one with [motion].", ".toml")
+        Path,
+        file_argument(
+            "FILE", "Case, bearing, drive or sweep file, in TOML; also one with [motion].", ".toml"
+        ),
     ],
     quiet: Quiet = False,
     as_json: Json = False,

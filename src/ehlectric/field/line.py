@@ -20,7 +20,7 @@ from ehlectric.field.poisson import (
 )
 from ehlectric.field.strength import GapField
 from ehlectric.field.zones import HIGH_FIELD, interval_above, line_zone_areas, part_widths
-from ehlectric.runtime.threads import one_blas_thread
+from ehlectric.runtime.parallel.threads import one_blas_thread
 
 
 @dataclass(frozen=True, eq=False, repr=False)

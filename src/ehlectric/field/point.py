@@ -22,7 +22,7 @@ from ehlectric.field.zones import (
     node_areas,
     zone_areas,
 )
-from ehlectric.runtime.threads import one_blas_thread
+from ehlectric.runtime.parallel.threads import one_blas_thread
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -16,7 +16,7 @@ from ehlectric.film.heated.outcome import film_status_of, heated_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
 from ehlectric.film.state import COLLAPSED, Progress
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -19,7 +19,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.asperities import Toucher
 from ehlectric.motion.contact import TransientContact
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 # Number of steps of the run in a step of the companion.
 STRIDE = 2

@@ -26,7 +26,7 @@ from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.asperities import Touch, Toucher
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from ehlectric.film.state import NewtonStep, Progress, State, Status
 from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.paper.film_equations import FilmEquations, Iterate
 from ehlectric.paper.relaxation import relax, solve_coarsest
-from ehlectric.runtime.threads import one_blas_thread
+from ehlectric.runtime.parallel.threads import one_blas_thread
 
 # Relaxations of a grid before and after its coarse-grid correction, as in the paper's V(3,2) cycles.
 BEFORE, AFTER = 3, 2

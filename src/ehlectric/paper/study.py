@@ -23,7 +23,7 @@ from ehlectric.field.line import solve_field
 from ehlectric.film.line import solve_film
 from ehlectric.paper import fas, sor
 from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
-from ehlectric.runtime.tasks import run_all
+from ehlectric.runtime.parallel.tasks import run_all
 
 # Residual down to which the V-cycles of the paper's multigrid are counted.
 COUNTED = 1e-6
@@ -146,8 +146,7 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
     Raises
     ------
     LostError
-        If the process of a contact was killed twice, or a script calls this without
-        ``if __name__ == "__main__":``.
+        If the process of a contact was killed twice.
     """
     requested = dict.fromkeys(parts)
     with measured_profile() as profile:

@@ -318,7 +318,7 @@ def _values(value: Any) -> dict[str, Any]:
 
 
 def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> Iterator[Row]:
-    from ehlectric.runtime.workers import cores
+    from ehlectric.runtime.parallel.workers import cores
 
     yield Row("points", str(sweep.size), note=f"{sweep.design} design")
     for key, value in described["inputs"].items():

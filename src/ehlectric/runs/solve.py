@@ -124,8 +124,7 @@ def solve(
         Laws of your own for the oil of a contact, in place of those of the case: Python functions of pressure
         and temperature. The contact needs a temperature.
     workers : int, optional
-        Number of processes that solve the contacts of bearings; by default the number of cores. With
-        several processes, a script needs ``if __name__ == "__main__":``; a notebook does not.
+        Number of processes that solve the contacts of bearings; by default the number of cores.
 
     Returns
     -------

@@ -20,9 +20,9 @@ from ehlectric.errors import InputError, LostError, shown
 from ehlectric.runs.solve import Solvable, case_of
 from ehlectric.runtime.log import log_warnings
 from ehlectric.runtime.memory import is_out_of_memory
+from ehlectric.runtime.parallel.tasks import finished_tasks
+from ehlectric.runtime.parallel.workers import Crew, cores, processes
 from ehlectric.runtime.progress import Progress, told_to
-from ehlectric.runtime.tasks import finished_tasks
-from ehlectric.runtime.workers import Crew, cores, processes
 
 R = TypeVar("R")
 
@@ -99,9 +99,7 @@ def solve_many(
         If ``workers`` is not a whole number of at least 1, ``cases`` is a single case, or ``progress`` cannot
         be called.
     LostError
-        If the processes cannot start or work no longer. This also happens if a script calls ``solve_many``
-        without ``if __name__ == "__main__":``, as every process imports the script again. A notebook does
-        not need this line.
+        If the processes cannot start or work no longer.
 
     Notes
     -----
@@ -151,13 +149,9 @@ def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Generat
         crew: Crew = crews.enter_context(processes(number))
         batches = finished_tasks(cases, crew, solve_case, LostError, _ran_out)
         crews.callback(batches.close)
-        try:
-            for batch in batches:
-                for index, outcome in batch:
-                    yield _told(index, outcome)
-        except LostError as error:
-            text = f'{error}; in a script, call solve_many inside an if __name__ == "__main__": block'
-            raise LostError(text) from None
+        for batch in batches:
+            for index, outcome in batch:
+                yield _told(index, outcome)
 
 
 def _ran_out(outcome: _Outcome) -> bool:

@@ -13,7 +13,7 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 from ehlectric.errors import InputError, LostError, shown
-from ehlectric.runtime.workers import Crew
+from ehlectric.runtime.parallel.workers import Crew
 
 # Time limit for the answer of an address, and for the reconnection to a lost scheduler [s].
 ANSWER = 8.0

@@ -20,8 +20,8 @@ from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, MemoryLimitError
 from ehlectric.runtime.files import now
 from ehlectric.runtime.memory import is_out_of_memory
-from ehlectric.runtime.tasks import finished_tasks
-from ehlectric.runtime.workers import Crew
+from ehlectric.runtime.parallel.tasks import finished_tasks
+from ehlectric.runtime.parallel.workers import Crew
 from ehlectric.sweep.plan import Outcome
 from ehlectric.sweep.results import Status
 from ehlectric.version import __version__

@@ -9,13 +9,13 @@ from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ehlectric.errors import InputError, LostError, shown
+from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import clear
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import load_library
 from ehlectric.runtime.outcome import RunOutcome
+from ehlectric.runtime.parallel.workers import Crew, cores, crew_of, processes
 from ehlectric.runtime.progress import Progress, silent, told_to
-from ehlectric.runtime.workers import Crew, cores, crew_of, processes
 from ehlectric.sweep.engine import Task, run_points
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Outcome, Planned, plan
@@ -61,8 +61,7 @@ def run_sweep(
         Where the sweep or no point of it is valid, or the folder cannot be used.
     LostError
         Where the executor no longer works. The points solved so far are saved, and the same call solves the
-        others. Also where a script calls this without ``if __name__ == "__main__":``, as every process
-        imports the script again.
+        others.
 
     Notes
     -----
@@ -70,12 +69,7 @@ def run_sweep(
     was killed or ran out of memory.
     """
     given, told = _sweep_of(sweep), told_to(progress)
-    try:
-        return run(given, folder, told, solvers=crew(executor, workers)).result
-    except LostError as error:
-        if executor is not None:
-            raise
-        raise LostError(f'{error}; in a script, make this call below if __name__ == "__main__":') from None
+    return run(given, folder, told, solvers=crew(executor, workers)).result
 
 
 def _sweep_of(given: object) -> Sweep:

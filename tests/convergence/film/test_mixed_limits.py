@@ -8,7 +8,7 @@ import pytest
 from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.nested import levels_of
 from ehlectric.film.state import State
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 from tests.helpers.mixed_films import (
     MixedFilm,
     gaussian,

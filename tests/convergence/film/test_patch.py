@@ -12,7 +12,7 @@ from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.point import solve_point_film
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 
 def contact(load, speed, ratio=1.0):

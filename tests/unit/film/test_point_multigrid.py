@@ -15,7 +15,7 @@ from ehlectric.film.levels import hierarchy
 from ehlectric.film.mesh import Width
 from ehlectric.film.nested import levels_of, nested_iteration
 from ehlectric.film.state import State
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share
 from tests.unit.cases.test_point_case import point

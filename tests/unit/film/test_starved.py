@@ -12,7 +12,7 @@ from ehlectric.film.starved.jacobian import StarvedJacobian
 from ehlectric.film.starved.newton import assess_content, next_filled
 from ehlectric.film.starved.ratio import first_layer
 from ehlectric.film.state import State
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 from tests.helpers.starved_films import posed, supplied
 
 LINE = Case.line(

@@ -16,7 +16,7 @@ from ehlectric.paper.contacts import CONTACTS, LOADS, measured_profile, of_paper
 from ehlectric.paper.figures import FIGURES
 from ehlectric.paper.study import Placed, Study, readings_differ_by, straight_line
 from ehlectric.paper.tables import TABLES, agrees, amplitude, printed_table
-from ehlectric.runtime.workers import cores
+from ehlectric.runtime.parallel.workers import cores
 from tests.helpers.places import EXAMPLES, ROOT
 from tests.reference.field import cylinder_potential
 

@@ -13,8 +13,8 @@ import pytest
 from ehlectric import ConvergenceError, InputError, solve
 from ehlectric.bearing.speeds import over_speed
 from ehlectric.errors import LostError
-from ehlectric.runtime import tasks as runtime_tasks
-from ehlectric.runtime.workers import Crew, cores, crew_of, processes
+from ehlectric.runtime.parallel import tasks as runtime_tasks
+from ehlectric.runtime.parallel.workers import Crew, cores, crew_of, processes
 from ehlectric.sweep import engine as sweep_engine
 from ehlectric.sweep.engine import run_points, solve_point
 from ehlectric.sweep.plan import Outcome

@@ -35,8 +35,8 @@ from ehlectric.cases.bearings.ways import HOW, quick_way
 from ehlectric.cases.row import amount
 from ehlectric.errors import InputError
 from ehlectric.runs.by_kind import run_bearing
+from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.workers import cores
 from ehlectric.tables.bearing import total_rows
 
 # Sentences about the direction of the load.

@@ -30,8 +30,8 @@ from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runs.by_kind import RUNS
 from ehlectric.runs.folders import stored_result
 from ehlectric.runs.results import load
+from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.workers import cores
 
 # Folders in the folder of a session: of results and of what is made from them.
 OUT, PACKED = "out", "packed"

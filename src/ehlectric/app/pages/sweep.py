@@ -25,7 +25,7 @@ from ehlectric.app.ranges import same_sweep, sweep_file, sweep_inputs, with_rang
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job, Work
 from ehlectric.errors import InputError, LostError
-from ehlectric.runtime.workers import cores
+from ehlectric.runtime.parallel.workers import cores
 
 _PATH = "/sweep"
 

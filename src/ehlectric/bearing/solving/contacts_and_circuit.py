@@ -17,9 +17,9 @@ from ehlectric.bearing.quick.ways import is_quick
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.runtime.parallel.tasks import run_all
+from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.tasks import run_all
-from ehlectric.runtime.workers import cores
 
 # Number of positions of the cage over one pitch of the elements.
 POSITIONS = 8

@@ -112,7 +112,9 @@ class Subcircuit:
         if self.arc is not None:
             if not self.tabulated and one.threshold is not None:
                 yield Parameter("V_break", one.threshold, "V", "voltage across the films at which they break")
-            yield Parameter("V_ext", self.arc.extinction, "V", "voltage across the films below which it ends")
+            yield Parameter(
+                "V_ext", self.arc.extinction, "V", "voltage across the films below which an arc ends"
+            )
             yield Parameter("R_arc", self.arc.resistance, "Ohm", "resistance of the arc")
         path = self.path
         if path.coated:

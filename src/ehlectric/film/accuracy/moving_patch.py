@@ -23,7 +23,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.starved.course import StarvedFilm
 from ehlectric.film.state import GridSolution, State
 from ehlectric.film.unsteady import TOUCHING, History, Instant, MovingGap, UnsteadyFilm
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 # Distance of the patch's edge ahead of the dry contact, in semi-axes along entrainment. It is twice that of a
 # stationary patch: with 0.7 the central film of four moving rough contacts was off by up to 0.27 %, with 1.4

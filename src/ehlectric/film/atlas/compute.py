@@ -22,7 +22,7 @@ from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 from ehlectric.version import __version__
 
 # Nodes along and across a point contact, by the smallest film H = h R/b^2 down to which they serve.

@@ -18,7 +18,7 @@ from ehlectric.film.sheared.traction import traction
 from ehlectric.film.state import GridSolution, Progress, State, Status
 from ehlectric.film.thermal.balance import energy_imbalance
 from ehlectric.film.thermal.energy import Heat
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 # Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
 _FIRST, _FIRST_POINT = 151, 33

@@ -22,7 +22,7 @@ from ehlectric.film.atlas.table import Table, provenance, tensor_spline
 from ehlectric.film.nested import nested_iteration
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus
-from ehlectric.runtime.threads import quiet_solution
+from ehlectric.runtime.parallel.threads import quiet_solution
 
 PAPER = Lubricant.from_dict({"base": "paper"}).at(None)
 

@@ -30,8 +30,8 @@ from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import bearing_warnings, machine_warnings
 from ehlectric.errors import InputError
 from ehlectric.runs.by_kind import run_drive
+from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.workers import cores
 from ehlectric.tables.drive import drive_rows, prepared_rows
 
 # Parts of a simulation that are told.

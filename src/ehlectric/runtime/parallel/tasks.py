@@ -12,7 +12,7 @@ from typing import Any, Generic, TypeVar, cast
 
 from ehlectric.errors import ConvergenceError, InputError, LostError
 from ehlectric.runtime.memory import is_out_of_memory
-from ehlectric.runtime.workers import Crew, cores, processes
+from ehlectric.runtime.parallel.workers import Crew, cores, processes
 from ehlectric.version import __version__
 
 A = TypeVar("A")
@@ -21,12 +21,6 @@ T = TypeVar("T")
 
 # Interval at which the caller is called back while no task finishes [s].
 _PULSE = 1.0
-
-# Told to the callers of Python, as a note of the error; commands have no script.
-_GUARD = (
-    "Where a script solves in processes, every process imports the script again. "
-    'Its calls must then stand below if __name__ == "__main__":'
-)
 
 
 @dataclass(frozen=True)
@@ -62,8 +56,7 @@ def run_all(
     Raises
     ------
     LostError
-        Where the process of a task was killed twice, or no process can begin. A script that calls this needs
-        ``if __name__ == "__main__":``.
+        Where the process of a task was killed twice, or no process can begin.
     MemoryError
         Where a task ran out of memory also alone.
 
@@ -76,16 +69,12 @@ def run_all(
         processes(number) as crew,
         closing(finished_tasks(enumerate(tasks), crew, _attempt, _lost, _ran_out)) as batches,
     ):
-        try:
-            for place, attempt in (each for batch in batches for each in batch):
-                if isinstance(attempt.error, LostError):
-                    raise LostError(f"a {what} was not solved: {attempt.error}")
-                if attempt.error is not None:
-                    raise attempt.error
-                done(place, cast("T", attempt.result))
-        except LostError as error:
-            error.add_note(_GUARD)
-            raise
+        for place, attempt in (each for batch in batches for each in batch):
+            if isinstance(attempt.error, LostError):
+                raise LostError(f"a {what} was not solved: {attempt.error}")
+            if attempt.error is not None:
+                raise attempt.error
+            done(place, cast("T", attempt.result))
 
 
 def _attempt(task: Callable[[], T]) -> _Attempt[T]:

@@ -130,12 +130,11 @@ def processes(number: int) -> Iterator[Crew]:
 
 def _pool(number: int) -> ProcessPoolExecutor:
     # Every command asks for the number of cores; few start processes.
-    import multiprocessing
     from concurrent.futures import ProcessPoolExecutor
 
-    return ProcessPoolExecutor(
-        number, mp_context=multiprocessing.get_context("spawn"), initializer=_prepare_process
-    )
+    from ehlectric.runtime.parallel.spawning import Context
+
+    return ProcessPoolExecutor(number, mp_context=Context(), initializer=_prepare_process)
 
 
 def _prepare_process() -> None:

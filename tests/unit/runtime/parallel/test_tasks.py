@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ehlectric.errors import InputError, LostError
-from ehlectric.runtime.tasks import run_all
+from ehlectric.runtime.parallel.tasks import run_all
 
 
 def marked(folder, text, act):
@@ -54,7 +54,6 @@ def test_a_task_that_kills_every_process_is_lost():
     with pytest.raises(LostError, match=r"^a contact was not solved: its process was killed twice") as error:
         run_all([die], lambda _number, _result: None, limit=1, what="contact")
     assert "\n" not in str(error.value)
-    assert '__name__ == "__main__"' in error.value.__notes__[0]  # for scripts, not in the line of a command
 
 
 def test_errors_of_tasks_are_raised_here():
