@@ -68,7 +68,6 @@ sphinx_gallery_conf = {
     "image_srcset": ["2x"],
     "remove_config_comments": True,
     "capture_repr": (),  # what is printed is shown, and no value besides
-    "notebook_extensions": set(),
     "show_memory": False,
     "show_signature": False,
     "min_reported_time": 1e9,

@@ -445,7 +445,7 @@ _GROUPS = {
         "run_motion",
         "film_factors",
     ),
-    "Cases": ("Case", "LineCase", "PointCase", "BearingCase", "Sweep"),
+    "Cases": ("Case", "LineCase", "PointCase", "BearingCase", "Sweep", "example"),
     "Oils": ("oil",),
     "Results": (
         "Result",

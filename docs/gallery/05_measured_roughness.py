@@ -20,7 +20,7 @@ case = ehlectric.Case.from_dict(
         "roughness": [
             {
                 "surface": 1,
-                "file": "../../examples/surfaces/dektak-1.csv",
+                "file": str(ehlectric.example("surfaces/dektak-1.csv")),
                 "form": "parabola",
                 "cutoff_long": "80 um",
                 "truncate": "50 nm",

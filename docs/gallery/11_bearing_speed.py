@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 
 import ehlectric
 
-bearing = ehlectric.BearingCase.from_toml("../../examples/bearing_6208.toml").replace({"contacts": "atlas"})
+bearing = ehlectric.BearingCase.from_toml(ehlectric.example("bearing_6208")).replace({"contacts": "atlas"})
 result = ehlectric.solve(bearing)
 
 # %%

@@ -13,7 +13,7 @@ import ehlectric
 sweep = ehlectric.Sweep.from_dict(
     {
         "title": "A line contact over speed and load",
-        "case": "../../examples/discharge.toml",
+        "case": ehlectric.example("discharge"),
         "vary": {
             "contact.entrainment_speed": {"from": "0.5 m/s", "to": "4 m/s", "count": 4, "spacing": "log"},
             "contact.load_per_length": {"from": "0.8 MN/m", "to": "2 MN/m", "count": 4, "spacing": "log"},

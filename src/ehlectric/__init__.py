@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ehlectric.motion.run import run_motion
     from ehlectric.motion.stored_run import read_motion
     from ehlectric.report.files import write_report
+    from ehlectric.runs.example_files import example
     from ehlectric.runs.exports.files import export
     from ehlectric.runs.film_factors import film_factors
     from ehlectric.runs.results import load, save
@@ -53,6 +54,7 @@ __all__ = [  # noqa: RUF022
     "BearingCase",
     "DriveCase",
     "oil",
+    "example",
     "Sweep",
     "run_sweep",
     "run_motion",
@@ -95,6 +97,7 @@ _HOMES = {
     "PointCase": "cases.case",
     "BearingCase": "cases.bearings.case",
     "oil": "cases.oils.named",
+    "example": "runs.example_files",
     "Sweep": "sweep.inputs",
     "run_sweep": "sweep.run",
     "run_motion": "motion.run",

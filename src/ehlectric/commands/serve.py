@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 import typer
@@ -73,5 +74,13 @@ def app(
         from ehlectric.app.start import start
         from ehlectric.app.work import limits_of
 
+        _finite(memory, "--memory")
+        _finite(time_limit, "--time-limit")
         limits = limits_of(jobs=jobs, gigabytes=memory, minutes=time_limit)
         start(host, port, browser=browser, tell=say, limits=limits)
+
+
+def _finite(value: float | None, option: str) -> None:
+    """Refuse NaN and infinite numbers, which every comparison with a bound lets pass or not by chance."""
+    if value is not None and not math.isfinite(value):
+        raise InputError(option, got=value, takes="a finite number")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from pathlib import Path
 
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, shown
 
 _HERE = Path(__file__).parent
 
@@ -21,6 +22,44 @@ def examples_folder() -> Path:
         if (folder / "line_contact.toml").is_file():
             return folder
     raise InputError("examples", "are not part of this installation", takes="one by pip, or the repository")
+
+
+def example(name: str) -> Path:
+    """Path of an example that comes with ehlectric, or of a surface or measurement that it needs.
+
+    Parameters
+    ----------
+    name : str
+        Name of a file as ``ehlectric examples`` lists it, such as "bearing_6208" or "surfaces/dektak-1.csv";
+        ".toml" may be left out.
+
+    Returns
+    -------
+    Path
+        The file, which belongs to the package: copy it before you change it.
+
+    Raises
+    ------
+    InputError
+        If there is no such example, or the examples are not part of this installation.
+
+    Examples
+    --------
+    >>> example("line_contact").name
+    'line_contact.toml'
+    >>> example("bearing")
+    Traceback (most recent call last):
+    ehlectric.errors.InputError: example: got 'bearing'; expected a name that ehlectric examples lists, as
+    'bearing_6208'
+    """
+    folder = examples_folder()
+    files = [path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.is_file()]
+    found = name if name in files else f"{name}.toml"
+    if found not in files:
+        (near,) = get_close_matches(name, [file.removesuffix(".toml") for file in files], n=1, cutoff=0.0)
+        takes = f"a name that ehlectric examples lists, as {near!r}"
+        raise InputError("example", got=shown(name), takes=takes)
+    return folder / found
 
 
 def example_text(name: str) -> str:

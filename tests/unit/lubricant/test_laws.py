@@ -81,7 +81,8 @@ def test_roelands_lies_below_barus_where_z_is_below_one(pressure, parameters):
 @given(low=pressures, high=pressures)
 def test_laws_rise_with_pressure(law, parameters, low, high):
     low, high = sorted((low, high))
-    assert law(low, **parameters)[0] <= law(high, **parameters)[0]
+    rounding = 4.0 * np.finfo(float).eps
+    assert law(low, **parameters)[0] <= law(high, **parameters)[0] * (1.0 + rounding)
 
 
 @pytest.mark.parametrize(("law", "parameters"), PRESSURE_LAWS)

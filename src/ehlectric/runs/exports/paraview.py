@@ -64,7 +64,8 @@ def vtkhdf_file(result: Any) -> bytes:
             group = root.create_group(name, track_order=True)
             group.attrs["Index"] = index
             _grid(group, dataset, tuple(map(str, dims)), height)
-            assembly[name] = h5py.SoftLink(f"/VTKHDF/{name}")
+            # A node of its own: VTK before 9.6 takes no names from the blocks themselves.
+            assembly.create_group(name, track_order=True)[name] = h5py.SoftLink(f"/VTKHDF/{name}")
         target.attrs["source"] = f"ehlectric {__version__}, SI units"
         target.attrs["title"] = str(dataset.attrs.get("title", ""))
     return file.getvalue()

@@ -65,9 +65,10 @@ def blocks(path):
     reader.SetFileName(str(path))
     reader.Update()
     found = reader.GetOutputDataObject(0)
+    tree = found.GetDataAssembly()
     return {
-        found.GetMetaData(k).Get(found.NAME()): found.GetPartition(k, 0)
-        for k in range(found.GetNumberOfPartitionedDataSets())
+        tree.GetNodeName(node): found.GetPartition(tree.GetDataSetIndices(node)[0], 0)
+        for node in tree.GetChildNodes(tree.GetRootNode(), False)
     }
 
 
