@@ -52,7 +52,7 @@ def example(name: str) -> Path:
     ehlectric.errors.InputError: example: got 'bearing'; expected a name that ehlectric examples lists, as
     'bearing_6208'
     """
-    folder = examples_folder()
+    folder, name = examples_folder(), str(name)
     files = [path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.is_file()]
     found = name if name in files else f"{name}.toml"
     if found not in files:

@@ -67,8 +67,8 @@ LARSSON_C = {
 def around(parameters, share=0.15):
     """Strategy of parameters within a share of those of an oil.
 
-    The temperatures stay, and the exponent q of the scaled conductivity: with a larger one, kappa itself rises
-    with pressure above 400 K, where (1 + q) |a| T / T_ref exceeds 1.
+    The temperatures stay, and the exponent q of the scaled conductivity: with a larger one, kappa itself
+    rises with pressure above 400 K, where (1 + q) |a| T / T_ref exceeds 1.
     """
     fixed = {"reference_temperature", "larsson_temperature", "modulus_a1", "modulus_b1", "scaling_q"}
     return st.fixed_dictionaries(
