@@ -11,6 +11,7 @@ import numpy as np
 from ehlectric.arrays import Array, IntArray
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.errors import InputError
+from ehlectric.motion.result import MotionResult
 from ehlectric.runtime.netcdf import load_library
 from ehlectric.version import __version__
 
@@ -24,16 +25,17 @@ _CELLS = {1: 3, 2: 9, 3: 12}
 
 
 def vtkhdf_file(result: Any) -> bytes:
-    """Content of a VTKHDF file: the blocks "film" and "field" of a contact, in SI units.
+    """Content of a VTKHDF file in SI units: the blocks "film" and "field" of a contact, or a film over time.
 
     The film of a line contact is its upper surface as a line over x, with the film thickness as y; that of a
     point contact is a surface over x and y, with the film thickness as z. The field fills the gap between the
     deformed surfaces. Every array of the dataset that lies on one of both grids is a value of its points. The
-    gap is thousands of times wider than high: scale its height in ParaView (Transform, Scale).
+    gap is thousands of times wider than high: scale its height in ParaView (Transform, Scale). With moving
+    roughness the film has a time step for each recorded instant, and there is no field in the gap.
 
     Parameters
     ----------
-    result : Result or PointResult
+    result : Result, PointResult or MotionResult
         Result of a contact.
 
     Raises
@@ -41,34 +43,65 @@ def vtkhdf_file(result: Any) -> bytes:
     InputError
         If the result is another one: it has no film and field on a grid.
     """
-    if not isinstance(result, Result | PointResult):
+    if not isinstance(result, Result | PointResult | MotionResult):
         raise InputError(
             ".vtkhdf",
             "holds film and field of a contact",
-            takes=".mat or .xlsx for results of bearings, drives, sweeps and moving roughness",
+            takes=".mat or .xlsx for results of bearings, drives and sweeps",
         )
     load_library()
     import h5py
 
     dataset = result.to_xarray()
-    plane = ("x",) if "y_field" not in dataset.dims else ("x", "y")
-    heights = dataset["y" if len(plane) == 1 else "z"]
-    blocks = {"film": (plane, dataset["thickness"]), "field": (heights.dims, heights)}
     file = BytesIO()
     with h5py.File(file, "w", track_order=True) as target:
         root = target.create_group("VTKHDF", track_order=True)
         root.attrs["Version"] = np.array(_VERSION)
-        _type(root, "PartitionedDataSetCollection")
-        assembly = root.create_group("Assembly", track_order=True)
-        for index, (name, (dims, height)) in enumerate(blocks.items()):
-            group = root.create_group(name, track_order=True)
-            group.attrs["Index"] = index
-            _grid(group, dataset, tuple(map(str, dims)), height)
-            # A node of its own: VTK before 9.6 takes no names from the blocks themselves.
-            assembly.create_group(name, track_order=True)[name] = h5py.SoftLink(f"/VTKHDF/{name}")
+        (_moving if isinstance(result, MotionResult) else _stationary)(root, dataset)
         target.attrs["source"] = f"ehlectric {__version__}, SI units"
-        target.attrs["title"] = str(dataset.attrs.get("title", ""))
+        target.attrs["title"] = result.case.title
     return file.getvalue()
+
+
+def _stationary(root: h5py.Group, dataset: xr.Dataset) -> None:
+    """Write film and field of a contact as two blocks."""
+    import h5py
+
+    plane = ("x",) if "y_field" not in dataset.dims else ("x", "y")
+    heights = dataset["y" if len(plane) == 1 else "z"]
+    blocks = {"film": (plane, dataset["thickness"]), "field": (heights.dims, heights)}
+    _type(root, "PartitionedDataSetCollection")
+    assembly = root.create_group("Assembly", track_order=True)
+    for index, (name, (dims, height)) in enumerate(blocks.items()):
+        group = root.create_group(name, track_order=True)
+        group.attrs["Index"] = index
+        group.attrs["Version"] = np.array(_VERSION)
+        own = tuple(map(str, dims))
+        _grid(group, tuple(dataset.sizes[dim] for dim in own), _points(dataset, own, height))
+        _values(group, dataset, own)
+        # A node of its own: VTK before 9.6 takes no names from the blocks themselves.
+        assembly.create_group(name, track_order=True)[name] = h5py.SoftLink(f"/VTKHDF/{name}")
+
+
+def _moving(root: h5py.Group, dataset: xr.Dataset) -> None:
+    """Write the film at all recorded instants: the points of all of them, and their cells once."""
+    plane = ("x",) if "y" not in dataset.dims else ("x", "y")
+    film = dataset["thickness"].transpose("frame", *plane)
+    times = dataset["frame_time"].values
+    sizes = tuple(dataset.sizes[dim] for dim in plane)
+    number = int(np.prod(sizes))
+    _grid(root, sizes, np.concatenate([_points(dataset, plane, one) for one in film]))
+    steps = root.create_group("Steps", track_order=True)
+    steps.attrs["NSteps"] = len(times)
+    steps["Values"] = times
+    steps["NumberOfParts"] = np.ones(len(times), dtype=np.int64)
+    steps["PointOffsets"] = number * np.arange(len(times))
+    steps["PartOffsets"] = np.zeros(len(times), dtype=np.int64)
+    for name in ("CellOffsets", "ConnectivityIdOffsets"):
+        steps[name] = np.zeros((len(times), 1), dtype=np.int64)
+    offsets = steps.create_group("PointDataOffsets", track_order=True)
+    for name in _values(root, dataset, ("frame", *plane)):
+        offsets[name] = number * np.arange(len(times))
 
 
 def _type(group: h5py.Group, name: str) -> None:
@@ -78,25 +111,27 @@ def _type(group: h5py.Group, name: str) -> None:
     group.attrs.create("Type", name.encode(), dtype=h5py.string_dtype("ascii", len(name)))
 
 
-def _grid(group: h5py.Group, dataset: xr.Dataset, dims: tuple[str, ...], height: xr.DataArray) -> None:
-    """Unstructured grid of all points of some dimensions, with the arrays that lie on them."""
-    sizes = tuple(dataset.sizes[dim] for dim in dims)
-    points = _points(dataset, dims, height)
+def _grid(group: h5py.Group, sizes: tuple[int, ...], points: Array) -> None:
+    """Write an unstructured grid of these sizes; points of several instants are behind each other."""
     connected = cells(sizes)
-    group.attrs["Version"] = np.array(_VERSION)
     _type(group, "UnstructuredGrid")
-    group["NumberOfPoints"] = np.array([len(points)])
+    group["NumberOfPoints"] = np.array([int(np.prod(sizes))])
     group["NumberOfCells"] = np.array([len(connected)])
     group["NumberOfConnectivityIds"] = np.array([connected.size])
     group["Points"] = points
     group["Connectivity"] = connected.ravel()
     group["Offsets"] = np.arange(0, connected.size + 1, connected.shape[1])
     group["Types"] = np.full(len(connected), _CELLS[len(sizes)], dtype=np.uint8)
+
+
+def _values(group: h5py.Group, dataset: xr.Dataset, dims: tuple[str, ...]) -> list[str]:
+    """Write all arrays of some dimensions as values of the points, and return their names."""
     data = group.create_group("PointData", track_order=True)
     for name, values in dataset.data_vars.items():
         if values.dims == dims and np.issubdtype(values.dtype, np.number):
             own = data.create_dataset(str(name), data=values.values.ravel(), compression="gzip", shuffle=True)
             own.attrs["units"] = str(values.attrs.get("units", ""))
+    return list(data)
 
 
 def _points(dataset: xr.Dataset, dims: tuple[str, ...], height: xr.DataArray) -> Array:

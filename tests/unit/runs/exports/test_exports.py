@@ -22,10 +22,12 @@ from ehlectric import (
     solve,
     solve_bearing,
     solve_drive,
+    solve_motion,
 )
 from ehlectric.runs.exports.matlab import matlab_names
 from ehlectric.runs.exports.paraview import cells
 from tests.helpers.drives import small_drive
+from tests.helpers.moving_cases import TABLES, moving
 from tests.helpers.places import EXAMPLES
 from tests.helpers.sweep_models import SPEED
 from tests.helpers.sweep_models import case as contact
@@ -213,6 +215,31 @@ def test_a_stored_result_is_exported_as_the_one_that_was_saved(line, tmp_path):
     first = export(tmp_path / "out", tmp_path / "a.vtkhdf")
     second = export(line, tmp_path / "b.vtkhdf")
     assert np.array_equal(points_of(blocks(first)["field"]), points_of(blocks(second)["field"]))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_paraview_reads_a_moving_film(geometry, tmp_path):
+    """Points and values of every recorded instant, at its time."""
+    run = solve_motion(moving(TABLES[geometry]))
+    reader = vtkHDFReader()
+    reader.SetFileName(str(export(run, tmp_path / "moving.vtkhdf")))
+    reader.UpdateInformation()
+    film = run.dataset["thickness"]
+    plane = [run.dataset[name].values for name in film.dims[1:]]
+    assert reader.GetNumberOfSteps() == film.sizes["frame"] > 3
+    for step in (0, 2, film.sizes["frame"] - 1):
+        reader.SetStep(step)
+        reader.Update()
+        grid = reader.GetOutputDataObject(0)
+        assert reader.GetTimeValue() == run.frame_time[step]
+        positions = [axis.ravel() for axis in np.meshgrid(*plane, indexing="ij")]
+        height = film.values[step].ravel()
+        assert np.array_equal(points_of(grid)[:, : len(plane) + 1], np.column_stack([*positions, height]))
+        assert np.array_equal(values_of(grid, "pressure"), run.dataset["pressure"].values[step].ravel())
+        sizes = sizes_of(grid, "Length" if len(plane) == 1 else "Area")
+        assert len(sizes) == np.prod([len(axis) - 1 for axis in plane])
+        assert np.all(sizes > 0.0)
 
 
 def test_what_cannot_be_exported_is_refused(bearing, tmp_path):
