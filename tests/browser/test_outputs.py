@@ -6,7 +6,11 @@ import json
 import tomllib
 import zipfile
 
+import h5py
+import numpy as np
+import openpyxl
 import pytest
+from scipy.io import loadmat
 
 from ehlectric.cases.row import amount
 from tests.browser.driving import type_into, wait_for_number
@@ -63,6 +67,7 @@ def test_every_output_has_the_numbers_of_the_command(open_page, app_server, tmp_
     for title, content in page_tables.items():
         assert rows_of(content) == rows_of((own / title).read_bytes()), title
     assert_same_netcdf(files_of(downloaded(page, "download-netcdf", tmp_path), "nc"), own)
+    assert_exports(page, tmp_path, own, kind)
     figures = files_of(downloaded(page, "download-figures", tmp_path), "")
     drawn = {path.stem for path in own.glob("*.png")}
     assert {
@@ -76,6 +81,42 @@ def test_every_output_has_the_numbers_of_the_command(open_page, app_server, tmp_
     (toml,) = (content for title, content in everything.items() if title.endswith(".toml"))
     assert tomllib.loads(toml.decode()) == tomllib.loads(case.read_text("utf-8"))
     assert_reports(page, tmp_path, kind, expected)
+
+
+def assert_exports(page, folder, own, kind):
+    """Files for other programs have the values that the command exports; ParaView takes contacts alone."""
+    assert page.get_by_test_id("download-vtkhdf").count() == (kind == "contact")
+    for ending, values in _EXPORTED.items():
+        if ending == "vtkhdf" and kind != "contact":
+            continue
+        theirs = folder / f"by_command.{ending}"
+        command("export", own, "-o", theirs, "--quiet", folder=folder)
+        assert values(downloaded(page, f"download-{ending}", folder)) == values(theirs) != {}
+
+
+def _arrays(path):
+    """Arrays of a .mat file by name, without its summary, which has computing times."""
+    return {
+        name: array.tobytes()
+        for name, array in loadmat(path).items()
+        if isinstance(array, np.ndarray) and array.dtype.kind in "fiu"
+    }
+
+
+def _rows(path):
+    table = openpyxl.load_workbook(path)["table"]
+    return dict(enumerate(table.values))
+
+
+def _points(path):
+    found = {}
+    with h5py.File(path) as file:
+        for name in ("film", "field"):
+            found[name] = file[f"VTKHDF/{name}/Points"][:].tobytes()
+    return found
+
+
+_EXPORTED = {"mat": _arrays, "xlsx": _rows, "vtkhdf": _points}
 
 
 def assert_reports(page, folder, kind, summary):

@@ -28,6 +28,7 @@ from ehlectric.cases.table import tables_of_text
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runs.by_kind import RUNS
+from ehlectric.runs.exports.files import export
 from ehlectric.runs.folders import stored_result
 from ehlectric.runs.results import load
 from ehlectric.runtime.parallel.workers import cores
@@ -323,3 +324,29 @@ def report(out: Path, ending: str, title: str, folder: Path, progress: Progress)
     target = folder / PACKED / f"{title}.{ending}"
     import_module("ehlectric.report.files").write_report(out, target)
     return str(target)
+
+
+def exported(out: Path, ending: str, title: str, folder: Path, progress: Progress) -> str:
+    """File of a result for another program, and its path.
+
+    Parameters
+    ----------
+    out : Path
+        Folder of the result.
+    ending : str
+        "mat", "xlsx" or "vtkhdf".
+    title : str
+        Name of the file, without its ending.
+    folder : Path
+        Folder of the session.
+    progress : callable
+        As ``runtime.progress`` tells it.
+
+    Raises
+    ------
+    InputError
+        If the result has no such form, or a package is missing.
+    """
+    progress(0, 0, "converting the result")
+    (folder / PACKED).mkdir(exist_ok=True)
+    return str(export(out, folder / PACKED / f"{title}.{ending}"))

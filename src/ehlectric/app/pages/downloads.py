@@ -9,7 +9,14 @@ from typing import Any, Literal
 
 from nicegui import ui
 
-from ehlectric.app.answers.calls import FILES_DRAWN, FILES_PACKED, FILES_REPORT, FILES_WRITTEN
+from ehlectric.app.answers.call import Call
+from ehlectric.app.answers.calls import (
+    FILES_DRAWN,
+    FILES_EXPORTED,
+    FILES_PACKED,
+    FILES_REPORT,
+    FILES_WRITTEN,
+)
 from ehlectric.app.answers.files import Download, Written, file_title
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.parts import JobBox, card
@@ -25,6 +32,12 @@ _FILES: tuple[tuple[str, str, Download], ...] = (
     ("download-summary", "Key figures (JSON)", "summary"),
     ("download-figures", "Figures (SVG, PNG)", "figures"),
     ("download-all", "Everything (ZIP)", "all"),
+)
+# For other programs: data-testid, words, ending, and the kinds of pages whose results have this form.
+_EXPORTS: tuple[tuple[str, str, str, tuple[str, ...]], ...] = (
+    ("download-mat", "MATLAB, Octave (MAT)", "mat", ("bearing", "drive", "contact", "sweep")),
+    ("download-xlsx", "Spreadsheet (XLSX)", "xlsx", ("bearing", "drive", "contact", "sweep")),
+    ("download-vtkhdf", "ParaView (VTKHDF)", "vtkhdf", ("contact",)),
 )
 _REPORTS = (
     ("download-report-pdf", "Report (PDF)", "pdf"),
@@ -84,7 +97,7 @@ class Downloads:
                 if not only_reports:
                     self._file_buttons()
                 for test, words, ending in _REPORTS:
-                    _button(words, test, partial(self._wanted, partial(self._report, ending)))
+                    _button(words, test, partial(self._wanted, partial(self._convert, FILES_REPORT, ending)))
             self._box = JobBox(self._ended)
             self._status = ui.label().classes("told-status").props('role="status"')
             self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-download"')
@@ -96,6 +109,9 @@ class Downloads:
         _button("Case (TOML)", "download-toml", self.toml)
         for test, words, what in _FILES:
             _button(words, test, partial(self._wanted, partial(self._pack, what)))
+        for test, words, ending, kinds in _EXPORTS:
+            if self._kind in kinds:
+                _button(words, test, partial(self._wanted, partial(self._convert, FILES_EXPORTED, ending)))
 
     @property
     def title(self) -> str:
@@ -183,9 +199,9 @@ class Downloads:
         else:
             self._offer(Path(path))
 
-    async def _report(self, ending: str, out: Path) -> None:
-        """Download a report on a folder of results."""
-        self._start(FILES_REPORT, out, ending, self.title, self.session.folder)
+    async def _convert(self, call: Call[str], ending: str, out: Path) -> None:
+        """Download a report on a folder of results, or its result in the form of another program."""
+        self._start(call, out, ending, self.title, self.session.folder)
 
     def _offer(self, path: Path) -> None:
         """Download a file of the session."""
