@@ -1,4 +1,4 @@
-# The web app of ehlectric in a container, with the locked versions of its dependencies:
+# The web app of ehlectric in a container, with the locked versions of its dependencies, each file checked by its hash:
 #   docker build -t ehlectric .
 #   docker run --rm -p 8080:8080 ehlectric
 # It prints an address with a token, http://localhost:8080/?token=... Open it as it is on this machine; on another one put
@@ -10,8 +10,9 @@ RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
 
 FROM python:3.13-slim
 COPY --from=wheel /wheels /wheels
-COPY requirements.lock /wheels/
-RUN pip install --no-cache-dir --constraint /wheels/requirements.lock "$(ls /wheels/*.whl)[app,excel]" \
+COPY requirements.hashes /wheels/
+RUN pip install --no-cache-dir --require-hashes --requirement /wheels/requirements.hashes \
+ && pip install --no-cache-dir --no-deps /wheels/*.whl \
  && rm -r /wheels \
  && useradd --create-home ehlectric
 USER ehlectric

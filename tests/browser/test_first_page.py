@@ -20,6 +20,7 @@ def capacitance(load="1800 N"):
     return 1e12 * summary_of(solve_bearing(case).solution)["bearing"]["capacitance"]
 
 
+@pytest.mark.slow
 def test_the_first_page_has_its_answer(page, screenshot):
     wait_for_number(page, "capacitance", capacitance())
     assert page.get_by_test_id("verdict").inner_text().strip()
@@ -28,6 +29,7 @@ def test_the_first_page_has_its_answer(page, screenshot):
     screenshot(page, "first_page")
 
 
+@pytest.mark.slow
 def test_two_tabs_are_independent(page, open_page, app_server):
     wait_for_number(page, "capacitance", capacitance())
     other = open_page(app_server)

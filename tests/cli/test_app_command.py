@@ -75,12 +75,14 @@ def test_a_long_path_of_temporary_files_is_no_obstacle(tmp_path):
     assert not list(server.temporary.iterdir())
 
 
+@pytest.mark.slow
 def test_a_server_that_is_stopped_while_it_loads_ends(tmp_path):
     server = AppServer(tmp_path)
     assert server.stop() == 0
     assert not list(server.temporary.iterdir())
 
 
+@pytest.mark.slow
 def test_a_taken_port_is_one_line(ehlectric):
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
@@ -94,6 +96,7 @@ def test_a_taken_port_is_one_line(ehlectric):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "told"),
     [
@@ -128,6 +131,7 @@ def test_a_missing_nicegui_is_one_line(tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_the_process_of_the_server_loads_no_physics():
     heavy = "{'numpy', 'scipy', 'pint', 'pandas', 'matplotlib'}"
     code = f"import sys, ehlectric.app.server; print(sorted({heavy} & set(sys.modules)))"
@@ -135,6 +139,7 @@ def test_the_process_of_the_server_loads_no_physics():
     assert done.stdout == "[]\n"
 
 
+@pytest.mark.slow
 def test_processes_load_what_a_bearing_by_formula_needs_and_no_more():
     heavy = "{'pint', 'pandas', 'xarray', 'matplotlib', 'h5netcdf', 'h5py', 'nicegui'}"
     code = f"import sys, ehlectric.app.compute.preload; print(sorted({heavy} & set(sys.modules)))"
@@ -142,6 +147,7 @@ def test_processes_load_what_a_bearing_by_formula_needs_and_no_more():
     assert done.stdout == "[]\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "path", ["/docs", "/redoc", "/openapi.json", "/nothing", "/_nicegui", "/static/", "/.env"]
 )
@@ -152,6 +158,7 @@ def test_there_is_nothing_beside_the_pages(server, path):
     assert str(server.folder) not in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["static", "libraries", "components", "resources/x", "esm/nicegui-plotly"])
 @pytest.mark.parametrize("up", ["../", "%2e%2e/", "..%2f", "....//"])
 def test_no_path_leads_out_of_the_files_of_nicegui(server, part, up):
@@ -161,6 +168,7 @@ def test_no_path_leads_out_of_the_files_of_nicegui(server, part, up):
     assert "root:" not in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "headers", [{"host": "attacker.example"}, {"origin": "http://attacker.example"}], ids=["name", "site"]
 )
@@ -169,11 +177,13 @@ def test_other_names_and_other_sites_are_refused(server, path, headers):
     assert ask(server, path, **headers)[0] == 403
 
 
+@pytest.mark.slow
 def test_a_large_upload_is_refused_before_it_is_sent(server):
     status, _, text = ask(server, "/", "POST", content_length="2000000000")
     assert (status, text) == (413, "A request has at most 100 MB.")
 
 
+@pytest.mark.slow
 def test_a_page_binds_its_browser_to_the_server(server):
     status, headers, text = ask(server, "/")
     assert status == 200
@@ -183,6 +193,7 @@ def test_a_page_binds_its_browser_to_the_server(server):
     assert "https://" not in text
 
 
+@pytest.mark.slow
 def test_a_server_for_others_asks_for_its_token(tmp_path):
     server = AppServer(tmp_path, "--host", "0.0.0.0")
     query = server.address.partition("localhost")[2].partition("/")[2]

@@ -49,6 +49,7 @@ def by_formula(text):
     return 'contacts = "formula"\n' + text
 
 
+@pytest.mark.slow
 def test_a_bearing_that_breaks_down_says_so_last(ehlectric, bearing_file, tmp_path):
     """A margin below one is a warning, and the last line is the answer."""
     bearing_file.write_text(by_formula(ROLLERS.replace("15 V/um", "4 V/um")))
@@ -70,6 +71,7 @@ def test_a_bearing_that_breaks_down_says_so_last(ehlectric, bearing_file, tmp_pa
     assert json.loads(again.stdout)["verdict"] == summary["verdict"]
 
 
+@pytest.mark.slow
 def test_a_bearing_without_a_strength_says_so(ehlectric, bearing_file):
     bearing_file.write_text(by_formula(ROLLERS.replace('dielectric_strength = "15 V/um"\n', "")))
     done = ehlectric("bearing", bearing_file, "-o", "out", "--no-plots")
@@ -78,6 +80,7 @@ def test_a_bearing_without_a_strength_says_so(ehlectric, bearing_file):
     assert "no dielectric strength given, no breakdown voltage" in done.stdout.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_a_speed_in_rad_per_second_is_seen_at_once(ehlectric, bearing_file):
     """The table has the speed in rpm, whatever the title says."""
     text = ROLLERS.replace('"Rollers"', '"3000 rpm"').replace(
@@ -90,6 +93,7 @@ def test_a_speed_in_rad_per_second_is_seen_at_once(ehlectric, bearing_file):
     assert " at 28650 rpm, 70 °C" in done.stdout.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_a_bearing(ehlectric, bearing_file, tmp_path):
     done = ehlectric("bearing", bearing_file, "-o", "out")
     assert done.returncode == 0, done.stderr
@@ -155,6 +159,7 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
     assert json.loads(done.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "new", "line"),
     [
@@ -194,6 +199,7 @@ def test_wrong_files_are_one_line(ehlectric, bearing_file, tmp_path, old, new, l
     assert not list(tmp_path.glob("out/*"))
 
 
+@pytest.mark.slow
 def test_a_missing_file_is_one_line(ehlectric, tmp_path):
     done = ehlectric("bearing", "none.toml", "-o", "out")
     assert done.returncode == 2

@@ -3,6 +3,8 @@
 import csv
 import json
 
+import pytest
+
 from tests.helpers.places import EXAMPLES
 
 SWEEP = f"""
@@ -15,6 +17,7 @@ design = "grid"
 """
 
 
+@pytest.mark.slow
 def test_the_example_conducts_at_times(ehlectric, tmp_path):
     done = ehlectric("bearing", str(EXAMPLES / "bearing_thin_oil.toml"), "--no-plots", "-o", "out")
     assert done.returncode == 0, done.stderr
@@ -31,6 +34,7 @@ def test_the_example_conducts_at_times(ehlectric, tmp_path):
     assert "by Clarke's fit over lambda" in printed
 
 
+@pytest.mark.slow
 def test_map_of_the_regimes(ehlectric, tmp_path):
     (tmp_path / "sweep.toml").write_text(SWEEP)
     assert ehlectric("sweep", "sweep.toml", "-o", "out", "-q").returncode == 0

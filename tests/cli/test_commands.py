@@ -19,6 +19,7 @@ FIGURES = {"film.png", "field_strength.png", "field_profiles.png", "field_deviat
 DATA = {"summary.json", "result.nc", "film.csv"}
 
 
+@pytest.mark.slow
 def test_run_writes_everything(ehlectric, case_file, tmp_path):
     done = ehlectric("run", case_file, "-o", "out")
     assert done.returncode == 0, done.stderr
@@ -75,6 +76,7 @@ def test_quiet_prints_nothing(ehlectric, case_file):
     assert ehlectric("run", case_file, "--no-plots", "--quiet").stderr == ""
 
 
+@pytest.mark.slow
 def test_not_converged_is_exit_3_with_all_files(ehlectric, case_file, tmp_path):
     case_file.write_text(CASE + "[solver]\nmax_iterations = 1\n")
     done = ehlectric("run", case_file, "-o", "out")
@@ -102,6 +104,7 @@ def test_films_thinner_than_the_boundary_film_are_contact(ehlectric, case_file, 
     assert summary["asperities"]["behaviour"] == "resistive"
 
 
+@pytest.mark.slow
 def test_surfaces_that_touch_are_said(ehlectric, case_file, tmp_path):
     rough = '[[roughness]]\nsurface = 2\ngenerator = "gaussian"\nrq = "200 nm"\nseed = 1\n'
     case_file.write_text(CASE.replace("2 m/s", "1 mm/s") + rough + 'correlation_length = "5 um"\n')
@@ -131,6 +134,7 @@ def test_a_folder_holds_one_result(ehlectric, case_file, tmp_path):
     assert {path.name for path in (tmp_path / "out").iterdir()} == DATA
 
 
+@pytest.mark.slow
 def test_termination_leaves_no_stray_files(case_file, tmp_path):
     process = subprocess.Popen([COMMAND, "run", case_file, "-o", tmp_path / "out"], stderr=subprocess.PIPE)
     while not (tmp_path / "out" / "summary.json").exists() and process.poll() is None:
@@ -140,6 +144,7 @@ def test_termination_leaves_no_stray_files(case_file, tmp_path):
     assert not [path for path in (tmp_path / "out").iterdir() if path.name.startswith(".")]
 
 
+@pytest.mark.slow
 def test_reader_that_leaves(case_file, tmp_path):
     """As in ``ehlectric check case.toml | head -1``."""
     process = subprocess.Popen(
@@ -160,6 +165,7 @@ def test_example_is_the_first_case_of_the_paper(ehlectric, tmp_path):
     assert film["central_thickness"] == pytest.approx(0.7076e-6, rel=2e-4, abs=0.0)
 
 
+@pytest.mark.slow
 def test_plot_redraws(ehlectric, case_file, tmp_path):
     ehlectric("run", case_file, "-o", "out", "--no-plots")
     done = ehlectric("plot", "out/result.nc", "-o", "figures")
@@ -212,6 +218,7 @@ def test_surface_shows_its_summits(ehlectric):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "files"),
     [
@@ -329,6 +336,7 @@ def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert ehlectric("init", "new.toml", "--force").returncode == 0
 
 
+@pytest.mark.slow
 def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
     assert ehlectric("init", "ball.toml", "--geometry", "point").returncode == 0
     assert Case.from_toml(tmp_path / "ball.toml").contact.geometry == "point"

@@ -8,6 +8,7 @@ from ehlectric import Case
 from tests.helpers.places import EXAMPLES
 
 
+@pytest.mark.slow
 def test_discharge_example(ehlectric, tmp_path):
     done = ehlectric("run", EXAMPLES / "discharge.toml", "-o", "out", "--no-plots")
     assert (done.returncode, done.stderr) == (0, "")

@@ -31,6 +31,7 @@ def drive(tmp_path):
     return path
 
 
+@pytest.mark.slow
 def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     drive.write_text(SHORT + REMEDY)
     done = ehlectric("drive", "drive.toml", "-o", "out", "--format", "svg")
@@ -58,6 +59,7 @@ def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     assert 0.0 <= times[0] <= times[-1] <= 0.02
 
 
+@pytest.mark.slow
 def test_a_stored_drive_is_drawn_again(ehlectric, drive, tmp_path):
     assert ehlectric("drive", drive, "-o", "out", "-q", "--no-plots").returncode == 0
     assert not list((tmp_path / "out").glob("*.png"))
@@ -67,6 +69,7 @@ def test_a_stored_drive_is_drawn_again(ehlectric, drive, tmp_path):
     assert drawn == sorted(set(DRIVE_FIGURE_FILES) - {"drive_remedies.png"})
 
 
+@pytest.mark.slow
 def test_a_stored_drive_has_a_report(ehlectric, drive, tmp_path):
     """As a page and on paper, with the numbers of summary.json; a damaged file is refused."""
     drive.write_text(SHORT + REMEDY)
@@ -89,6 +92,7 @@ def test_a_stored_drive_has_a_report(ehlectric, drive, tmp_path):
     assert "drive.nc" in done.stderr
 
 
+@pytest.mark.slow
 def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
     for name in ("one", "two"):
         assert ehlectric("drive", drive, "-o", name, "-q", "--no-plots").returncode == 0

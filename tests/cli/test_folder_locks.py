@@ -104,6 +104,7 @@ def test_saving_in_python_is_refused(stored, tmp_path, held):
         assert str(told.value) == REFUSED.format(tmp_path)
 
 
+@pytest.mark.slow
 def test_a_map_is_drawn_while_a_sweep_runs_and_two_maps_wait(stored, tmp_path, monkeypatch, held):
     monkeypatch.chdir(stored)
     sweep = package.run_sweep(stored / "sweep.toml", tmp_path, workers=1)

@@ -44,6 +44,7 @@ def is_one_line(errors):
     return errors.count("\n") == 1 and errors.startswith("error: ") and "cannot be written to, " in errors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("limit", "file"), [(1000, "out"), (30_000, "out/result.nc")])
 def test_files_that_do_not_fit(tmp_path, case_file, limit, file):
     """A limit on the size of a file stands in for the disk: the library of NetCDF meets the same error."""

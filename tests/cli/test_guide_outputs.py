@@ -59,6 +59,7 @@ def test_the_bearing_page_has_the_output_of_its_command(bearing_output):
         assert words(line) in bearing_output
 
 
+@pytest.mark.slow
 def test_the_tutorial_has_the_output_of_check(tutorial):
     printed = printed_by("check", "bearing.toml", cwd=tutorial)
     table, verdict, _solved, _other_oil, effects = blocks("first_bearing.md", "text")
@@ -82,6 +83,7 @@ def test_the_tutorial_has_the_verdict_of_the_solved_bearing(tutorial):
     assert words(blocks("first_bearing.md", "text")[2]) in printed
 
 
+@pytest.mark.slow
 def test_the_meter_page_has_the_output_of_its_example(tmp_path):
     example = str(ROOT / "examples" / "oil_contact.toml")
     printed = printed_by("run", example, "--no-plots", "-o", "o", cwd=tmp_path)
@@ -89,6 +91,7 @@ def test_the_meter_page_has_the_output_of_its_example(tmp_path):
         assert words(line) in printed
 
 
+@pytest.mark.slow
 def test_the_oils_and_temperatures_of_the_guide_can_be_swept(tmp_path):
     (sweep,) = (block for block in blocks("oils.md", "toml") if "[vary]" in block)
     example = (ROOT / "examples" / "oil_contact.toml").read_text(encoding="utf-8")
@@ -102,6 +105,7 @@ def test_the_oils_and_temperatures_of_the_guide_can_be_swept(tmp_path):
     assert "lines_film.central_thickness.png" in printed_by("map", "oils", *along, *value, cwd=tmp_path)
 
 
+@pytest.mark.slow
 def test_the_discharge_page_has_the_output_of_its_case(tmp_path):
     printed = printed_by(
         "run", str(ROOT / "examples" / "discharge.toml"), "--no-plots", "-o", "o", cwd=tmp_path

@@ -21,6 +21,7 @@ def refusal(done):
     return done.stderr
 
 
+@pytest.mark.slow
 @ONLY_POSIX
 @pytest.mark.parametrize("command", ["check", "run", "bearing", "sweep", "plot", "surface"])
 @pytest.mark.parametrize("kind", ["pipe", "zero"])
@@ -34,6 +35,7 @@ def test_special_files_end_every_command_in_one_line(ehlectric, tmp_path, comman
     assert [path.name for path in tmp_path.iterdir()] == ["case.toml"]
 
 
+@pytest.mark.slow
 @ONLY_POSIX
 def test_names_with_control_characters_are_escaped(ehlectric, tmp_path):
     assert SHOWN in refusal(ehlectric("check", NAME))
@@ -47,6 +49,7 @@ def test_names_with_control_characters_are_escaped(ehlectric, tmp_path):
     assert (tmp_path / NAME).is_file()
 
 
+@pytest.mark.slow
 @ONLY_POSIX
 def test_a_folder_with_control_characters_is_escaped(ehlectric, case_file):
     done = ehlectric("run", case_file.name, "-o", "out\x1b[2J", "--no-plots")
@@ -55,6 +58,7 @@ def test_a_folder_with_control_characters_is_escaped(ehlectric, case_file):
     assert "\x1b" not in done.stdout + done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("letter", ["\\u202e", "\\u2028", "\\u0085", "\\u001b", "\\u200b"])
 def test_titles_with_hidden_characters_are_refused(ehlectric, tmp_path, letter):
     (tmp_path / "case.toml").write_text(CASE.replace('"Test"', f'"Te{letter}st"'))

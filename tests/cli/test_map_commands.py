@@ -48,6 +48,7 @@ def command(monkeypatch, tmp_path):
     return run
 
 
+@pytest.mark.slow
 def test_map_writes_both_figures(command, tmp_path):
     done = command("map", "grid", "--x", SPEED, "--y", LOAD, "--value", VALUE, "--at", f"{POTENTIAL}=4 V")
     assert done.exit_code == 0, done.output

@@ -45,6 +45,7 @@ def files(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_a_bearing_is_solved_and_compared(ehlectric, files):
     done = ehlectric("bearing", "bearing.toml", "--measured", "data.csv", "--uncertainty", "2 %", "-o", "out")
     assert done.returncode == 0, done.stderr
@@ -61,6 +62,7 @@ def test_a_bearing_is_solved_and_compared(ehlectric, files):
     assert not [path.name for path in out.iterdir() if path.name.startswith("measured")]
 
 
+@pytest.mark.slow
 def test_a_contact_is_compared_with_a_log(ehlectric, files):
     done = ehlectric("run", "ball.toml", "--measured", "log.csv", "-o", "out", "--json")
     assert done.returncode == 0, done.stderr

@@ -39,6 +39,7 @@ def written(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
 
 
+@pytest.mark.slow
 def test_a_grid_that_the_limit_of_the_shell_leaves_no_room_for(tmp_path):
     (tmp_path / "case.toml").write_text(CASE.replace({"grid.nodes": 1_000_001}).to_toml(), encoding="utf-8")
     done = limited(1600, "run", "case.toml", folder=tmp_path)
@@ -67,6 +68,7 @@ def test_memory_that_runs_out_in_a_run(tmp_path, monkeypatch, where, status):
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_memory_that_runs_out_in_a_sweep_says_what_is_saved(tmp_path, monkeypatch):
     def fails(*_given, **_options):
         raise MemoryError

@@ -144,6 +144,7 @@ def test_units_that_people_print(ehlectric, tmp_path, inputs, changes):
     assert {key: found[key] for key in inputs} == inputs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "viscosity", "clearance", "warning"),
     [
@@ -175,6 +176,7 @@ def test_what_catalogues_say(ehlectric, tmp_path, changes, viscosity, clearance,
     assert summary["inputs"]["bearing"]["radial_clearance"] == pytest.approx(clearance, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_bearing_that_is_too_fast(ehlectric, tmp_path):
     """E1 and E20: 3000 rad/s as a string is accepted, and doubted."""
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, {"3000 rpm": "3000 rad/s"}))
@@ -185,6 +187,7 @@ def test_a_bearing_that_is_too_fast(ehlectric, tmp_path):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -211,6 +214,7 @@ def test_refused_contacts(ehlectric, tmp_path, changes, message):
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_a_radius_in_metres(ehlectric, tmp_path):
     """E20: a radius meant in millimetres."""
     (tmp_path / "case.toml").write_text(spoiled(CASE, {'"14.1 mm"': "14.1"}))
@@ -228,6 +232,7 @@ def workbook():
     return content.getvalue()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
@@ -252,6 +257,7 @@ def test_files_that_are_no_profile(ehlectric, tmp_path, name, content, message):
     assert message in done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("at", "message"),
     [

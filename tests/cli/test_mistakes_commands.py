@@ -124,6 +124,7 @@ WRONG = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "message"), WRONG)
 def test_a_wrong_command_is_told_the_right_one(ehlectric, files, words, message):
     before = sorted(files.iterdir())
@@ -131,6 +132,7 @@ def test_a_wrong_command_is_told_the_right_one(ehlectric, files, words, message)
     assert sorted(files.iterdir()) == before
 
 
+@pytest.mark.slow
 def test_results_given_to_run_are_told_to_be_drawn(ehlectric, files):
     """E8: a result is known by its first bytes, whatever its name, and its summary by its name."""
     assert ehlectric("run", "case.toml", "-o", "out", "--no-plots").returncode == 0
@@ -174,6 +176,7 @@ SLOW = BEARING.replace("3000 rpm", "500 rpm")
 assert NO_DISCHARGE != BEARING != SLOW
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "says"),
     [
@@ -188,6 +191,7 @@ def test_a_bearing_without_an_answer_or_with_a_bad_one_says_so(ehlectric, files,
     assert says in " ".join((done.stdout + done.stderr).split())
 
 
+@pytest.mark.slow
 def test_a_bearing_whose_strength_no_formula_takes_is_checked_without_voltages(ehlectric, files):
     """E9: the field that a Weibull law needs is not known by formula; all else is."""
     weibull = '[discharge.weibull]\nscale = "15 V/um"\nshape = 10\nreference_area = "1 mm^2"\n'
@@ -207,6 +211,7 @@ def test_a_typo_in_a_bearing_is_found_by_its_check(ehlectric, files):
     assert line(ehlectric("check", "bearing.toml")).startswith("motor.common_mode_voltag: unknown key")
 
 
+@pytest.mark.slow
 def test_a_sweep_is_checked_with_its_first_point(ehlectric, files):
     """E7: number of points, what is varied, and the first point."""
     done = ehlectric("check", "sweep.toml", "--json")
@@ -226,6 +231,7 @@ def test_a_sweep_is_checked_with_its_first_point(ehlectric, files):
     assert refused["reason"].startswith("lubricant.viscosity: is one for all temperatures")
 
 
+@pytest.mark.slow
 def test_the_breakdown_of_a_contact_is_estimated_by_formula(ehlectric, files):
     """The strength times the film of the formula; none for a law that needs the solved field."""
     case = files / "case.toml"
@@ -243,6 +249,7 @@ def test_the_breakdown_of_a_contact_is_estimated_by_formula(ehlectric, files):
     assert "breakdown_by_formula" not in json.loads(ehlectric("check", "case.toml", "--json").stdout)
 
 
+@pytest.mark.slow
 def test_lambda_of_a_rough_contact_is_estimated_by_formula(ehlectric, files):
     """A wave has an Rq of its amplitude over the root of two; the film is that of smooth surfaces."""
     case = files / "case.toml"
@@ -257,6 +264,7 @@ def test_lambda_of_a_rough_contact_is_estimated_by_formula(ehlectric, files):
     assert ("likely to touch" in words_of(ehlectric("check", "case.toml"))) == (film < estimate["rq"])
 
 
+@pytest.mark.slow
 def test_a_folder_never_has_two_results(ehlectric, files):
     """E18: files of an earlier result of another kind go, in all formats; those of others stay."""
     out = files / "out"
@@ -280,6 +288,7 @@ def test_a_folder_never_has_two_results(ehlectric, files):
     )
 
 
+@pytest.mark.slow
 def test_a_sweep_is_not_destroyed_by_another_run(ehlectric, files):
     """E18: it may have taken hours; the same sweep again keeps its points and draws no stale map."""
     assert ehlectric("sweep", "sweep.toml", "-o", "out", "--workers", 1, "-q").returncode == 0
@@ -295,6 +304,7 @@ def test_a_sweep_is_not_destroyed_by_another_run(ehlectric, files):
     assert {path.name for path in (files / "out").iterdir()} == set(before)
 
 
+@pytest.mark.slow
 def test_two_cuts_of_a_sweep_have_two_names(ehlectric, files):
     """E19: the second map does not overwrite the first."""
     (files / "sweep.toml").write_text(CUT)
@@ -321,6 +331,7 @@ def test_two_cuts_over_the_speed_of_a_bearing_have_two_names(ehlectric, files):
     assert drawn == {f"{name}_at_bearing.radial_load=2kN.png" for name in names}
 
 
+@pytest.mark.slow
 def test_kinds_of_warnings_of_a_sweep_are_counted(ehlectric, files):
     """E22: what all points have by the choice of the film is a note, and is told once."""
     text = 'case = "bearing.toml"\n[vary]\nbearing.inner_speed = ["200 rpm", "6000 rpm"]\n'
@@ -356,6 +367,7 @@ def test_a_folder_is_drawn_whatever_it_is_of(ehlectric, files):
     )
 
 
+@pytest.mark.slow
 def test_a_sweep_is_drawn_from_its_folder(ehlectric, files):
     text = f'case = "{EXAMPLES / "discharge.toml"}"\n[vary]\ncontact.entrainment_speed = ["2 m/s", "4 m/s"]\n'
     (files / "sweep.toml").write_text(text + "grid.nodes = [801]\n")

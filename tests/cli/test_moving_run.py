@@ -95,6 +95,7 @@ def test_a_moving_case_is_solved_written_and_told(ehlectric, tmp_path, case_file
         assert rest.startswith(unit)
 
 
+@pytest.mark.slow
 def test_options_of_what_is_printed(typed, tmp_path, case_file):
     quiet = typed("run", case_file, "-o", "out", "--no-plots", "-q")
     assert (quiet.exit_code, quiet.stdout, quiet.stderr) == (0, "", "")
@@ -194,6 +195,7 @@ def test_other_commands_refuse_it(typed, tmp_path, case_file):
     assert files(tmp_path) == ["case.toml", "sweep.toml"]
 
 
+@pytest.mark.slow
 def test_a_run_is_drawn_again(typed, tmp_path, case_file):
     assert typed("run", case_file, "-o", "out", "--no-plots", "-q").exit_code == 0
     done = typed("plot", "out/motion.nc", "-o", "figures")
@@ -202,6 +204,7 @@ def test_a_run_is_drawn_again(typed, tmp_path, case_file):
     assert {"motion_history.png", "motion_maps.png"} <= drawn <= set(MOTION_FIGURE_FILES)
 
 
+@pytest.mark.slow
 def test_a_run_that_was_stopped_behind_its_last_step_is_summed_up(typed, tmp_path, case_file):
     """Its file is whole, its summary is missing: nothing is solved again; with the summary there, all is."""
     assert typed("run", case_file, "-o", "out", "--no-plots", "-q").exit_code == 0
@@ -215,6 +218,7 @@ def test_a_run_that_was_stopped_behind_its_last_step_is_summed_up(typed, tmp_pat
     assert (tmp_path / "out/motion.nc").read_bytes() != first
 
 
+@pytest.mark.slow
 def test_a_folder_holds_one_result(typed, tmp_path, case_file):
     """Of what is at rest or of what moves: the other one's files go, but not those of others."""
     still = tmp_path / "still.toml"

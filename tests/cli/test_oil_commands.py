@@ -20,6 +20,7 @@ def row(text, start):
     return next(line for line in text.splitlines() if line.startswith(start))[len(start) :].split()
 
 
+@pytest.mark.slow
 def test_oils_are_listed_with_kinds_and_needs(ehlectric):
     done = ehlectric("oils")
     assert done.returncode == 0, done.stderr
@@ -45,6 +46,7 @@ def test_oils_are_listed_with_kinds_and_needs(ehlectric):
     assert listed["paper"]["viscosity_100"] is None
 
 
+@pytest.mark.slow
 def test_an_oil_at_a_temperature_and_a_pressure(ehlectric):
     """By hand, with the modulus equation of table A1 in degC and bar, and 1 GPa as 10000 bar."""
     done = ehlectric("oil", "fva-3", "--temperature", "40 degC", "--pressure", "1 GPa")
@@ -64,6 +66,7 @@ def test_an_oil_at_a_temperature_and_a_pressure(ehlectric):
     assert "read off a diagram" in done.stdout
 
 
+@pytest.mark.slow
 def test_a_value_beyond_a_cap_has_a_star_and_a_warning(ehlectric):
     done = ehlectric("oil", "n100", "--temperature", "40 degC", "--pressure", "2 GPa")
     assert done.returncode == 0, done.stderr
@@ -75,6 +78,7 @@ def test_a_value_beyond_a_cap_has_a_star_and_a_warning(ehlectric):
     assert "lubricant.relative_permittivity: missing; permittivity_law 'clausius-mossotti'" in done.stdout
 
 
+@pytest.mark.slow
 def test_an_oil_is_written_as_table_and_figures(ehlectric, tmp_path):
     typed = ("oil", "n100", "--pressure", "0.5 GPa", "-o", "out", "--format", "svg")
     done = ehlectric(*typed)
@@ -96,6 +100,7 @@ def test_an_oil_is_written_as_table_and_figures(ehlectric, tmp_path):
     assert [path.name for path in (tmp_path / "table").iterdir()] == ["oil.csv"]
 
 
+@pytest.mark.slow
 def test_the_oil_of_a_file_is_shown_at_its_temperature(ehlectric, tmp_path):
     (tmp_path / "drive.toml").write_text(OWN + "relative_permittivity = 2.2\n")
     summary = json.loads(ehlectric("oil", "drive.toml", "--json").stdout)
@@ -111,6 +116,7 @@ def test_the_oil_of_a_file_is_shown_at_its_temperature(ehlectric, tmp_path):
     assert lacking["properties"][0]["values"][0] > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "message"),
     [

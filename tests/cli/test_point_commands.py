@@ -38,6 +38,7 @@ def names_in(folder):
     return {path.name for path in folder.iterdir()}
 
 
+@pytest.mark.slow
 def test_run_writes_everything(ehlectric, point_file, tmp_path):
     done = ehlectric("run", point_file, "-o", "out")
     assert done.returncode == 0, done.stderr

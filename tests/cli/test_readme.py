@@ -4,6 +4,7 @@ import re
 import shlex
 
 import matplotlib.pyplot as plt
+import pytest
 
 from tests.helpers.commands import run_command
 from tests.helpers.places import ROOT
@@ -23,6 +24,7 @@ def test_the_readme_is_short_and_its_links_lead_somewhere():
         assert (ROOT / "".join(link)).exists(), link
 
 
+@pytest.mark.slow
 def test_the_answer_of_the_readme_is_that_of_the_command(tmp_path):
     command = shlex.split(blocks("sh")[0].strip())
     assert command[:2] == ["ehlectric", "bearing"]
@@ -36,6 +38,7 @@ def test_the_answer_of_the_readme_is_that_of_the_command(tmp_path):
     assert " ".join(f"No breakdown expected{verdict}".split()) in printed
 
 
+@pytest.mark.slow
 def test_the_python_of_the_readme_runs(monkeypatch):
     monkeypatch.chdir(ROOT)
     (block,) = blocks("python")

@@ -39,6 +39,7 @@ def reported(ehlectric, folder):
     return page, paper
 
 
+@pytest.mark.slow
 def test_of_a_line_contact(ehlectric, tmp_path):
     """Numbers are those of summary.json; the next run removes the report."""
     text = CASE.replace('"Test"', f"'{HOSTILE}'".replace("\u202e", ""))
@@ -85,6 +86,7 @@ def test_of_a_bearing_by_formula(ehlectric, tmp_path):
     assert {**other, "seconds": 0} == {**summary, "seconds": 0}
 
 
+@pytest.mark.slow
 def test_of_a_sweep(ehlectric, tmp_path):
     folder = solved(ehlectric, tmp_path, "sweep", SWEEP, "--workers", "1")
     page, paper = reported(ehlectric, folder)
@@ -109,6 +111,7 @@ def test_of_moving_roughness(ehlectric, tmp_path):
     assert len(page.of("img")) == 3
 
 
+@pytest.mark.slow
 def test_one_format_elsewhere(ehlectric, tmp_path):
     folder = solved(ehlectric, tmp_path, "run", CASE.replace("801", "401"), "--no-plots")
     done = ehlectric("report", "out", "--format", "html", "-q")

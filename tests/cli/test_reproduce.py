@@ -29,6 +29,7 @@ def test_schematics_need_no_solution(ehlectric, tmp_path):
         assert (tmp_path / "out" / f"figure_{number}.png").read_bytes().startswith(PNG)
 
 
+@pytest.mark.slow
 def test_figures_have_a_format_and_a_style(ehlectric, tmp_path):
     words = ["--figure", "3", "--format", "pdf", "--style", "journal"]
     done = ehlectric("reproduce", "-o", "out", *words)
@@ -43,6 +44,7 @@ def test_figures_have_a_format_and_a_style(ehlectric, tmp_path):
     assert not (tmp_path / "not").exists()
 
 
+@pytest.mark.slow
 def test_table_3_alone(ehlectric, tmp_path):
     done = ehlectric("reproduce", "-o", "out", "--table", "3")
     assert done.returncode == 0, done.stderr
@@ -163,6 +165,7 @@ def zombie(pid):
         return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_study_that_is_stopped_stops(tmp_path, number):
     """Ctrl-C goes to the whole group, twice where the hand is impatient; nothing runs on, nothing is left."""
@@ -180,6 +183,7 @@ def test_a_study_that_is_stopped_stops(tmp_path, number):
     assert not list((tmp_path / "out").glob("*"))  # nor a folder, if the run has made it
 
 
+@pytest.mark.slow
 def test_workers_do_not_outlive_a_study_that_is_killed(tmp_path):
     process = started(tmp_path)
     workers = children(process.pid)

@@ -48,6 +48,7 @@ def test_a_table_over_speed_is_written(ehlectric, tmp_path):
     assert run_netlist(tmp_path / "bench.cir")["common_mode_peak_to_peak"] == pytest.approx(600.0)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("bearing")
 def test_nothing_is_said_when_quiet_and_files_are_replaced(ehlectric, tmp_path):
     for _ in range(2):
@@ -87,6 +88,7 @@ def test_mistakes_are_told_in_one_line(ehlectric, bearing, tmp_path, words, mess
     assert bearing.read_text() == before
 
 
+@pytest.mark.slow
 def test_a_bench_needs_the_drive(ehlectric, bearing, tmp_path):
     """By the key that is missing, before anything is solved."""
     for text, key in (
@@ -101,6 +103,7 @@ def test_a_bench_needs_the_drive(ehlectric, bearing, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["bearing.toml"]
 
 
+@pytest.mark.slow
 def test_a_sweep_is_told_its_command(ehlectric, tmp_path):
     (tmp_path / "sweep.toml").write_text('case = "bearing.toml"\n[vary]\nbearing.fill = ["oil", "air"]\n')
     done = ehlectric("spice", "sweep.toml")
@@ -108,6 +111,7 @@ def test_a_sweep_is_told_its_command(ehlectric, tmp_path):
     assert "sweep.toml: is a sweep file; expected a bearing file" in done.stderr
 
 
+@pytest.mark.slow
 def test_the_guide_has_the_lines_of_its_command(ehlectric, tmp_path):
     """The parameters that docs/guide/spice.md prints."""
     page = (ROOT / "docs" / "guide" / "spice.md").read_text(encoding="utf-8")
@@ -120,6 +124,7 @@ def test_the_guide_has_the_lines_of_its_command(ehlectric, tmp_path):
     assert shown == written[:6]
 
 
+@pytest.mark.slow
 def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "guide" / "spice.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
@@ -129,6 +134,7 @@ def test_the_python_of_the_guide_runs(tmp_path, monkeypatch):
     assert "+ speed=3000 ; rpm" in (tmp_path / "bearing.lib").read_text()
 
 
+@pytest.mark.slow
 def test_a_drive_is_written_with_its_inverter(ehlectric, tmp_path):
     """Both bearings, the arc of the drive, and a bench with its source and its circuit."""
     assert ehlectric("init", "drive.toml", "--kind", "drive", "--no-schema").returncode == 0

@@ -21,6 +21,7 @@ KINDS = {"moving": "motion", "bearing": "bearing", "drive": "drive", "sweep": "s
 COMMANDS = {"bearing": "bearing", "drive": "drive", "sweep": "sweep"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", TEMPLATES)
 def test_a_template_of_each_kind_is_written_and_means_something(ehlectric, tmp_path, kind):
     """In a folder of its own: it needs no other file."""
@@ -72,6 +73,7 @@ def test_the_examples_are_in_the_wheel():
     assert included == {"examples": "ehlectric/runs/examples"}
 
 
+@pytest.mark.slow
 def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path):
     listed = ehlectric("examples")
     assert listed.returncode == 0
@@ -122,6 +124,7 @@ def test_tables_in_brackets_stand_in_the_help(ehlectric, command, word):
     assert word in ehlectric(command, "--help").stdout
 
 
+@pytest.mark.slow
 def test_a_shell_is_completed():
     """As bash asks: commands, and keys of an option that takes one of some names."""
 
@@ -151,6 +154,7 @@ def test_names_of_files_are_completed(tmp_path, monkeypatch):
     assert complete("none/") == []
 
 
+@pytest.mark.slow
 def test_varied_keys_of_a_sweep_are_completed(ehlectric, tmp_path, case_file, monkeypatch):
     from typer import Context
     from typer.main import get_command
@@ -191,6 +195,7 @@ main()
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     [("--version",), ("check", "case.toml"), ("run", "case.toml", "-o", "out", "--no-plots")],
@@ -226,6 +231,7 @@ LACKING = {
 GUARDED = {("memory.py", "sysconf"), ("processes.py", "killpg"), ("processes.py", "SIGKILL")}
 
 
+@pytest.mark.slow
 def test_no_name_that_windows_lacks_is_used_unguarded():
     found = set()
     for path in (ROOT / "src").rglob("*.py"):
@@ -239,6 +245,7 @@ def test_no_name_that_windows_lacks_is_used_unguarded():
     assert found == GUARDED
 
 
+@pytest.mark.slow
 def test_bearings_of_the_library_are_listed(ehlectric):
     """The 6208 as a person and as a program reads it; nothing is cut at the width of 80 characters."""
     done = ehlectric("bearings")

@@ -83,6 +83,7 @@ def saved(folder):
     return found
 
 
+@pytest.mark.slow
 def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
     done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--workers", 1)
     rows = rows_of(tmp_path / "out")
@@ -102,6 +103,7 @@ def test_a_sweep_is_solved_saved_and_told(ehlectric, tmp_path, swept):
     assert (thickness[:, 1] < thickness[:, 0]).all()
 
 
+@pytest.mark.slow
 def test_points_that_failed_are_counted_without_a_table_too(ehlectric, tmp_path, swept):
     """Where the field range is narrow, 65 nodes have too few columns for it: two points of four."""
     text = SWEEP.replace(', "2 m/s"', "") + "grid.nodes = [257, 65]\ngrid.field_range = [[-0.5, 0.5]]\n"

@@ -26,6 +26,7 @@ def film_of(case):
     return film_problem(case, resolve(case))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_multigrid_and_newton_find_one_film(paper_case, row):
     problem = film_of(paper_contact(paper_case, row, wedge="first-order"))
@@ -42,6 +43,7 @@ def test_multigrid_and_newton_find_one_film(paper_case, row):
     assert (late[-1] / late[0]) ** (1.0 / (late.size - 1)) < 0.32
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", FILMS[::4] + FILMS[3::4], ids=row_name)
 def test_multigrid_solves_the_second_order_film_too(paper_case, row):
     problem = film_of(paper_contact(paper_case, row, wedge="second-order"))
@@ -50,6 +52,7 @@ def test_multigrid_solves_the_second_order_film_too(paper_case, row):
     np.testing.assert_allclose(theirs.thickness, ours.thickness, rtol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", [FILMS[0], FILMS[3]], ids=row_name)
 def test_cycles_do_not_grow_with_the_grid(paper_case, row):
     films = [
@@ -60,6 +63,7 @@ def test_cycles_do_not_grow_with_the_grid(paper_case, row):
     assert films[-1].newton_iterations <= films[0].newton_iterations + 1
 
 
+@pytest.mark.slow
 def test_wrong_sign_of_eq_19_does_not_balance_the_load(paper_case, monkeypatch):
     """As printed, with c > 0, the load runs away."""
     monkeypatch.setattr(relaxation, "LOAD_DAMPING", 0.2)
@@ -81,6 +85,7 @@ def film_and_field(paper_case, row, field_nodes):
     return problem, solve_field(problem)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", FILMS, ids=row_name)
 def test_field_of_over_relaxation_is_ours_to_its_grid_error(paper_case, row):
     """The capacitance's error shrinks fourfold; largest and mid-film field agree all along."""
@@ -111,6 +116,7 @@ def test_a_case_takes_either_solver(paper_case):
         assert flat[0][key] == pytest.approx(flat[1][key], rel=1e-5, abs=0.0)
 
 
+@pytest.mark.slow
 def test_over_relaxation_of_a_rough_film_converges_with_its_columns(paper_case):
     """A wave of 10 µm on one wall: capacitance and largest field come nearer to ours threefold or more."""
     wave = {"surface": 1, "generator": "sinusoid", "amplitude": 20e-9, "wavelength": 10e-6}

@@ -49,6 +49,7 @@ def test_first_order_film_agrees_with_independent_computation(solved, nodes):
     assert np.max(np.abs(off(film, FILMS[str(nodes)]))) < 1e-3
 
 
+@pytest.mark.slow
 def test_second_order_film_is_near_the_extrapolated_one(solved):
     assert np.max(np.abs(off(solved(257, "second-order").film, EXTRAPOLATED))) < 7e-3
 

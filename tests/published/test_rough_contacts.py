@@ -23,6 +23,7 @@ def rough_case(surface=1, nodes=3201, load=1.57e6, speed=4.0, **changes):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nodes", [3201, 12_801])
 @pytest.mark.parametrize("speed", [4.0, 2.0, 1.0, 0.5])
 @pytest.mark.parametrize("load", [1.57e6, 3.925e5])
@@ -62,6 +63,7 @@ RESOLVED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", [1.57e6, 3.925e5])
 @pytest.mark.parametrize("table", RESOLVED, ids=["sinusoid", "gaussian", "measured"])
 def test_error_estimate_of_roughness_the_grid_resolves(table, load):
@@ -148,6 +150,7 @@ def test_sinusoid_lies_where_it_should():
     assert np.all(result.roughness[0] == 0.0)
 
 
+@pytest.mark.slow
 def test_film_of_the_order_of_its_roughness():
     """Roughness as high as the film leaves a full film; one higher than the film pierces it."""
     table = {"surface": 1, "generator": "gaussian", "rq": 2.5e-7, "correlation_length": 5e-6, "seed": 4}
@@ -170,6 +173,7 @@ def test_waves_in_the_outlet_do_not_hide_that_it_cavitates():
     assert film.cavitates
 
 
+@pytest.mark.slow
 def test_estimate_of_a_minimum_that_jumps_between_valleys():
     """The minima on 801 and 1601 nodes agree to 0.2 % by chance; the true error is 5 %."""
     case = rough_case(load=3.925e5, speed=0.5).replace({"grid.wedge": "second-order"})
@@ -180,6 +184,7 @@ def test_estimate_of_a_minimum_that_jumps_between_valleys():
     assert 0.04 < true < films[1601].discretisation_error < 2.0 * true
 
 
+@pytest.mark.slow
 def test_estimate_of_the_maximum_pressure():
     """It moves from 4.6 to 5.3 GPa where the film is known to 1 %."""
     case = rough_case(speed=1.0).replace({"grid.wedge": "second-order"})
@@ -190,6 +195,7 @@ def test_estimate_of_the_maximum_pressure():
     assert fine.max_pressure_error < coarse.max_pressure_error
 
 
+@pytest.mark.slow
 def test_steel_yields_under_the_asperities():
     """At a Hertz pressure of 2 GPa, half of what steel bears; a spike of a smooth contact does not matter."""
     result = solve(rough_case(speed=1.0, nodes=1601), beside_smooth=False)

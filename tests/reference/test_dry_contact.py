@@ -164,6 +164,7 @@ def test_rough_line_obeys_complementarity_in_the_films_equations(hardness, shift
     assert np.sum(found.pressure) * dx == pytest.approx(0.5 * np.pi, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hardness", [np.inf, 1.5, 0.75])
 def test_rough_point_obeys_complementarity_in_the_films_equations(hardness):
     x, y = np.linspace(-1.5, 1.4, 41), np.linspace(-1.6, 1.6, 33)
@@ -229,6 +230,7 @@ def test_soft_surface_touches_over_the_load_by_its_hardness():
     assert heights[found.contact].min() == pytest.approx(lowest, abs=0.05 * np.std(heights))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
 def test_area_of_a_self_affine_map_is_proportional_to_a_small_load(seed):
     heights, gradient = rough_map(256, rolloff=1.0 / 8.0, shortest=1.0 / 32.0, seed=seed)
@@ -242,6 +244,7 @@ def test_area_of_a_self_affine_map_is_proportional_to_a_small_load(seed):
     assert (np.array([solution.area for solution in found]) > loads * factors).all()
 
 
+@pytest.mark.slow
 def test_area_at_larger_loads_is_above_perssons():
     # A/A0 = erf(sqrt(2) p/(E* g)), B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840. Here the area is larger
     # by about 30 % at a tenth of E* g, 20 % at two tenths and 8 % at five; it is exact in complete contact.

@@ -43,6 +43,7 @@ def test_layers_of_the_import_contract():
     assert len(contract["layers"]) <= 16
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", FOLDERS, ids=name)
 def test_modules_of_a_package(folder):
     modules = [path for path in folder.glob("*.py") if path.name != "__init__.py"]

@@ -221,6 +221,7 @@ def test_others_than_the_contact_are_not_rewritten(error: InputError) -> None:
     assert error_of_contact(INNER, error) is error
 
 
+@pytest.mark.slow
 def test_no_error_has_its_key_in_its_text() -> None:
     """An error that is raised with one text alone would not know its key."""
     keyless = []

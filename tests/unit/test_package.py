@@ -26,12 +26,14 @@ def test_the_command_starts_without_what_it_may_not_need():
     assert not loaded & heavy
 
 
+@pytest.mark.slow
 def test_solving_needs_no_figures_or_files():
     loaded = modules_after("import ehlectric; ehlectric.solve; ehlectric.Case")
     assert "scipy" in loaded
     assert not loaded & {"matplotlib", "xarray", "pint", "h5py"}
 
 
+@pytest.mark.slow
 def test_files_of_results_are_named_without_the_compiler_of_drives():
     loaded = modules_after("from ehlectric.runs.folders import files_of_results; files_of_results('.')")
     assert "ehlectric.drive.files" in loaded

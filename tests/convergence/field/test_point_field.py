@@ -80,6 +80,7 @@ def sinusoidal_field(amplitude, qx, qy, columns, degree=10):
 
 
 # Along x, along y, a crate of squares and one of oblongs; wavelengths from 60 to 2 gaps.
+@pytest.mark.slow
 @pytest.mark.parametrize("wave", [(0.1, 0), (0, 0.1), (1, 0), (0, 3), (0.1, 0.1), (1, 1), (1.5, 0.5)])
 def test_sinusoidal_wall_to_its_next_order(slope, wave):
     """The formulas are of second order in A/h, so the difference is of third; of fourth for C."""
@@ -198,6 +199,7 @@ def manufactured_field(exact, columns, degree):
     return field, at
 
 
+@pytest.mark.slow
 def test_manufactured_solution_along_the_gap(exact, slope):
     """Second order in the spacing of the columns, for the potential and for each component of the field."""
     columns = np.array([13, 25, 49, 97])
@@ -239,6 +241,7 @@ def rough_gap(columns, ratio, *, spacing=1e-6, slope_of_walls=0.3):
     return PointFieldProblem(x, x, waves[0], gap + waves[1], 2.4 + 0 * waves[0], -1.0, 1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("columns", [65, 129])
 @pytest.mark.parametrize("ratio", [0.01, 0.1, 0.3, 1, 3, 10, 50])
 def test_iterations_are_bounded_from_thin_to_thick_gaps(ratio, columns):
@@ -247,6 +250,7 @@ def test_iterations_are_bounded_from_thin_to_thick_gaps(ratio, columns):
     assert field.capacitance_by_charge == near(field.capacitance, 1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [1, 50, 2000])
 def test_iterations_on_stretched_columns(ratio):
     """Columns 25 times longer along one axis than along the other, the gap up to 80 times wider than both."""

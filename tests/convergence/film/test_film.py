@@ -80,6 +80,7 @@ def fine_film(paper_case):
     return solved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])
 @pytest.mark.parametrize("pressure", ["1 GPa", "2 GPa"])
 def test_richardson_estimate_is_the_true_error(paper_case, fine_film, wedge, pressure):
@@ -101,6 +102,7 @@ def krylov_iterations(film):
     return np.array([step.krylov_iterations for step in film.steps if step.nodes == finest])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("u_s", [8.0, 1.0])
 @pytest.mark.parametrize("load", ["1.57 MN/m", "392.5 kN/m"])
 @pytest.mark.parametrize("wedge", ["first-order", "second-order"])

@@ -72,6 +72,7 @@ def test_traction_has_its_peak_at_a_tenth_of_slip():
     assert all(fast < slow for slow, fast in pairwise(minima))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("speed", "thinnest", "central", "cold"),
     [

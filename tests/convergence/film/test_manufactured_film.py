@@ -26,6 +26,7 @@ OURS = solve_film, (401, 801, 1601, 3201)
 THE_PAPERS = fas.solve_film, (401, 801, 1601)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("solver", "wedge_order", "order", "largest"),
     [

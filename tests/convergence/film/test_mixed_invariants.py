@@ -65,12 +65,14 @@ def test_film_that_nearly_touches_has_the_tolerance_of_its_case():
     assert film.last.final.norm < film.problem.tolerance
 
 
+@pytest.mark.slow
 @given(lines, exponents, boundary_films)
 @settings(max_examples=20, deadline=None)
 def test_lines(table, speed, boundary_film):
     check(mixed_film(rough_line(table, nodes=201, speed=speed, boundary_film=boundary_film)))
 
 
+@pytest.mark.slow
 @given(maps, exponents, boundary_films)
 @settings(max_examples=8, deadline=None)
 def test_points(table, speed, boundary_film):
@@ -84,6 +86,7 @@ def test_more_points(table, speed, boundary_film):
     check(mixed_film(rough_point(table, speed=speed, boundary_film=boundary_film)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [1e-3, 1e-2])
 def test_symmetric_roughness_has_a_symmetric_film(speed):
     """Bumps symmetric about y = 0: solved on the whole contact and on half of it."""

@@ -57,6 +57,7 @@ PROFILES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("table", PROFILES)
 def test_line_at_rest_is_the_dry_rough_contact(table):
     """Pressure within 0.5 %, gap within 3 % and area within the edges of the spots, as speed goes to zero."""
@@ -76,6 +77,7 @@ SLOW = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("table", SLOW)
 def test_film_at_its_tolerance_is_that_of_a_smaller_one(table):
     """Share and gap of a slow contact by hardly any oil, which fills the valleys all the same."""
@@ -115,6 +117,7 @@ def test_hard_line_at_rest_is_the_dry_contact_with_this_hardness(hardness):
     assert np.mean(np.abs(film.gap - gap)[inside]) < 1e-3 * np.mean(gap[inside])
 
 
+@pytest.mark.slow
 def test_point_at_rest_is_the_dry_rough_contact():
     contacts = [rough_point(gaussian("100 nm", "35 um"), speed=speed) for speed in (3e-5, 3e-6)]
     films = [mixed_film(on_few_nodes(case, 33)) for case in contacts]
@@ -159,6 +162,7 @@ def test_thick_film_does_not_know_the_boundary_film(case):
         assert np.array_equal(film.pressure, without.pressure)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", THICK)
 def test_solver_of_touching_surfaces_finds_a_thick_film(case):
     """To 1e-9 of the gap, and of the Hertz pressure, from a film that is a fifth thicker."""

@@ -18,6 +18,7 @@ def at_lambda(case, ratio):
     return mixed_film(at_film(case, ratio * composite_roughness(case)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["gaussian 400 nm", "sinusoid 140 nm", "asperity 200 nm"])
 def test_line_with_a_thin_film(name):
     """Where the film of the formula is 3 % of the roughness, on 801 nodes."""
@@ -26,6 +27,7 @@ def test_line_with_a_thin_film(name):
     assert film.share < 0.3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "ratio"), [("gaussian 100 nm", 0.1), ("asperity 100 nm", 0.3)])
 def test_point_with_a_thin_film(name, ratio):
     film = at_lambda(rough_point(POINTS[name]), ratio)

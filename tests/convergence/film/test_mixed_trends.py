@@ -55,6 +55,7 @@ def test_replaced_mass_rows_would_lose_oil(by_speed):
 BOUNDARY_FILMS = (5e-9, 2e-9, 1e-9, 0.5e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "part"),
     [

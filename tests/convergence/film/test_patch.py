@@ -64,6 +64,7 @@ def test_a_film_as_wide_as_the_domain_has_no_patch():
     assert Patch.around(problem, solutions(problem)[-1]) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["medium", "thick"])
 def test_patch_has_the_film_of_the_whole_domain(name):
     check_patch(name)
@@ -87,6 +88,7 @@ def check_patch(name):
     np.testing.assert_allclose(key_thicknesses(found[-1]), key_thicknesses(whole), rtol=largest)
 
 
+@pytest.mark.slow
 def test_film_on_a_patch_covers_the_whole_domain(tmp_path):
     """Nodes from inlet to outlet and from side to side, the whole load, and results that survive the disk."""
     case = CONTACTS["medium"][0].replace({"grid.nodes": 65, "grid.refine": 0.003})

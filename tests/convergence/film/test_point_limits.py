@@ -48,6 +48,7 @@ def beside_line(ratio, nodes=97):
     return off
 
 
+@pytest.mark.slow
 def test_long_ellipses_tend_to_the_line_contact():
     """Two solvers in one: nothing of the point contact's kernel, load or flow across is in a line contact.
 
@@ -74,6 +75,7 @@ def test_very_long_ellipses():
     assert np.all(off[:-1] / off[1:] > 2.7)
 
 
+@pytest.mark.slow
 def test_entrainment_along_the_long_axis():
     """An ellipse of ratio 1/4 has its film thinned by oil that flows off to both sides, as the formulas say.
 

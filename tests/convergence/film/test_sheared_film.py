@@ -51,6 +51,7 @@ def friction(problem, solution):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("contact", [line_contact, circular_contact])
 def test_large_eyring_stress_gives_the_newtonian_film(contact):
     """To 1e-9 at an Eyring stress of 1e14 Pa, with sliding."""
@@ -202,6 +203,7 @@ def random_contacts(law, count, seed):
         yield rng.uniform(0.5e9, 2e9), speed, rng.uniform(0.0, 2.0), Rheology(law, constants)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["eyring", "carreau", "limiting"])
 def test_random_line_contacts_converge(law):
     for conditions in random_contacts(law, 12, 7):

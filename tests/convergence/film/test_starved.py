@@ -88,6 +88,7 @@ def test_rigid_line_from_its_meniscus(meniscus):
     assert found.starvation.meniscus == pytest.approx(exact, abs=1.5 * found.last.level.mesh.dx)
 
 
+@pytest.mark.slow
 def test_starved_circle_between_the_published_exponents():
     """h_c/h_ff = r/(1 + r^gamma)^(1/gamma), gamma from 2 to 5 (Chevalier et al. 1998, second-hand)."""
     problem = posed(CIRCLE)
@@ -176,6 +177,7 @@ def test_random_starved_lines_converge(pressure, log_speed, log_part):
     assert at_rest(found) == pytest.approx(expected * mass, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_circle_from_its_meniscus_is_near_the_published_one():
     """Hamrock and Dowson IV (1977): h_c/h_ff = [(m - 1)/(m* - 1)]^0.29, m* = 1 + 3.06 [(R/b)^2 H_c]^0.58.
 

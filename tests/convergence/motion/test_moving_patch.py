@@ -72,6 +72,7 @@ def check_run(name):
     return moving, film, last.now, expected.now
 
 
+@pytest.mark.slow
 def test_moving_film_on_a_patch_is_that_of_the_whole_domain():
     moving, film, last, expected = check_run("peak")
     instant = moving.whole(last)

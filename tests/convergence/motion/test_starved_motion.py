@@ -74,6 +74,7 @@ def oil_driven(moving, instant):
     return out - np.sum(found.across.divergence().T[1:-1]) * mesh.dx**2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "courant", "speed"), [(0.8, 1.0, 1.0), (0.4, 1.0, 0.5), (0.4, 0.7, 1.0), (0.1, 0.5, 1.5)]
 )
@@ -102,6 +103,7 @@ def test_oil_in_minus_oil_out_is_the_change_of_content(ratio, courant, speed):
     assert np.max(np.abs(errors)) < 1e-11
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closely")
 def test_oil_of_a_point_contact_is_conserved():
     """A round peak passes; beside the two ends the sides of the domain may take oil."""
@@ -176,6 +178,7 @@ def test_steps_between_the_nodes_carry_the_layer_upstream_weighted():
     assert growth < 0.9
 
 
+@pytest.mark.slow
 def test_a_layer_that_changes_leads_to_its_own_stationary_film():
     """From the film of one layer to that of 0.8 of it: the stationary film, once other oil has left."""
     problem = line(0.5)
@@ -208,6 +211,7 @@ def waves(height, length, speed):
     return gap
 
 
+@pytest.mark.slow
 def test_the_mean_film_under_waviness_is_the_layer():
     """A wave of a third of the film in a starved line: over its periods the mass at X = 0 is the layer's.
 

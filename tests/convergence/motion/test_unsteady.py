@@ -23,6 +23,7 @@ def carried_to_the_centre(problem, start, step, steps):
     return x[middle], now.state.thickness[middle, 0], now.state.pressure[middle, 0]
 
 
+@pytest.mark.slow
 def test_order_in_time(paper_case):
     """On one grid, steps of 4, 2 and 1 spacings, where nothing is interpolated: their differences.
 
@@ -38,6 +39,7 @@ def test_order_in_time(paper_case):
         assert np.log2(differences[0] / differences[1]) == pytest.approx(2.0, abs=0.25)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("courant", [1.0, 0.8])
 def test_order_in_space_and_time(paper_case, slope, courant):
     """Grids that double with the step: the film at the nodes of the coarsest; 0.8 spacings interpolate.
@@ -53,6 +55,7 @@ def test_order_in_space_and_time(paper_case, slope, courant):
     assert slope(1.0 / intervals[:-1], differences) == pytest.approx(2.0, abs=0.1)
 
 
+@pytest.mark.slow
 def test_a_step_is_solved_far_below_its_error(paper_case, monkeypatch):
     """Solved a thousand times as closely, the film differs by less than 1e-5 of itself.
 
@@ -77,6 +80,7 @@ def test_a_steady_film_stays(paper_case, gap):
     assert np.max(np.abs(history.now.mass - first.now.mass)) < 1e-11
 
 
+@pytest.mark.slow
 def test_a_gap_that_rises_and_stays_gives_the_stationary_film(paper_case):
     """A ridge grows for T = 1: once the oil of before has left, its film is the steady one."""
     problem = problem_of(paper_case, 201)
@@ -92,6 +96,7 @@ def test_a_gap_that_rises_and_stays_gives_the_stationary_film(paper_case):
     assert distances[7.0] < 0.5 * distances[6.0]
 
 
+@pytest.mark.slow
 def test_slow_roughness_tends_to_the_quasi_stationary_film(paper_case, slope):
     """The distance from the film of the ridge held where it is falls linearly with its speed."""
     n, speeds, time = 200, np.array([0.02, 0.01, 0.005]), 4.0
@@ -107,6 +112,7 @@ def test_slow_roughness_tends_to_the_quasi_stationary_film(paper_case, slope):
     assert slope(speeds, distances) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("courant", [1.0, 0.7])
 def test_a_shape_is_carried_through_the_flat_zone(paper_case, courant):
     """What a ridge makes of the film at X = -0.5 stands at X = 0.5 a time 1 later, within 1 %.
@@ -145,6 +151,7 @@ def flow(problem, now, dx, node):
     return now.mass[node, 0] - eps * gradient
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("courant", [1.0, 0.7])
 def test_oil_is_kept(paper_case, slope, courant):
     """What flows past X = -1.5 less what leaves the cavitated zone at 1.75 is gained, to second order.

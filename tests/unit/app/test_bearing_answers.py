@@ -61,6 +61,7 @@ def whole() -> BearingAnswer:
     return whole_quick_answer(inputs())
 
 
+@pytest.mark.slow
 def test_the_answer_at_once_has_the_numbers_of_the_command(quick, summary):
     assert quick.numbers == summary["bearing"]
     assert list(quick.contact_rows) == summary["contacts"]
@@ -76,6 +77,7 @@ def test_a_case_by_formula_keeps_its_choice():
     assert "formula-contacts" in [told.code for told in answer.warnings]
 
 
+@pytest.mark.slow
 def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
     assert (whole.text, whole.level) == (summary["verdict"], summary["margin"]["level"])
     assert whole.margin == summary["margin"]
@@ -89,6 +91,7 @@ def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
     assert "".join(sentences).replace(" ", "").lower() == whole.text.replace(" ", "").lower()
 
 
+@pytest.mark.slow
 def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
     totals = summary["bearing"]
     shown = {number.name: (number.bound, number.text) for number in quick.shown}
@@ -108,6 +111,7 @@ def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
     assert "upper bound: isothermal" in quick.number("first-break").note
 
 
+@pytest.mark.slow
 def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
     assert "capacitive" not in quick.number("regime").note
     speed = rpm(summary["margin"]["capacitive_speed"])
@@ -119,6 +123,7 @@ def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
     assert float(found.text.removesuffix(" rpm")) == pytest.approx(critical, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_the_details_are_the_rows_that_the_command_prints(whole, quick):
     from ehlectric.tables.bearing import total_rows
 
@@ -128,10 +133,12 @@ def test_the_details_are_the_rows_that_the_command_prints(whole, quick):
     assert len(quick.lines) < len(whole.lines)
 
 
+@pytest.mark.slow
 def test_without_ranges_the_verdict_at_once_has_the_level_of_the_whole_one(quick, whole):
     assert quick.level == whole.level == "green"
 
 
+@pytest.mark.slow
 def test_with_ranges_the_verdict_at_once_is_not_green():
     table = inputs() | {"ranges": {"bearing.radial_load": ["1700 N", "1900 N"]}}
     quick, whole = quick_answer(table), whole_quick_answer(table)
@@ -170,6 +177,7 @@ def test_every_code_of_a_warning_has_a_place():
     assert set(PLACES) == set(CODES)
 
 
+@pytest.mark.slow
 def test_warnings_stand_beside_the_numbers_they_concern(quick):
     found = {number.name: [told.code for told in number.told] for number in quick.shown}
     assert found["capacitance"] == ["atlas-contacts"]
@@ -179,6 +187,7 @@ def test_warnings_stand_beside_the_numbers_they_concern(quick):
     assert placed | {told.code for told in elsewhere(quick.warnings)} == {t.code for t in quick.warnings}
 
 
+@pytest.mark.slow
 def test_places_are_numbers_that_the_page_shows(quick):
     assert {name for names in PLACES.values() for name in names} <= {number.name for number in quick.shown}
 
@@ -192,6 +201,7 @@ def test_severe_warnings_come_first_and_each_once():
     assert elsewhere(told) == told[1:]
 
 
+@pytest.mark.slow
 def test_films_that_are_not_converged_are_no_numbers_and_no_figures(summary):
     told = (Told("not-converged", "severe", "no solution", PLACES["not-converged"]),)
     for number in shown_numbers(summary | {"converged": False}, told, whole=True):
@@ -209,6 +219,7 @@ def test_no_figures_of_films_that_are_not_converged(monkeypatch):
     assert (answer.level, answer.figures) == ("grey", {})
 
 
+@pytest.mark.slow
 def test_figures_around_the_shaft_have_the_contacts_of_the_summary(quick, summary):
     for name, key, factor in (("load", "load", 1.0), ("film", "minimum_thickness", 1e6)):
         traces = {t["name"]: t for t in quick.figures[name].plot["data"] if t["mode"] == "markers"}
@@ -220,6 +231,7 @@ def test_figures_around_the_shaft_have_the_contacts_of_the_summary(quick, summar
             assert trace["theta"] == [math.degrees(row["position"]) for row in rows]
 
 
+@pytest.mark.slow
 def test_the_figure_over_speed_passes_through_the_bearing_itself(whole, summary):
     data = whole.figures["breakdown"].plot["data"]
     (star,) = (trace for trace in data if trace.get("marker", {}).get("symbol") == "star")
@@ -230,6 +242,7 @@ def test_the_figure_over_speed_passes_through_the_bearing_itself(whole, summary)
     assert line["x"] == pytest.approx([critical] * 2, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_no_voltage_is_drawn_where_surfaces_touch():
     slow = whole_quick_answer(inputs(inner_speed="600 rpm"))
     data = slow.figures["breakdown"].plot["data"]
@@ -246,6 +259,7 @@ def test_no_voltage_is_drawn_where_surfaces_touch():
             assert (first, state) == ("none", "conducting")
 
 
+@pytest.mark.slow
 def test_figures_are_json_without_nan(whole):
     for figure in whole.figures.values():
         text = json.dumps(figure.plot, allow_nan=False)
@@ -267,6 +281,7 @@ def test_a_table_without_a_bearing_is_refused():
     assert caught.value.key
 
 
+@pytest.mark.slow
 def test_differences_of_solved_contacts(summary):
     totals = summary["bearing"]
     thinner = {"capacitance": 1.1 * totals["capacitance"], "margin": None, "lambda_ratio": 0.8}
@@ -302,6 +317,7 @@ def test_the_words_of_a_margin_below_one_are_those_of_the_level():
         assert answer.effects.caption.endswith(word)
 
 
+@pytest.mark.slow
 def test_the_effects_have_the_value_that_belongs_to_each_margin(whole, quick, summary):
     assert quick.effects is None
     effects = summary["margin"]["effects"]
@@ -326,6 +342,7 @@ def test_a_coating_has_its_own_name_for_the_voltage_on_the_shaft():
     assert amount(quick.numbers["first_break"], "V") in first.note
 
 
+@pytest.mark.slow
 def test_the_figure_over_speed_says_what_it_draws():
     table = inputs()
     del table["discharge"]
@@ -342,6 +359,7 @@ def test_a_purely_axial_load_points_out_of_the_figure():
     assert "0° (load)" not in figure.plot["layout"]["polar"]["angularaxis"]["ticktext"]
 
 
+@pytest.mark.slow
 def test_states_over_speed_are_those_of_the_scaled_lambda_ratio(summary):
     """By formula 2.5 is a partial film; scaled by 1.4 to solved contacts, it is a full one."""
     speed = summary["inputs"]["bearing"]["inner_speed"]
@@ -362,6 +380,7 @@ def test_a_verdict_without_a_colon_keeps_its_words():
     assert (found.lead, found.reasons) == ("No verdict", ("The film is thin.",))
 
 
+@pytest.mark.slow
 def test_answers_are_plain_data(quick):
     assert isinstance(asdict(quick), dict)
 

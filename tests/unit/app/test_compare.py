@@ -39,6 +39,7 @@ def solved():
     return solve(BearingCase.from_written(FAST.table).replace({"contacts": "atlas"}), workers=1)
 
 
+@pytest.mark.slow
 def test_results_are_those_of_the_package(both, solved):
     found = {result.name: result for result in both[0].results}
     summary = numbers_of(solved)["bearing"]
@@ -56,6 +57,7 @@ def test_results_are_those_of_the_package(both, solved):
     assert {told.text for told in whole.warnings} == {warning.text for warning in solved.warnings}
 
 
+@pytest.mark.slow
 def test_an_upper_bound_says_so(both):
     """The films of the example are isothermal, so that its voltages are upper bounds."""
     assert "isothermal-film" in {told.code for told in both[0].warnings}

@@ -81,6 +81,7 @@ def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
     assert check_contact(weak, str(tmp_path)).level == "red"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["line_contact", "ball_contact"])
 def test_solved_answer_is_that_of_the_command(name, tmp_path):
     grid = {} if name == "line_contact" else SMALL
@@ -174,6 +175,7 @@ def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
     assert {CONTACT_PLACES[code] for code in severe} == {tuple(one.key for one in view.numbers)}
 
 
+@pytest.mark.slow
 def test_places_of_warnings_are_numbers_of_a_contact(tmp_path):
     shown = {one.key for one in solved_coarsely(tmp_path).numbers}
     shown |= {one.key for one in check_contact(table_of("ball_contact"), str(tmp_path)).numbers}
@@ -182,6 +184,7 @@ def test_places_of_warnings_are_numbers_of_a_contact(tmp_path):
     assert {name for names in CONTACT_PLACES.values() for name in names} <= shown
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["line", "point", "switched"])
 def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
     if geometry == "switched":
@@ -214,6 +217,7 @@ def spot(view, key):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["line", "point"])
 def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
     discharge = {"dielectric_strength": "15 V/um"} | ({"length": "10 mm"} if geometry == "line" else {})
@@ -244,6 +248,7 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
     assert shown.bound == ("≤" if geometry == "line" else "")
 
 
+@pytest.mark.slow
 def test_resistance_of_spots_says_what_it_needs():
     metal = {"resistivity": "2.2e-7 ohm m"}
     for given, told in (({}, "resistivity"), (metal, "length of the contact")):
@@ -251,6 +256,7 @@ def test_resistance_of_spots_says_what_it_needs():
         assert (shown.text, told in shown.note) == ("not known", True)
 
 
+@pytest.mark.slow
 def test_breakdown_around_spots_by_a_weibull_law():
     law = {"scale": "15 V/um", "shape": 8.0, "reference_area": "1e-8 m^2"}
     result = solve(touching_case("point", discharge={"weibull": law}, electric={"potential_2": "1 V"}))

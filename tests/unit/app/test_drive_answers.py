@@ -79,6 +79,7 @@ def level(**changes):
     return verdict.level, verdict.text, verdict.margin
 
 
+@pytest.mark.slow
 def test_verdict_by_the_divider():
     """The divider is linear in the voltage of the DC link: the margin is inversely proportional to it."""
     red, text, margin = level()
@@ -125,6 +126,7 @@ def test_what_the_divider_leaves_out_is_told(changes, grade, told):
     assert told in text
 
 
+@pytest.mark.slow
 def test_behind_an_inductance_the_divider_gives_no_verdict():
     changes = {"circuit.common_mode_inductance": "1 mH", "circuit.common_mode_resistance": "100 ohm"}
     found, text, _ = level(**changes)
@@ -156,6 +158,7 @@ def test_a_wrong_value_is_told_at_its_key(key, value, told):
     assert caught.value.key == told
 
 
+@pytest.mark.slow
 def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
     answer, out, told = simulated
     path = tmp_path / "drive.toml"
@@ -178,6 +181,7 @@ def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
     assert parts[-1] == 100
 
 
+@pytest.mark.slow
 def test_remedies_stand_side_by_side(simulated):
     answer, out, _ = simulated
     titles = [row[0] for row in answer.remedies.rows]
@@ -195,6 +199,7 @@ def test_remedies_stand_side_by_side(simulated):
     assert (pytest.approx(ring["events_per_second_high"]), 1) in [(x, y) for x, y in marks]
 
 
+@pytest.mark.slow
 def test_figures_are_plain_and_small(simulated):
     answer, *_ = simulated
     assert list(answer.figures) == [
@@ -208,6 +213,7 @@ def test_figures_are_plain_and_small(simulated):
     json.dumps({name: asdict(one) for name, one in answer.figures.items()}, default=dict)
 
 
+@pytest.mark.slow
 def test_shares_of_a_distribution_are_all_discharges(simulated):
     answer, *_ = simulated
     for name in ("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"):
@@ -215,6 +221,7 @@ def test_shares_of_a_distribution_are_all_discharges(simulated):
             assert sum(trace["y"]) == pytest.approx(100.0, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_discharges_of_the_shown_time_are_marked(simulated):
     """Each mark is an event of the table of events."""
     answer, out, _ = simulated

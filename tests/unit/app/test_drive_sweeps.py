@@ -64,6 +64,7 @@ def test_the_size_is_told_before_the_run():
     assert (found.points, found.refused, found.seconds) == (4, 0, None)
 
 
+@pytest.mark.slow
 def test_every_offered_result_has_a_value(folder):
     results = read_sweep(folder)
     for key in sweep.choices(CASE).values:
@@ -73,6 +74,7 @@ def test_every_offered_result_has_a_value(folder):
     assert results.values("drive_end.peak_voltage").min() > 0.0
 
 
+@pytest.mark.slow
 def test_the_link_of_a_point_is_its_case(folder):
     results = read_sweep(folder)
     base = DriveCase.from_written(CASE)

@@ -106,6 +106,7 @@ def test_map_of_the_film_has_the_field_and_its_maximum(line):
     assert len(json.dumps(shown.plot)) < 500_000
 
 
+@pytest.mark.slow
 def test_figures_say_in_words_what_they_show(line, point):
     for shown in (*line_figures(line), *point_figures(point), *point_cuts(point, 0.0, 0.0)):
         assert shown.title
@@ -242,6 +243,7 @@ def test_values_have_digits_and_gaps():
     assert values(np.array([[1.0, 2.0]])) == [[1.0, 2.0]]
 
 
+@pytest.mark.slow
 def test_spots_of_a_line_contact_are_drawn_where_its_film_touches(touching_line):
     film = touching_line.film
     assert film.converged
@@ -261,6 +263,7 @@ def test_spots_of_a_line_contact_are_drawn_where_its_film_touches(touching_line)
     assert "boundary film of 1 nm" in shown.caption
 
 
+@pytest.mark.slow
 def test_spots_of_a_point_contact_are_marked_and_the_cuts_go_through_one(touching_point):
     film = touching_point.film
     assert film.converged
@@ -288,6 +291,7 @@ def test_surfaces_that_do_not_touch_have_no_spots(line, point):
     assert reach_of(point).first == "the smallest film"
 
 
+@pytest.mark.slow
 def test_numbers_of_surfaces_that_touch_say_so(touching_line, touching_point):
     for result in (touching_line, touching_point):
         numbers = {one.key: one for one in view_of(result).numbers}

@@ -97,6 +97,7 @@ def test_a_drive_takes_its_waveform_along(tmp_path):
     assert drive_of(found.table, tmp_path).source.file == str(tmp_path / "surfaces" / "scope.csv")
 
 
+@pytest.mark.slow
 def test_a_drive_is_written_as_by_the_command(tmp_path):
     table = tomllib.loads(example("drive").decode())
     table = {**table, "drive": {**table["drive"], "duration": "1 ms"}, "remedies": []}

@@ -62,6 +62,7 @@ VALUES = st.recursive(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(st.dictionaries(KEYS.filter(lambda key: key != "token"), VALUES, max_size=4))
 def test_an_address_and_a_text_hold_any_tables(table):

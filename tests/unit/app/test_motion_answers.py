@@ -35,6 +35,7 @@ def solved(request, tmp_path_factory):
     return answer, MotionResult.of(read_motion(place)), table, folder
 
 
+@pytest.mark.slow
 def test_frames_are_those_of_the_file(solved):
     answer, run, _, _ = solved
     chosen, frames = instants(run), answer.movie["frames"]
@@ -49,6 +50,7 @@ def test_frames_are_those_of_the_file(solved):
         assert values == pytest.approx(film * 10.0**power, rel=6e-3 if len(nodes) == 2 else 6e-4)
 
 
+@pytest.mark.slow
 def test_line_movie_has_pressure_and_field(solved):
     answer, run, _, _ = solved
     if run.kind.name != "line":
@@ -60,6 +62,7 @@ def test_line_movie_has_pressure_and_field(solved):
     assert [value is None for value in drawn[2]["y"]] == np.isnan(strength).tolist()
 
 
+@pytest.mark.slow
 def test_marks_are_at_the_extremes(solved):
     answer, run, _, _ = solved
     summary = summary_of(run.dataset)
@@ -70,6 +73,7 @@ def test_marks_are_at_the_extremes(solved):
     assert breakdown_voltages(run).min() == least
 
 
+@pytest.mark.slow
 def test_answers_are_json_of_a_bounded_size(solved):
     answer, _, _, _ = solved
     assert len(json.dumps(answer.movie, allow_nan=False)) < 2_000_000
@@ -78,6 +82,7 @@ def test_answers_are_json_of_a_bounded_size(solved):
     assert not answer.failure
 
 
+@pytest.mark.slow
 def test_history_meets_the_recorded_instants(solved):
     _, run, _, _ = solved
     drawn = {trace["name"]: trace for trace in history(run)["data"]}
@@ -85,12 +90,14 @@ def test_history_meets_the_recorded_instants(solved):
     assert np.interp(dots["x"], line["x"], line["y"]) == pytest.approx(dots["y"], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_stored_motion_is_read_again(solved):
     answer, _, table, folder = solved
     assert motion.stored(table, str(folder)) == answer
     assert motion.stored(table | {"title": "other"}, str(folder)) is None
 
 
+@pytest.mark.slow
 def test_a_stopped_run_is_shown_as_incomplete_and_resumed(tmp_path):
     table = TABLES["line"]
 
@@ -109,6 +116,7 @@ def test_a_stopped_run_is_shown_as_incomplete_and_resumed(tmp_path):
     assert min(number for number, text in done if text == "time steps") >= 6
 
 
+@pytest.mark.slow
 def test_runs_of_other_inputs_are_removed(tmp_path):
     for height in ("20 nm", "30 nm"):
         rough = [LINE["roughness"][0] | {"height": height}]
@@ -117,6 +125,7 @@ def test_runs_of_other_inputs_are_removed(tmp_path):
     assert len(list(tmp_path.glob("motion-*"))) == 1
 
 
+@pytest.mark.slow
 def test_halved_steps_are_marked(solved):
     _, run, _, _ = solved
     dataset = run.dataset.copy(deep=True)
@@ -127,6 +136,7 @@ def test_halved_steps_are_marked(solved):
     assert drawn["layout"]["showlegend"]
 
 
+@pytest.mark.slow
 def test_many_instants_are_thinned_with_the_extremes(solved, monkeypatch):
     _, run, _, _ = solved
     monkeypatch.setattr("ehlectric.app.figures.motion.MOST_INSTANTS", 5)

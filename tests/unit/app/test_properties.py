@@ -7,6 +7,8 @@ Any other text is set as an item of ``props``.
 import ast
 from pathlib import Path
 
+import pytest
+
 import ehlectric.app.pages
 
 PAGES = Path(ehlectric.app.pages.__file__).parent
@@ -53,6 +55,7 @@ def inserted():
                         yield f"{path.name}:{call.lineno}", ast.unparse(part)
 
 
+@pytest.mark.slow
 def test_properties_hold_no_text_of_a_user():
     found = list(inserted())
     assert len(found) > 10

@@ -93,6 +93,7 @@ def test_an_exact_shape_has_no_summits():
     assert look(waves, LINE, "").summits is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("case", [LINE, POINT])
 def test_figures_are_json_of_a_bounded_size(name, case):
@@ -109,6 +110,7 @@ def test_used_surface_has_the_same_rq_in_the_contact():
     assert used == expected["steps"][-1]["rq"] == solved.rough[0]["steps"][-1]["rq"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("generator", GENERATORS)
 @pytest.mark.parametrize("case", [LINE, POINT])
 def test_made_surfaces_begin_with_valid_values(generator, case):

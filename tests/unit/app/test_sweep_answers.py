@@ -119,6 +119,7 @@ def test_a_stopped_job_resumes_without_solving_a_point_twice(tmp_path):
     assert {number: points[number].seconds for number in kept} == kept
 
 
+@pytest.mark.slow
 def test_a_refused_point_has_its_reason_and_no_number(folder):
     view = sweep_view.seen(str(folder), "bearing.first_break", TABLE)
     assert view.counts == {"solved": 1, "failed": 3}
@@ -131,6 +132,7 @@ def test_a_refused_point_has_its_reason_and_no_number(folder):
     assert sum(value is None for row in coloured["z"] for value in row) == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "other",
     [
@@ -147,12 +149,14 @@ def test_a_folder_with_another_sweep_is_not_shown_as_the_one_that_is_asked_for(f
         sweep.point(str(folder), other, 0)
 
 
+@pytest.mark.slow
 def test_warnings_of_a_map_have_no_codes(folder):
     told = sweep_view.seen(str(folder), "bearing.first_break", TABLE).warnings
     assert told
     assert not any(code in one.text for one in told for code in CODES if "-" in code)
 
 
+@pytest.mark.slow
 def test_the_map_has_the_numbers_of_the_summaries(folder):
     view, results = sweep_view.seen(str(folder), "bearing.capacitance", TABLE), read_sweep(folder)
     factor = {"Capacitance of the bearing [pF]": 1e12, "Capacitance of the bearing [nF]": 1e9}[
@@ -168,6 +172,7 @@ def test_the_map_has_the_numbers_of_the_summaries(folder):
     json.dumps(view.figure, allow_nan=False)
 
 
+@pytest.mark.slow
 def test_links_reproduce_the_results_of_the_points_exactly(folder):
     results = read_sweep(folder)
     for point in results.points:
@@ -261,6 +266,7 @@ def test_files_of_this_machine_are_not_read():
         sweep.sweep_of({"case": {**CASE, "roughness": [{"file": "/etc/passwd"}]}, "vary": VARY})
 
 
+@pytest.mark.slow
 def test_tables_of_an_unfinished_sweep_can_be_downloaded(folder, tmp_path):
     again = tmp_path / "sweep"
     again.mkdir()

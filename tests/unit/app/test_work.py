@@ -33,6 +33,7 @@ async def outcome(job):
     return job.state, job.result, job.error
 
 
+@pytest.mark.slow
 def test_a_work_closed_when_a_job_ends_closes_no_file_of_others():
     """A pipe closed by two threads at once closes a file that another was given in between."""
 
@@ -64,6 +65,7 @@ def test_an_error_of_the_program_is_one_line_and_its_traceback_is_in_the_log(fun
     assert "Traceback" in caplog.text
 
 
+@pytest.mark.slow
 def test_a_killed_process_loses_its_answer_only_and_another_takes_its_place():
     async def use(work):
         slow = asyncio.create_task(work.share().quick(calls.wait, 1.0))
@@ -90,6 +92,7 @@ def test_an_answer_that_takes_too_long_is_given_up():
     assert working(None, patient) == 4
 
 
+@pytest.mark.slow
 def test_a_session_that_floods_does_not_starve_another():
     async def use(work):
         await work.quick(calls.double, 1)
@@ -157,6 +160,7 @@ def test_a_job_fails_in_words(function, values, told, caplog):
     assert told in str(error)
 
 
+@pytest.mark.slow
 def test_a_job_that_takes_too_long_is_stopped():
     async def use(work):
         return await outcome(work.start(calls.wait, 60.0))

@@ -48,6 +48,7 @@ def raised(inner, outer, inner_breakdown, outer_breakdown):
     return first, voltage / 1.001
 
 
+@pytest.mark.slow
 @given(element=elements)
 def test_breakdown_of_an_element_as_its_voltage_is_raised(element):
     first, through = raised(*element)

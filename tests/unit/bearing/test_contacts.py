@@ -75,6 +75,7 @@ def by_hand(contact, grid, discharge):
     )
 
 
+@pytest.mark.slow
 def test_a_ball_is_the_case_by_hand(light_ball):
     """Radii of a ball of 11.906 mm between (60 - 11.906)/2 and the groove of 0.52 balls; both steel."""
     values = light_ball.values
@@ -129,6 +130,7 @@ def test_moes_groups_by_hand(light_ball):
     assert light_ball.moes_l == pytest.approx(alpha * modulus * u**0.25, rel=1e-3, abs=0.0)
 
 
+@pytest.mark.slow
 def test_the_whole_of_a_ball_in_another_domain(light_ball):
     """Film by hand within 7 semi-axes before it and 3 beside, the gap of its groove around that."""
     values = light_ball.values

@@ -43,6 +43,7 @@ def equal(first, second):
     return first == second
 
 
+@pytest.mark.slow
 def test_a_result_is_loaded_as_it_was_saved(result, tmp_path):
     """Every array of every position, the contacts that were solved, and what follows from them."""
     files = save(result, tmp_path)
@@ -59,6 +60,7 @@ def test_a_result_is_loaded_as_it_was_saved(result, tmp_path):
     np.testing.assert_array_equal(mine.values, theirs.values)
 
 
+@pytest.mark.slow
 def test_the_other_files_are_the_summary_and_its_tables(result, tmp_path):
     save(result, tmp_path)
     summary = json.loads((tmp_path / SUMMARY).read_text(encoding="utf-8"), parse_constant=pytest.fail)
@@ -104,6 +106,7 @@ def test_what_is_not_known_stays_unknown(result, tmp_path):
     assert loaded.summary() == other.summary()
 
 
+@pytest.mark.slow
 def test_a_bearing_without_strength_and_conductivity(tmp_path):
     """Infinite breakdown voltages are kept, and the impedance of an earlier result goes."""
     (tmp_path / IMPEDANCE).write_text("earlier", encoding="utf-8")
@@ -124,6 +127,7 @@ def test_variables_have_units(result, tmp_path):
         assert dataset["inner_curve_inside"].attrs["units"] == "F"
 
 
+@pytest.mark.slow
 def test_what_is_no_result_of_a_bearing_is_refused(result, tmp_path):
     with pytest.raises(InputError, match=r"none\.nc: cannot be read, no such file or directory$"):
         load(tmp_path / "none.nc")

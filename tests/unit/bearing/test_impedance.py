@@ -39,6 +39,7 @@ def test_air_does_not_leak():
     assert found.magnitude[0] > 1.1 * oil_relaxation_time(result.solution) / result.capacitance("oil")
 
 
+@pytest.mark.slow
 def test_the_impedance_of_an_earlier_bearing_is_taken_away(monkeypatch, tmp_path):
     """With a conductivity it is written, without one there is none."""
     file, out = tmp_path / "bearing.toml", tmp_path / "out"

@@ -221,6 +221,7 @@ def test_rows_are_those_of_the_elements(result):
         assert row["lambda_ratio"] == pytest.approx(row["minimum_thickness"] / 0.03e-6, rel=1e-12, abs=0.0)
 
 
+@pytest.mark.slow
 def test_mechanics_of_the_summary(result):
     """The largest load is an outer one; F_c, cage and entrainment by the closed formulas of pure rolling."""
     solution = result.solution

@@ -50,6 +50,7 @@ def strict(summary):
     return json.loads(json.dumps(summary, allow_nan=False))
 
 
+@pytest.mark.slow
 def test_rollers_are_solved(rollers):
     """A light load's film needs a long inlet, whose lack is warned of."""
     assert rollers.converged
@@ -67,6 +68,7 @@ def test_rollers_are_solved(rollers):
     assert found["mechanics"]["residual"] < 1e-9
 
 
+@pytest.mark.slow
 def test_rows_make_the_total(rollers):
     """Series of inner and outer of every roller, added, is the capacitance at the first position."""
     rows = rollers.contacts()
@@ -93,6 +95,7 @@ def test_rows_make_the_total(rollers):
     assert lifted == pytest.approx(3000.0, rel=1e-6, abs=0.0)
 
 
+@pytest.mark.slow
 def test_rows_without_load_have_no_hertz_contact(rollers):
     for row in rollers.contacts():
         loaded = row["load"] > 0.0
@@ -103,6 +106,7 @@ def test_rows_without_load_have_no_hertz_contact(rollers):
         assert loaded or row["ring"] == "inner"
 
 
+@pytest.mark.slow
 def test_totals_are_means_and_least_over_a_pitch(rollers):
     circuits = rollers.solution.circuits("oil")
     found = numbers_of(rollers)["bearing"]
@@ -118,12 +122,14 @@ def test_totals_are_means_and_least_over_a_pitch(rollers):
     assert found["first_break_at"] == "inner contact of element 0"
 
 
+@pytest.mark.slow
 def test_the_pitch_is_symmetric_about_its_middle(rollers):
     """A cage as far before the load line as behind it: the same totals."""
     totals = [c.capacitance for c in rollers.solution.circuits("oil")]
     assert totals[1:] == pytest.approx(totals[:0:-1], rel=1e-6, abs=0.0)
 
 
+@pytest.mark.slow
 def test_air_around_the_films(rollers):
     """Less than with oil, more than the films alone, and the fill of the file is the one that counts."""
     films = [
@@ -138,6 +144,7 @@ def test_air_around_the_films(rollers):
     assert found["capacitance_oil"] == pytest.approx(oil, rel=1e-12, abs=0.0)
 
 
+@pytest.mark.slow
 def test_plates(rollers):
     """eps0 eps_r A/h(0) of the Hertz areas in series, from the rows of the first position."""
     rows = rollers.contacts()
@@ -156,6 +163,7 @@ def test_plates(rollers):
     assert found["capacitance_ratio"] == pytest.approx(found["capacitance"] / found["capacitance_plate"])
 
 
+@pytest.mark.slow
 def test_motor_by_hand(rollers):
     """300 V C_wr/(C_wr + C_rf + 2 C), and with a second bearing of 0.5 nF."""
     found = numbers_of(rollers)["bearing"]
@@ -176,6 +184,7 @@ def test_motor_by_hand(rollers):
     assert alone["first_break"] == found["first_break"]
 
 
+@pytest.mark.slow
 def test_relaxation_time_is_permittivity_over_conductivity(rollers):
     """2.4 * 8.854e-12 F/m over 1 pS/m: 21.25 s."""
     assert oil_relaxation_time(rollers.solution) == pytest.approx(
@@ -189,6 +198,7 @@ BREAKS = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "lubrication", "text"),
     [
@@ -217,6 +227,7 @@ def test_lambda(rollers, ratio, lubrication, text):
     assert found["bearing"]["capacitance"] > 0.0
 
 
+@pytest.mark.slow
 def test_without_a_strength_there_are_no_voltages(rollers):
     endless = [
         dataclasses.replace(
@@ -235,6 +246,7 @@ def test_without_a_strength_there_are_no_voltages(rollers):
     assert found["bearing"]["shaft_voltage"] > 0.0
 
 
+@pytest.mark.slow
 def test_ceramic_elements(rollers):
     """No equipotential: an upper bound or the given capacitance of each, and nothing that breaks down.
 
@@ -266,6 +278,7 @@ def test_ceramic_elements(rollers):
         assert {row[key] for row in found["contacts"] for key in keys} == {None}
 
 
+@pytest.mark.slow
 def test_ceramic_elements_insulate_where_they_touch(rollers):
     """A lambda of a half: no conductor, and with a given capacitance a shaft voltage as ever."""
     conditions = dataclasses.replace(rollers.solution.conditions, element=Solid.of("silicon-nitride"))
@@ -278,6 +291,7 @@ def test_ceramic_elements_insulate_where_they_touch(rollers):
     assert not any("conduct, " in text for text in found["warnings"])
 
 
+@pytest.mark.slow
 def test_a_weibull_strength_is_that_of_all_contacts(rollers):
     """From the rows of the first position: sum of (share V/V_k)^m is 1 at the first break."""
     position = rollers.solution.positions[0]
@@ -293,6 +307,7 @@ def test_a_weibull_strength_is_that_of_all_contacts(rollers):
     assert weibull.breaks()["through_breakdown"] == certain["through_breakdown"]
 
 
+@pytest.mark.slow
 def test_probability_of_breakdown_at_the_shaft_voltage(rollers):
     """From the rows of the only position: no contact breaks down with the product of exp(-(V_k/V_k1)^m)."""
     position = rollers.solution.positions[0]
@@ -312,6 +327,7 @@ def test_probability_of_breakdown_at_the_shaft_voltage(rollers):
     assert numbers_of(with_motor(weibull, None))["bearing"]["breakdown_probability"] is None
 
 
+@pytest.mark.slow
 def test_a_contact_that_is_not_converged(rollers):
     solution = rollers.solution
     first, *others = solution.outer_curve.solutions
@@ -337,6 +353,7 @@ def warned(result, name, texts):
     return BearingResult(dataclasses.replace(result.solution, **{f"{name}_curve": curve}))
 
 
+@pytest.mark.slow
 def test_what_contacts_share_is_said_once(axial):
     """One contact with either ring here: both, or one."""
     loads = [c.solutions[0].load for c in (axial.solution.inner_curve, axial.solution.outer_curve)]
@@ -350,6 +367,7 @@ def test_what_contacts_share_is_said_once(axial):
     ]
 
 
+@pytest.mark.slow
 def test_what_some_contacts_share_names_their_loads(rollers):
     curve = rollers.solution.inner_curve
     loads = [contact.load for contact in curve.solutions]
@@ -359,6 +377,7 @@ def test_what_some_contacts_share_names_their_loads(rollers):
     assert told == [f"{len(loads) - 2} inner contacts at {loads[2]:.4g} to {loads[-1]:.4g} N: Barus"]
 
 
+@pytest.mark.slow
 def test_film_factor_is_told(rollers):
     assert any(text.startswith("bearing.film_factor is none:") for text in map(str, rollers.warnings))
     assert numbers_of(rollers)["bearing"]["film_factor"] == 1.0
@@ -378,6 +397,7 @@ def test_film_factor_is_told(rollers):
     )
 
 
+@pytest.mark.slow
 def test_pure_axial_load_is_shared_equally(axial):
     """All elements alike, so the bearing is nine of one, and each breaks at the same voltage."""
     for position in axial.solution.positions:
@@ -397,6 +417,7 @@ def test_pure_axial_load_is_shared_equally(axial):
     assert sum(sines) == pytest.approx(60.0, rel=1e-6, abs=0.0)
 
 
+@pytest.mark.slow
 def test_plates_hold_less_than_the_bearing(axial, rollers):
     """h(0) is about the thickest of the Hertz zone, and there is oil and gap around it."""
     for result in (axial, rollers):

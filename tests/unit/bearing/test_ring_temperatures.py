@@ -62,6 +62,7 @@ def test_a_changed_ring_changes_what_follows_from_it():
     assert temperatures(at(70).replace(changes)) == (70, 90, 70)
 
 
+@pytest.mark.slow
 def test_films_form_at_the_temperature_of_their_ring():
     """Inner contacts with an inner ring of 90 degC are those of a bearing of 90 degC, outer ones stay."""
     mixed, cold, hot = (

@@ -30,6 +30,7 @@ def rollers():
     return solve_bearing(bearing_case(ROLLERS), workers=1).solution
 
 
+@pytest.mark.slow
 def test_solved_loads_hold_those_of_all_elements(rollers):
     """Ten of each ring, evenly in their logarithm up to the largest, and light ones below."""
     for name, race, curve in (
@@ -52,6 +53,7 @@ def test_solved_loads_hold_those_of_all_elements(rollers):
         assert loads[0] == pytest.approx(lightest, rel=1e-9, abs=0.0)
 
 
+@pytest.mark.slow
 def test_positions_are_those_of_one_pitch(rollers):
     """The first has a roller on the load line; a pitch further everything comes again."""
     assert len(rollers.positions) == POSITIONS
@@ -62,6 +64,7 @@ def test_positions_are_those_of_one_pitch(rollers):
     )
 
 
+@pytest.mark.slow
 def test_an_elements_contact_is_the_one_solved_at_its_load(rollers):
     """Each loaded roller of the first position against its own solution: within the interpolation's error."""
     case, position = rollers.case, rollers.positions[0]
@@ -76,6 +79,7 @@ def test_an_elements_contact_is_the_one_solved_at_its_load(rollers):
             assert state.values.breakdown_voltage[k] == pytest.approx(alone.breakdown_voltage, rel=tolerance)
 
 
+@pytest.mark.slow
 def test_entrainment_is_that_of_pure_rolling(rollers):
     """n pi (d_m^2 - D^2)/(2 d_m) at both rings, with the cage between them."""
     speed = np.pi * 50.0 * (60e-3**2 - 11e-3**2) / (2.0 * 60e-3)
@@ -83,6 +87,7 @@ def test_entrainment_is_that_of_pure_rolling(rollers):
     assert rollers.outer.speed == pytest.approx(speed, rel=1e-9, abs=0.0)
 
 
+@pytest.mark.slow
 def test_a_film_factor_thins_the_films(rollers):
     """By about its own part, and voltages with them; the entrainment speed is the true one."""
     lean = solve_bearing(bearing_case(ROLLERS, bearing__film_factor=0.7), workers=1).solution

@@ -93,6 +93,7 @@ def test_roughness_and_motion_begin_on_a_grid_that_can_have_waves():
         Case.from_dict({**moving, "grid": {"error": 0.01}})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tables", "asked"), [(LINE, 0.01), (LINE, 0.001), (POINT, 0.02)])
 def test_the_error_that_was_asked_for_is_reached_and_said(tables, asked):
     case = Case.from_dict(tables if asked != 0.001 else {**tables, "grid": {"error": asked}})

@@ -82,6 +82,7 @@ def test_a_terminal_shows_names_values_and_headings():
     assert str(table.title) == "Title [m]"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["contact", "discharge", "bearing", "motion", "sweep", "sensitivity"])
 def test_rows_are_made_without_a_terminal(kind):
     code = f"import sys, ehlectric.tables.{kind}; print('rich' in sys.modules, 'typer' in sys.modules)"

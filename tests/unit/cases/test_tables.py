@@ -142,6 +142,7 @@ def test_bounds_are_the_same_in_any_unit(key):
         assert f"is not a unit of {kind_of}" in refusal(key, "1 kg")
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(table=tables)
 def test_cases_of_all_kinds_survive_tables_and_files(table, tmp_path_factory):
@@ -157,6 +158,7 @@ def test_cases_of_all_kinds_survive_tables_and_files(table, tmp_path_factory):
 PLAIN = sorted(key for key in INPUTS if key.count(".") == 1 and not key.startswith("roughness"))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(table=tables, key=st.sampled_from(PLAIN))
 def test_a_wrong_number_is_found_in_any_case(table, key):

@@ -207,6 +207,7 @@ def test_files_of_bearings(tmp_path):
     assert BearingCase.from_toml(path).bearing.inner_speed == 300.0
 
 
+@pytest.mark.slow
 @given(st.floats(1e-3, 1e5, exclude_max=True))
 def test_a_written_bearing_is_the_same_bearing(speed):
     """The float itself, not one that differs in the last digit; and files of earlier versions with floats."""

@@ -73,6 +73,7 @@ def raw(path):
         return file.load()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", NAMES)
 def test_a_changed_byte_is_noticed(kind, stored, tmp_path):
     """Each file has a seal, so that damage is noticed also where all numbers remain plausible."""
@@ -106,6 +107,7 @@ def edit_and_use(kind, dataset, seeds, folder=None):
     return counts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", NAMES)
 def test_edited_values_are_refused_or_used(kind, stored):
     counts = edit_and_use(kind, raw(stored[kind]), range(60))
@@ -136,6 +138,7 @@ def read_damaged(kind, stored, path, seeds, capfd):
     return len(told)
 
 
+@pytest.mark.slow
 def test_damaged_files_without_a_seal(stored, tmp_path, capfd):
     read_damaged("contact", stored, tmp_path / "result.nc", range(4), capfd)
 
@@ -146,6 +149,7 @@ def test_many_damaged_files_without_a_seal(kind, stored, tmp_path, capfd):
     assert read_damaged(kind, stored, tmp_path / NAMES[kind], share(range(100, 150), 3), capfd) > 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "value", "says"),
     [
@@ -170,6 +174,7 @@ def test_what_is_wrong_is_named(name, value, says, stored, tmp_path):
     assert str(caught.value) == f"{tmp_path / 'result.nc'}: is damaged: {says}; compute it again"
 
 
+@pytest.mark.slow
 def test_results_of_earlier_versions_have_no_seal(tmp_path):
     dataset = read_dataset(Path(__file__).parents[2] / "data" / "earlier" / "result.nc")
     dataset.to_netcdf(tmp_path / "result.nc", engine="h5netcdf")

@@ -78,6 +78,7 @@ def with_lengths(table):
     return table | {"roughness": scaled}
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=15)
 @given(table=contacts.map(with_lengths))
 def test_any_result_survives_the_disk(table, tmp_path_factory):

@@ -80,6 +80,7 @@ def test_each_table_has_the_same_kinds():
     assert set(KINDS) == set(RESULTS) == set(OWN.film) == set(OWN.field) == {"line", "point"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("refine", [{}, {"refine": "10 %"}], ids=["", "refined"])
 @pytest.mark.parametrize("geometry", list(CASES))
 def test_a_run_reads_each_file_once(read, tmp_path, geometry, refine):

@@ -64,6 +64,7 @@ def unscaled():
 factor = st.floats(0.25, 4.0)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=25)
 @given(radius=factor, modulus=factor, load=factor, viscosity=factor)
 def test_the_film_depends_on_m_and_l_alone(radius, modulus, load, viscosity):

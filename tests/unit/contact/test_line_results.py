@@ -56,6 +56,7 @@ def test_other_netcdf_files_are_refused(paper_result, tmp_path):
         load(tmp_path / "other.nc")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_damaged_results_are_refused(paper_result, tmp_path, value):
     dataset = paper_result.to_xarray().copy(deep=True)

@@ -61,6 +61,7 @@ def unscaled():
     return film_of(scaled())
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=3)
 @given(radius=factor, modulus=factor, load=factor, viscosity=factor)
 def test_the_film_depends_on_m_l_and_the_ratio_alone(radius, modulus, load, viscosity):
@@ -72,6 +73,7 @@ def test_the_film_depends_on_m_l_and_the_ratio_alone(radius, modulus, load, visc
     np.testing.assert_allclose(thickness, unscaled()[1], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_field_of_similar_contacts_is_similar():
     """Of the same W the gaps are copies of each other."""
     ours, theirs = (solve(scaled(radius=s)).summary()["field"] for s in (3.0, 1.0))

@@ -184,6 +184,7 @@ def test_csv_is_the_film_node_by_node(result, tmp_path):
     np.testing.assert_allclose(table[:, 3].reshape(73, 49), film.thickness, rtol=1e-11)
 
 
+@pytest.mark.slow
 def test_damaged_results_are_refused(result, tmp_path):
     dataset = result.to_xarray()
     dataset["thickness"][7, 3] = np.nan
@@ -294,6 +295,7 @@ STARTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["line", "point", SLOW("across")])
 def test_refined_until_the_error_is_small(kind):
     """On the first grid of twice as many intervals whose estimate is below the target, not before."""

@@ -161,6 +161,7 @@ def test_the_whole_flooded_film_has_the_layer_that_passes(flooded):
     assert solve(POINT.replace({"inlet.film_ratio": 1.0})).film.starvation.oil_layer is None
 
 
+@pytest.mark.slow
 def test_a_film_that_is_flooded_on_the_centre_line_alone_is_starved():
     table = {"y": ["-60 um", "-50 um", "50 um", "60 um"], "thickness": ["0.2 um", "15 um", "15 um", "0.2 um"]}
     few = {"grid.field_degree": 2, "grid.field_nodes": 17, "grid.field_nodes_y": 17}
@@ -176,6 +177,7 @@ def test_a_film_that_is_flooded_on_the_centre_line_alone_is_starved():
     assert any(row.value == "at the inlet edge on y = 0" for row in result_rows(result))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [LINE, POINT], ids=["line", "point"])
 def test_layer_for_a_ratio_of_films(case):
     result = solve(case.replace({"inlet.film_ratio": 0.6}))
@@ -210,6 +212,7 @@ def test_solvers_and_measurements_that_need_a_flooded_contact(tmp_path):
         contact_factors(case, read_measurement(file), contacts="formula")
 
 
+@pytest.mark.slow
 def test_sweep_over_the_layer(tmp_path):
     """A key of a table that the case does not have; the central film is proportional to a thin layer."""
     case = LINE.replace({"grid.nodes": 201})

@@ -87,6 +87,7 @@ def test_films_that_form_again_bring_no_oil():
     assert once[-1] == near(0.25, 0.02)  # one node off X = 1
 
 
+@pytest.mark.slow
 @given(st.lists(lines, min_size=1, max_size=4).filter(lambda many: len({len(line[0]) for line in many}) == 1))
 def test_every_line_of_a_point_contact_has_its_own_exit(many):
     arrays = [np.array([line[k] for line in many]).T for k in range(3)]

@@ -89,6 +89,7 @@ def test_extinction_above_breakdown_is_refused_at_the_key_that_is_given(case):
         assert error.value.key == f"breakdown.{key}"
 
 
+@pytest.mark.slow
 def test_an_inductance_without_resistance_is_told(case):
     """5 mH and the 5.05 nF behind it, of winding and of winding and rotor in series."""
     quick = case.replace(

@@ -55,6 +55,7 @@ def test_layers_in_series():
     assert field.thin_gap_capacitance == pytest.approx(exact, rel=1e-7, abs=0.0)
 
 
+@pytest.mark.slow
 @given(scale=st.floats(1e-3, 1e4), offset=st.floats(-1e3, 1e3))
 def test_voltage_scales_and_shifts_the_field(scale, offset):
     base = solve_field(wavy())
@@ -112,6 +113,7 @@ def random_gap(lower, gap, permittivity, **changes):
     return FieldProblem(**(values | {"potential_1": 3.0, "potential_2": -2.0} | changes))
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(lower=waves, gap=waves, permittivity=waves)
 def test_energy_and_charge_give_one_capacitance(lower, gap, permittivity):
@@ -119,6 +121,7 @@ def test_energy_and_charge_give_one_capacitance(lower, gap, permittivity):
     assert field.capacitance_by_charge == pytest.approx(field.capacitance, rel=1e-9, abs=0.0)
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(lower=waves, gap=waves, permittivity=waves)
 def test_capacitance_lies_between_its_variational_bounds(lower, gap, permittivity):

@@ -188,6 +188,7 @@ def random_gap(lower, gap, permittivity):
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(lower=waves, gap=waves, permittivity=waves)
 def test_energy_and_charge_give_one_capacitance_between_its_bounds(lower, gap, permittivity):

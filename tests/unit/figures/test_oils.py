@@ -108,6 +108,7 @@ def test_no_temperature_outside_a_table_is_drawn():
     assert drawn.max() <= 70.0 + 1e-9
 
 
+@pytest.mark.slow
 def test_an_oil_without_temperature_has_one_figure(tmp_path):
     (file,) = save_oil(oil_report("paper"), tmp_path, ["svg"])
     assert file.name == "oil_over_pressure.svg"
@@ -130,6 +131,7 @@ def test_files_have_the_look_of_all_figures(tmp_path, monkeypatch):
     assert len(sizes) == 2
 
 
+@pytest.mark.slow
 def test_formats_of_the_files(tmp_path):
     files = save_oil(oil_report("n100", ["40 degC"]), tmp_path, ["svg", "pdf"])
     stems = ("oil_over_pressure", "oil_over_temperature")

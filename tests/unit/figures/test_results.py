@@ -70,6 +70,7 @@ def test_names_need_no_matplotlib():
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "False\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_figures_of_a_contact(kind, tmp_path):
     result = contact(kind)
@@ -113,6 +114,7 @@ def test_figures_of_a_bearing(bearing, tmp_path):
     assert drawn.warnings == ()
 
 
+@pytest.mark.slow
 def test_figures_of_a_motion(motion, tmp_path):
     """Of the dataset and of the run; it does not reach the instant that is compared."""
     expected = [name.removesuffix(".png") for name in names.MOTION_FIGURE_FILES[:2]]
@@ -181,6 +183,7 @@ def test_options_that_a_figure_has_not_are_refused(bearing):
         results.plot("lines_film.minimum_thickness", z=SPEED)
 
 
+@pytest.mark.slow
 def test_figures_are_saved_into_a_folder_that_is_made(line, tmp_path):
     files = save_figures(line, tmp_path / "new" / "folder")
     assert files[0].parent == tmp_path / "new" / "folder"
@@ -226,6 +229,7 @@ def line():
     return contact("line")
 
 
+@pytest.mark.slow
 def test_files_of_each_format_are_whole_and_say_the_finding(line, tmp_path):
     """The title is in the metadata, no date is, and the same figure gives the same bytes again."""
     drawn = draw_figures(line, tmp_path, names.FORMATS)
@@ -248,6 +252,7 @@ def test_files_of_each_format_are_whole_and_say_the_finding(line, tmp_path):
         assert b"Date" not in file.read_bytes()
 
 
+@pytest.mark.slow
 def test_a_journal_figure_is_a_column_wide_without_its_title(line, tmp_path):
     save_figures(line, tmp_path, ("pdf", "png"), "journal")
     box = re.search(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", (tmp_path / "film.pdf").read_bytes())

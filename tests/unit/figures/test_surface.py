@@ -24,6 +24,7 @@ def test_maps_are_drawn_to_scale():
     assert image.colorbar.ax.get_ylabel() == f"height [nm], Sq = {sq:.3g} nm"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "heights", [HEIGHTS, np.zeros((60, 40)), HEIGHTS[:, :16]], ids=["rough", "flat", "narrow"]
 )

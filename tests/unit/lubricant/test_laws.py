@@ -23,6 +23,7 @@ PRESSURE_LAWS = [
 pressures = st.floats(0.0, 1e10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("law", "parameters"), PRESSURE_LAWS)
 @given(pressure=pressures)
 def test_slope_is_the_derivative(law, parameters, pressure):

@@ -72,6 +72,7 @@ def test_slope_is_the_derivative(name, data, pressure, temperature):
     assert slope == pytest.approx(found, rel=1e-6, abs=1e-13 * abs(float(value)) / step)
 
 
+@pytest.mark.slow
 @by_law
 @given(data=st.data(), temperature=temperatures)
 def test_laws_rise_with_pressure_without_a_jump(name, data, temperature):
@@ -212,6 +213,7 @@ AMBIENT = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("law", "oil"), AMBIENT, ids=["yasutomi", "doolittle"])
 @given(temperature=st.floats(280.0, 430.0))
 def test_coefficient_and_inverse_at_ambient_pressure(law, oil, temperature):

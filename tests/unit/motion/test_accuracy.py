@@ -16,6 +16,7 @@ def solved(case, folder):
     return read_motion(run_motion(case, folder))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("table", "steps"), [(LINE, 32), (LINE, 33), (POINT, 8)])
 def test_the_companion_is_a_run_on_every_second_node_with_twice_the_step(table, steps, tmp_path):
     """As solved from a case of its own; the last step of an odd number has no companion."""

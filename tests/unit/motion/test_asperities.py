@@ -85,6 +85,7 @@ def written(tmp_path_factory):
     return run(CASE, folder, progress), files
 
 
+@pytest.mark.slow
 def test_every_step_has_what_its_film_has(written):
     dataset = written[0].result
     solver = TransientSolver(TransientContact.of(CASE))
@@ -128,6 +129,7 @@ def test_oil_is_kept_where_surfaces_come_into_contact():
     assert max(spots) > 1
 
 
+@pytest.mark.slow
 def test_balance_of_the_load_with_asperities(written):
     """Oil and asperities carry the load at all recorded instants, some with a quarter of it in spots."""
     dataset = written[0].result
@@ -138,6 +140,7 @@ def test_balance_of_the_load_with_asperities(written):
     assert dataset["asperity_load_share"].values.max() > 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [34, 41], ids=["before spots", "among spots"])
 def test_a_resumed_run_has_the_same_asperities(written, step, tmp_path):
     outcome, files = written
@@ -149,6 +152,7 @@ def test_a_resumed_run_has_the_same_asperities(written, step, tmp_path):
     same(read_motion(tmp_path), outcome.result)
 
 
+@pytest.mark.slow
 def test_the_summary_tables_figures_and_warnings_say_it(written):
     outcome, _ = written
     summary, dataset = outcome.summary, outcome.result
@@ -172,6 +176,7 @@ def test_the_summary_tables_figures_and_warnings_say_it(written):
     assert "load share of asperities" in [trace["name"] for trace in over_time.history(moving_run)["data"]]
 
 
+@pytest.mark.slow
 def test_a_run_that_never_touches_says_nothing(tmp_path):
     """Its file, its table and its figure have nothing of asperities; its summary has no time with a spot."""
     outcome = run(FULL, tmp_path)
@@ -253,6 +258,7 @@ def test_a_run_that_touches_has_no_error_of_its_minimum():
     assert run_errors(MotionRun.of(touching([0, 0, 1, 1, 1, 1]).assign(values))) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "value"), [("spots", 1.5), ("asperity_load_share", -0.1)])
 def test_damaged_values_are_refused(written, name, value, tmp_path):
     (tmp_path / "motion.nc").write_bytes(written[1][41])

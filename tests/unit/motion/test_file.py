@@ -333,6 +333,7 @@ def test_a_run_that_is_complete_is_solved_anew(tmp_path, stopped):
     assert run(CASE, tmp_path, 0) == ANEW[:2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [0, 100, 20_000])
 def test_a_file_cut_short_is_refused_and_an_empty_one_replaced(tmp_path, stopped, size):
     path = stopped(4)
@@ -424,6 +425,7 @@ def test_roughness_that_is_not_solved_held_still_has_no_maps(tmp_path, monkeypat
     assert told.startswith("the film with stationary roughness did not converge (")
 
 
+@pytest.mark.slow
 def test_roughness_that_is_another_one_held_still_is_said(tmp_path):
     """Its Rq is of all that is made: three passes of it are another sample than one domain."""
     rough = {"surface": 1, "generator": "gaussian", "rq": 1e-9, "correlation_length": 6e-5, "seed": 1}
@@ -434,6 +436,7 @@ def test_roughness_that_is_another_one_held_still_is_said(tmp_path):
         assert (said in read_motion(tmp_path).attrs["warnings"]) == expected
 
 
+@pytest.mark.slow
 def test_warnings_are_of_the_grid_of_the_case(tmp_path):
     """Eight intervals in a wave: as many as resolve it, however far it travels."""
     wave = 8.0 * 6.0 / 64.0 * TransientContact.of(CASE).half_width

@@ -27,6 +27,7 @@ def outcome(tmp_path_factory):
     return run(CASE, tmp_path_factory.mktemp("starved"))
 
 
+@pytest.mark.slow
 def test_the_summary_has_the_layer_and_the_meniscus(outcome):
     film = outcome.summary["film"]
     assert film["oil_layer"] == pytest.approx(LAYER, rel=1e-12)
@@ -36,6 +37,7 @@ def test_the_summary_has_the_layer_and_the_meniscus(outcome):
     assert all(f"film.{name}" in keys for name in film)
 
 
+@pytest.mark.slow
 def test_the_table_has_the_layer_and_the_meniscus(outcome):
     rows = {row.name: str(row.value) for row in run_rows(outcome.summary)}
     assert float(rows["layer of oil before the contact"]) == pytest.approx(LAYER, rel=1e-12)
@@ -43,6 +45,7 @@ def test_the_table_has_the_layer_and_the_meniscus(outcome):
     assert f"x/b = {place:.3g} before the motion" in rows["meniscus, where oil fills the gap"]
 
 
+@pytest.mark.slow
 def test_the_flow_through_the_hertz_zone_is_that_of_the_layer(outcome):
     """rho H = H_oil in the middle, and oil is up to a quarter denser there, so that the film is thinner."""
     dataset = outcome.result
@@ -50,6 +53,7 @@ def test_the_flow_through_the_hertz_zone_is_that_of_the_layer(outcome):
     assert np.all((film < LAYER) & (film > 0.8 * LAYER))
 
 
+@pytest.mark.slow
 def test_the_file_has_the_part_that_oil_fills(outcome):
     """At the inlet edge it is the layer over the gap, and 1 where there is pressure."""
     dataset = outcome.result
@@ -61,6 +65,7 @@ def test_the_file_has_the_part_that_oil_fills(outcome):
     assert np.all(dataset["meniscus"].values < 0.0)
 
 
+@pytest.mark.slow
 def test_a_stopped_run_goes_on_as_if_it_had_not_been_stopped(outcome, monkeypatch, tmp_path):
     advance, calls = UnsteadyFilm.advance, []
 

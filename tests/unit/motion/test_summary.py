@@ -429,6 +429,7 @@ def test_a_run_is_told_as_it_was_solved(tmp_path):
     assert [surface["surface"] for surface in summary["rough"]] == [1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("table", [LINE, POINT], ids=["line", "point"])
 def test_a_stored_run_needs_no_surface_file(tmp_path, table):
     """Reading, summary and figures work after the file of the profile is deleted."""

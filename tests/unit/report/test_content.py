@@ -261,6 +261,7 @@ def test_values_of_the_bearing_of_the_library_have_its_sources():
     assert dict(material_sources(case))["steel"].citation
 
 
+@pytest.mark.slow
 def test_the_date_alone_makes_two_reports_differ(folder, monkeypatch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1767225600")
     first = write_report(folder, folder / "a.html", folder / "a.pdf")

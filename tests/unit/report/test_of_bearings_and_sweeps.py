@@ -38,17 +38,20 @@ def touching(tmp_path_factory):
     return report_of(place)
 
 
+@pytest.mark.slow
 def test_a_figure_that_is_empty_is_told_in_words(touching):
     texts = [block.text for block in touching.blocks() if isinstance(block, Text)]
     assert any("no speed has one" in text for text in texts)
     assert not any(".png" in text or "expected one of" in text for text in texts)
 
 
+@pytest.mark.slow
 def test_the_name_of_a_bearing_keeps_its_letters(touching):
     answer = touching.sections[0].blocks
     assert any(isinstance(block, Text) and block.text.startswith("Bearing 6208, 30 rpm") for block in answer)
 
 
+@pytest.mark.slow
 def test_cells_are_true_without_the_cells_beside_them(touching):
     tables = [block for block in touching.blocks() if isinstance(block, Table)]
     cells = {row[0]: row for table in tables if "quantity" in table.heads for row in table.rows}
@@ -57,6 +60,7 @@ def test_cells_are_true_without_the_cells_beside_them(touching):
     assert cells["parallel capacitance"][1] == "not given"
 
 
+@pytest.mark.slow
 def test_the_finding_of_a_figure_is_said_once(touching):
     pictures = [block for block in touching.blocks() if isinstance(block, Picture)]
     assert pictures

@@ -69,6 +69,7 @@ def rows(table):
     return {row[0]: row[1:] for row in table.rows}
 
 
+@pytest.mark.slow
 def test_sections_begin_with_the_answer(report):
     assert [one.title for one in report.sections] == [
         "Answer", "Warnings", "What decides the result", "Key numbers", "Figures", "Remedies",
@@ -212,6 +213,7 @@ def test_the_input_file_is_the_drive(report, drive, tmp_path):
     assert DriveCase.from_toml(tmp_path / "again.toml") == drive.case
 
 
+@pytest.mark.slow
 def test_a_page_escapes_the_title_and_has_heads_for_every_column(page):
     assert not page.of("script")
     assert "<script>alert(1)</script>" in page.text
@@ -219,6 +221,7 @@ def test_a_page_escapes_the_title_and_has_heads_for_every_column(page):
     assert len(page.of("caption")) == len(page.of("table"))
 
 
+@pytest.mark.slow
 @needs_pdftotext
 def test_no_text_is_lost_on_paper(report, page):
     paper = text_of_pdf(pdf_of(report)).replace(" ", "").replace("\xad", "")
@@ -237,6 +240,7 @@ def test_no_text_is_lost_on_paper(report, page):
                     assert plain.replace(" ", "") in paper, text
 
 
+@pytest.mark.slow
 def test_a_sweep_of_drives_has_a_verdict_and_its_values(swept):
     results, report = swept
     light = next(block for block in report.sections[0].blocks if isinstance(block, Light))
@@ -262,6 +266,7 @@ def test_a_sweep_of_drives_has_a_verdict_and_its_values(swept):
     assert varied["bearing.radial_load"][1] == "varied"
 
 
+@pytest.mark.slow
 def test_verdict_on_a_sweep_from_its_points(swept):
     results, _ = swept
     red = swept_verdict(results)

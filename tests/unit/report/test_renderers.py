@@ -77,6 +77,7 @@ def test_a_document_has_title_author_and_outline():
     assert b"/Lang (en)" in content
 
 
+@pytest.mark.slow
 def test_words_that_no_line_holds():
     """A word as long as a page does not stop a document."""
     pdf_of(small_report("x" * 3000, "y" * 3000))

@@ -95,6 +95,7 @@ def files(tmp_path):
     return {kind: tmp_path / f"{kind}.toml" for kind in FILES}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", FILES)
 def test_a_file_of_each_kind_is_run_the_same_way(kind, files, tmp_path):
     """Nothing is drawn; what the progress is told last is the end."""
@@ -165,6 +166,7 @@ def test_a_film_that_is_no_solution_is_a_failure_with_its_files(files, tmp_path)
     assert outcome.summary["converged"] is False
 
 
+@pytest.mark.slow
 def test_no_point_that_is_solved_is_a_failure(files, tmp_path):
     files["contact"].write_text(CASE + "[solver]\nmax_iterations = 1\n")
     outcome = run(files["sweep"], tmp_path / "out", workers=1)
@@ -185,6 +187,7 @@ def test_a_folder_holds_one_result(files, tmp_path):
     assert sorted(path.name for path in folder.iterdir()) == sorted([*WRITTEN["contact"], "notes.txt"])
 
 
+@pytest.mark.slow
 def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
     case = RUNS["contact"].read(files["contact"])
     told = []
@@ -194,6 +197,7 @@ def test_figures_are_among_the_files_of_a_run_that_draws(files, tmp_path):
     assert run_and_draw("contact", case, tmp_path, draw=False).files == outcome.files[:3]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["contact", "bearing", "drive"])
 def test_a_result_is_loaded_whatever_it_is_of(kind, files, tmp_path):
     outcome = run(files[kind], tmp_path / "out")

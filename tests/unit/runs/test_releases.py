@@ -40,11 +40,12 @@ def numbers(value, path=()):
 
 
 def test_this_release_has_files():
-    """python tests/data/releases/written.py makes them."""
+    """python tests/data/releases/kept.py makes them."""
     kinds = {path.name for path in RELEASES.glob(f"{__version__}/*/*.*") if path.suffix in {".nc", ".sqlite"}}
     assert kinds == {"result.nc", "bearing.nc", "drive.nc", "motion.nc", "sweep.sqlite"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", RESULTS, ids=name_of)
 def test_a_stored_result_has_its_numbers(folder):
     """Numbers of the summary follow from the stored arrays and the case: those of a later version too."""

@@ -194,6 +194,7 @@ def test_a_motion_that_ends_early_says_so(monkeypatch, caplog):
     assert "motion: the run ends early, time step 9" in caplog.messages
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("table", [CONTACT, BEARING], ids=["contact", "bearing"])
 def test_saved_results_are_equal(table, tmp_path):
     result = solve(table)

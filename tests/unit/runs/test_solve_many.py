@@ -43,6 +43,7 @@ def test_an_error_stands_in_the_place_of_a_result():
     assert "nowhere.toml: cannot be read" in str(found[2].error)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
 def test_progress_is_told_for_each_case(workers):
     """How many are finished, of how many; their number is not known of what has no length."""
@@ -59,6 +60,7 @@ def test_progress_is_told_for_each_case(workers):
         solve_many(given, progress=True)
 
 
+@pytest.mark.slow
 def test_in_processes():
     found = {number: result for number, result, error in solve_many(CASES, workers=2) if error is None}
     assert {number: result == solve(CASES[number]) for number, result in found.items()} == {
@@ -68,12 +70,14 @@ def test_in_processes():
     }
 
 
+@pytest.mark.slow
 def test_errors_come_back_from_processes():
     (one,) = solve_many([{"contact": {}}], workers=2)
     assert isinstance(one.error, InputError)
     assert one.error.key == "contact.reduced_radius"
 
 
+@pytest.mark.slow
 def test_cases_may_be_endless():
     """They are read as processes get free, and the processes end with the loop."""
     read = []
@@ -89,6 +93,7 @@ def test_cases_may_be_endless():
     assert len(read) < 20
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_costs_only_its_case(monkeypatch):
     monkeypatch.setattr(module, "solve_case", dies)
     deadly = CASES[0].replace({"grid.nodes": 131})
@@ -105,6 +110,7 @@ def test_workers_are_a_number(workers):
         next(solve_many(CASES, workers=workers))
 
 
+@pytest.mark.slow
 def test_a_script_needs_no_main_guard(tmp_path):
     """Processes do not import the script: it is run once, and its calls may stand at its top level."""
     script = tmp_path / "script.py"

@@ -101,6 +101,7 @@ def test_a_file_that_this_process_has_written_is_sound_until_it_changes(tmp_path
     assert len(tried) == 1
 
 
+@pytest.mark.slow
 def test_a_file_that_keeps_hdf5_busy_for_ever(damaged, monkeypatch):
     """Zeros in the texts of attributes: HDF5 looks for the next one without end, and no signal ends it."""
     monkeypatch.setattr(sound, "_LIMIT", 1.0)

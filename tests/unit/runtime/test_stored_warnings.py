@@ -101,6 +101,7 @@ UNSTORED = {
 }
 
 
+@pytest.mark.slow
 @given(lists)
 def test_what_is_stored_comes_back(warnings):
     table = json.loads(json.dumps(texts_and_codes(warnings)))

@@ -41,6 +41,7 @@ def test_members_are_those_of_pythons_reader(tmp_path, pack):
         member(archive, content, "main.xml", 10)
 
 
+@pytest.mark.slow
 def test_a_small_file_of_a_hundred_million_points(tmp_path):
     """0.78 MB of zeros, 800 MB as numbers."""
     path = tmp_path / "bomb.x3p"

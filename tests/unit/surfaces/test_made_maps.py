@@ -18,6 +18,7 @@ RIDGES = partial(GAUSSIAN, correlation_length_y=2e-5)
 SELF_AFFINE = partial(map_generators.self_affine, rq=1e-8, hurst=0.6, rolloff_wavelength=2e-5, shortest=2e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("make", "across"), [(GAUSSIAN, 5e-6), (RIDGES, 2e-5)], ids=["round", "ridges"])
 def test_gaussian_maps_are_as_asked(make, across):
     """Rq is that of all such maps: the integral of the squared autocorrelation is pi lx ly/2, so that a map
@@ -38,6 +39,7 @@ def test_gaussian_maps_are_as_asked(make, across):
     assert s.rms_slope == pytest.approx(exact, rel=4 / np.sqrt(2 * n) + 0.005)
 
 
+@pytest.mark.slow
 def test_many_small_maps_have_the_variance_of_theory():
     """What a single point has over 200 seeds: within four standard errors, 1/sqrt(2 n) each."""
     for make in (GAUSSIAN, partial(SELF_AFFINE, shortest=4e-6)):

@@ -77,6 +77,7 @@ LONG_WAVES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("table", "message"), LONG_WAVES)
 def test_waves_too_long_or_too_short_are_refused(table, message):
     with pytest.raises(InputError, match=message) as caught:
@@ -94,6 +95,7 @@ def test_where_the_instrument_has_its_zero_means_nothing():
     assert np.std(cut.height(np.linspace(-2.3e-3, 2.3e-3, 5001))) > 5e-7
 
 
+@pytest.mark.slow
 def test_a_cut_that_takes_much_is_said():
     (said,) = [text for text in texts_of(CONTOUR | {"truncate": "50 nm"}) if "truncate" in text]
     share = np.mean(np.abs(surfaces_of(CONTOUR)[0].steps[1][1].heights) > 50e-9)

@@ -141,6 +141,7 @@ def damage_bytes(path, seed):
     path.write_bytes(with_damaged_bytes(path.read_bytes(), seed))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", [edit, damage_bytes])
 @pytest.mark.parametrize("kind", ["grid", "sobol"])
 def test_damaged_sweeps(kind, damage, databases, tmp_path):

@@ -88,12 +88,14 @@ def summaries(tmp_path_factory):
     return keys
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_key_of_a_summary_has_an_entry(summaries, kind):
     keys = result_keys(case_of(kind))
     assert [key for key in summaries(kind) if key_of(keys, key) is None] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_entry_is_a_key_of_a_summary(summaries, kind):
     """An entry without a number behind it says something about results that is not so.
@@ -126,6 +128,7 @@ def test_units_are_those_of_si(kind):
     assert {unit: to_si(f"1 {unit}", unit) for unit in units} == dict.fromkeys(units, 1.0)
 
 
+@pytest.mark.slow
 def test_labels_are_those_of_the_list():
     """labels.csv has the label of every key of small contacts, bearings and motions, read by hand."""
     with DATA.open(encoding="utf-8", newline="") as file:

@@ -158,6 +158,7 @@ def test_speeds_alone_are_drawn_as_capacitance_and_breakdown_voltages(tmp_path):
     assert save_speeds(found, take(found, SPEED, TEMPERATURE, "bearing.first_break"), tmp_path) == []
 
 
+@pytest.mark.slow
 def test_a_sweep_of_bearings_is_mapped_by_its_first_break(tmp_path):
     """By the command, from the file to the figures; the file names no value."""
     (tmp_path / "bearing.toml").write_text(
@@ -174,6 +175,7 @@ def test_a_sweep_of_bearings_is_mapped_by_its_first_break(tmp_path):
     assert {path.name for path in out.glob("*.png")} == {"lines_bearing.first_break.png", *SPEED_FIGURE_FILES}
 
 
+@pytest.mark.slow
 def test_tables_have_texts_and_a_film_factor_beside_the_one_that_was_varied(tmp_path):
     """Inlet shear thins the film, and a roughness of 0.3 um lets it touch; what was asked for stays."""
     thermal = {"lubricant__temperature__thermal_conductivity": "0.14 W/m/K"}

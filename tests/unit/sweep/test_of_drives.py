@@ -66,6 +66,7 @@ def results(folder):
     return read_sweep(folder)
 
 
+@pytest.mark.slow
 def test_points_are_the_solutions_of_single_drives(results):
     """To the last bit, with the same random numbers; the remedies of the file are left out."""
     assert [point.status for point in results.points] == ["solved"] * 4
@@ -82,12 +83,14 @@ def test_points_are_the_solutions_of_single_drives(results):
     np.testing.assert_allclose(rates, events / duration, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_points_that_the_folder_has_are_not_solved_again(folder, results):
     with NoneLeft() as executor:
         again = run_sweep(folder.parent / "sweep.toml", folder, executor)
     assert again == results
 
 
+@pytest.mark.slow
 def test_tables_have_the_numbers_of_both_ends_with_their_units(results):
     table = results.to_dataframe()
     assert list(table[SPEED]) == pytest.approx([1500.0 * RPM] * 2 + [4000.0 * RPM] * 2)
@@ -101,6 +104,7 @@ def test_tables_have_the_numbers_of_both_ends_with_their_units(results):
     assert DriveCase.from_dict(results.case.to_dict()) == results.case
 
 
+@pytest.mark.slow
 def test_a_map_is_drawn_of_the_discharges_unless_another_value_is_named(folder, tmp_path):
     words = ["map", str(folder), "--x", SPEED, "--y", LOAD, "-o", str(tmp_path)]
     for more in ([], ["--value", "drive_end.energy_mean"]):
@@ -114,6 +118,7 @@ def test_a_map_is_drawn_of_the_discharges_unless_another_value_is_named(folder, 
     assert "nearest is drive_end.time_above.5" in done.output
 
 
+@pytest.mark.slow
 def test_axes_of_figures_have_names_and_units(results):
     ax = value_map(results, SPEED, LOAD, "non_drive_end.peak_voltage")
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("speed [rpm]", r"radial load $F_\mathrm{r}$ [kN]")
@@ -222,6 +227,7 @@ def test_a_sweep_of_a_drive_is_checked_without_a_simulation():
     assert any("2 times ehlectric drive" in str(row.note) for row in meaning.rows)
 
 
+@pytest.mark.slow
 def test_a_report_draws_maps_and_lines_of_both_bearings_once_where_they_are_the_same(results):
     names = swept_names(results, swept_values(results))
     assert names[:2] == ["map_drive.events_per_second", "lines_drive.events_per_second"]

@@ -159,6 +159,7 @@ def test_progress_while_nothing_finishes(tmp_path, monkeypatch):
     assert told[-1] == (1, 1, "")
 
 
+@pytest.mark.slow
 def test_rough_surfaces_vary(tmp_path):
     """A film over a higher ridge is thinner, and the file of a surface enters by what it holds."""
     heights = [1e-8 * math.sin(2.0 * math.pi * k / 50.0) for k in range(500)]
@@ -189,6 +190,7 @@ def test_solve_point_is_what_is_submitted(tmp_path):
     assert calls == [(solve_point, CASE.replace({SPEED: 1.0}).to_dict())]
 
 
+@pytest.mark.slow
 def test_a_sweep_may_be_tables_or_a_file_and_nothing_else(tmp_path):
     tables = {"case": CASE, "vary": {SPEED: [1.0, 2.0]}, "design": "grid"}
     results = run_sweep(tables, tmp_path / "tables", workers=1)

@@ -136,6 +136,7 @@ def test_totals_are_no_less_than_first_order(seed, inputs):
     assert np.all(low[1] >= 0.0)
 
 
+@pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """y = 2 x1 + x2 has the indices 4/5 and 1/5. Of 400 designs of independent rows, 95 % should hold each;
     three standard deviations of a count are 3.3 %, and percentile intervals are known to be a little short.

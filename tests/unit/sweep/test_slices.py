@@ -136,6 +136,7 @@ def test_margin_is_the_ratio_of_the_voltages():
 positive = st.lists(st.floats(1e-3, 1e3), min_size=2, max_size=6, unique_by=lambda v: round(np.log(v), 3))
 
 
+@pytest.mark.slow
 @given(xs=positive, ys=positive, logs=st.tuples(st.booleans(), st.booleans()), seed=st.integers(0, 99))
 def test_what_is_linear_in_the_axes_is_met_between_the_points(xs, ys, logs, seed):
     """On any grid, however it is spaced; its bounds are those of the points."""

@@ -253,6 +253,7 @@ def test_something_else_in_its_place(tmp_path):
         Store(tmp_path)
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_one_line_and_loses_nothing(tmp_path):
     """A limit on the size of files stands in for the disk: SQLite meets the same failed write."""
     code = f"""

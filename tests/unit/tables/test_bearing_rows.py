@@ -26,6 +26,7 @@ def steel():
     return summary_of(discharge__peak_current="1 A", bearing__inner_speed="1500 rpm")
 
 
+@pytest.mark.slow
 def test_values_and_notes_have_no_units(steel):
     """Value, unit and note are columns of a report."""
     for row in total_rows(steel):
@@ -36,6 +37,7 @@ def test_values_and_notes_have_no_units(steel):
     assert rows(steel)["surfaces touch below"].unit == "rpm"
 
 
+@pytest.mark.slow
 def test_voltages_are_upper_and_fields_lower_bounds(steel):
     found = rows(steel)
     at_most = {name for name, row in found.items() if row.bound == "≤"}
@@ -61,6 +63,7 @@ def test_the_capacitance_of_ceramic_elements_is_an_upper_bound():
     assert known["capacitance of the bearing"].bound == ""
 
 
+@pytest.mark.slow
 def test_a_shaft_that_discharges_through_the_oil_has_a_lower_voltage():
     found = rows(summary_of(discharge__conductivity="1 uS/m", motor__switching_frequency="10 kHz"))
     assert found["shaft voltage"].bound == "≤"
@@ -77,11 +80,13 @@ def test_what_is_not_computed_says_so_in_the_column_of_values():
     assert found["parallel capacitance"].shown == "not given"
 
 
+@pytest.mark.slow
 def test_a_parallel_capacitance_of_zero_is_given():
     found = rows(summary_of(bearing__parallel_capacitance="0 pF"))
     assert found["parallel capacitance"].text.startswith("0 pF")
 
 
+@pytest.mark.slow
 def test_films_that_are_not_converged_are_said_first(steel):
     first, *others = total_rows({**steel, "converged": False})
     assert (first.name, first.alarm, first.shown) == ("NOT CONVERGED", True, "")
@@ -89,6 +94,7 @@ def test_films_that_are_not_converged_are_said_first(steel):
     assert others == total_rows(steel)
 
 
+@pytest.mark.slow
 def test_the_pressure_viscosity_coefficient_is_that_of_the_film_formulas(steel):
     row = rows(steel)["pressure-viscosity coefficient α*"]
     assert row.value == steel["lubricant"]["alpha_star"]

@@ -44,6 +44,7 @@ def results():
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "parts"),
     [
@@ -68,11 +69,13 @@ def test_representation_of_what_is_not_converged():
     assert "NOT CONVERGED (stalled)>" in repr(result)
 
 
+@pytest.mark.slow
 def test_representation_of_parts_of_a_result(results):
     for part in (results["line"].film, results["point"].field, results["bearing"].solution):
         assert len(repr(part)) <= WIDTH
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "rows_of"),
     [
@@ -104,6 +107,7 @@ def test_a_lambda_ratio_below_one_says_that_surfaces_touch():
     assert row.text == f"{ratio:.3g}, surfaces touch (no voltage computed)"
 
 
+@pytest.mark.slow
 def test_titles_are_no_markup(results):
     html = results["line"]._repr_html_()
     assert "A &lt;b&gt; &amp; c" in html
@@ -130,6 +134,7 @@ def test_the_line_of_a_bearing_is_the_same_before_and_after_its_verdict_is_known
     assert "verdict" not in before
 
 
+@pytest.mark.slow
 def test_cases_show_what_was_given(results):
     case = results["line"].case
     html = case._repr_html_()
@@ -149,6 +154,7 @@ def test_cases_show_what_was_given(results):
     assert "1 to 8" in Sweep.from_dict(spread)._repr_html_()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "label"),
     [
@@ -166,11 +172,13 @@ def test_plot_draws_the_figure_that_tells_most(results, kind, label):
     assert any(label in text for text in texts), texts
 
 
+@pytest.mark.slow
 def test_a_notebook_shows_the_figure(results):
     """A figure of a canvas without a window has no image of its own in a notebook."""
     assert results["line"].plot()._repr_png_().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_plot_by_name(results):
     line = results["line"]
     for name in ("field_strength", "field_strength.png"):
@@ -196,6 +204,7 @@ def test_plot_of_sweeps():
         grid({SPEED: (1.0, 2.0, 4.0)}, status=lambda _: "failed").plot()
 
 
+@pytest.mark.slow
 def test_tables_of_pandas(results):
     line, bearing, motion = (results[kind].to_dataframe() for kind in ("line", "bearing", "motion"))
     film = results["line"].film
@@ -211,6 +220,7 @@ def test_tables_of_pandas(results):
     assert motion.attrs["units"]["minimum_thickness"] == "m"
 
 
+@pytest.mark.slow
 def test_a_map_node_by_node(results):
     film = results["point"].film
     frame = results["point"].to_dataframe()
@@ -219,6 +229,7 @@ def test_a_map_node_by_node(results):
     assert (row["x"], row["y"], row["thickness"]) == (film.x[1], film.y[2], film.thickness[1, 2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_result_has_a_summary_and_a_dataset(results, kind):
     result = results[kind]
@@ -226,6 +237,7 @@ def test_every_result_has_a_summary_and_a_dataset(results, kind):
     assert result.to_xarray().attrs["case"]
 
 
+@pytest.mark.slow
 def test_dataset_of_a_bearing_has_units(results):
     dataset = results["bearing"].to_xarray()
     assert dataset["load"].attrs["units"] == "N"

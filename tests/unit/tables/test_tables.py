@@ -131,6 +131,7 @@ def test_formulas_are_compared_with_the_solved_film():
     assert named["minimum film (Pan-Hamrock)"] == expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["line", "point"])
 def test_formulas_are_not_compared_with_a_boundary_film(geometry):
     result = solved(geometry)

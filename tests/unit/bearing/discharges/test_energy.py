@@ -103,6 +103,7 @@ def test_one_table_says_what_is_connected(changes, line):
     assert str(caught.value).startswith(line)
 
 
+@pytest.mark.slow
 def test_a_stored_bearing_has_the_same_energies(driven, tmp_path):
     save(driven, tmp_path)
     again = load(tmp_path / "bearing.nc")

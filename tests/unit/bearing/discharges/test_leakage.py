@@ -27,6 +27,7 @@ def codes(result):
     return {one.code for one in result.warnings}
 
 
+@pytest.mark.slow
 def test_a_leaky_oil_makes_the_shaft_voltage_an_upper_bound():
     """1 mS/m at a permittivity of 2.4: 21 ns; both bearings have about a third of the capacitance."""
     result = solved(**LEAKY)
@@ -44,6 +45,7 @@ def test_a_leaky_oil_makes_the_shaft_voltage_an_upper_bound():
     assert "its voltage is an upper bound" in result.verdict.text
 
 
+@pytest.mark.slow
 def test_a_tight_oil_says_nothing():
     """1 pS/m: 21 s, and a shaft that keeps its voltage over any period."""
     result = solved(motor__switching_frequency="8 kHz")

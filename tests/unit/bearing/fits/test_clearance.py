@@ -80,6 +80,7 @@ def test_a_warm_shaft_widens_the_inner_ring():
     assert found.clearance == pytest.approx(20e-6 - 5e-6 * 40.0 / 47.99, rel=1e-9, abs=0.0)
 
 
+@pytest.mark.slow
 @given(
     fits=st.tuples(st.floats(-5e-5, 5e-5), st.floats(-5e-5, 5e-5)),
     more=st.floats(1e-9, 5e-5),

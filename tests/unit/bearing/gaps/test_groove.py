@@ -240,6 +240,7 @@ geometries = st.fixed_dictionaries(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(
     outer=st.booleans(),
@@ -277,6 +278,7 @@ def rigid(gap):
     return LoadedContact(dry_contact(1.0, 5e-3, 0.1, stiff), stiff, gap, 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("outer", "angle", "gap"), [(False, 0.0, 1e-6), (False, 0.4, 2e-5), (True, 0.0, 2e-5), (True, 0.4, 1e-6)]
 )

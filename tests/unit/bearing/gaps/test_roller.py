@@ -156,6 +156,7 @@ def test_no_tail_beyond_the_roller():
     assert roller_tails(RACES[0], 1e-3, (-8e-3, 8e-3), (8e-3, 8e-3)) == (0.0, 0.0)
 
 
+@pytest.mark.slow
 @given(
     gap=st.floats(1e-9, 5e-5),
     factor=st.floats(1.01, 10.0),

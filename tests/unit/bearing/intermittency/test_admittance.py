@@ -46,6 +46,7 @@ def test_without_contacts_it_is_that_of_the_films():
     np.testing.assert_allclose(found.mean.values, found.values, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_only_with_a_resistance_where_surfaces_touch():
     rough = {"bearing__composite_rq": "0.3 um"}
     assert impedance_of(solved(**rough)) is None

@@ -12,6 +12,7 @@ def result(**changes):
     return solve_bearing(bearing_case(BALLS, **(THIN | changes)), workers=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", ["1000 rpm", "4000 rpm"])
 def test_the_bearing_becomes_capacitive_there(speed):
     """From below and from above; the bearing at that speed, solved again, is at the limit."""
@@ -27,6 +28,7 @@ def test_the_bearing_becomes_capacitive_there(speed):
     assert found.summary()["margin"]["capacitive_speed"] == found.capacitive_speed
 
 
+@pytest.mark.slow
 def test_no_such_speed():
     coating = {"ring": "outer", "thickness": "200 um", "relative_permittivity": 9.0, "area": "45 cm^2"}
     for changes in (

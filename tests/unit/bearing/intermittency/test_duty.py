@@ -204,6 +204,7 @@ def test_either_deviation_or_bandwidth():
     assert changed.bearing.summits.bandwidth is None
 
 
+@pytest.mark.slow
 def test_summits_that_touch_a_full_film_leave_no_green_verdict():
     """Above lambda 3 without a warning by lambda alone; the summits say that contacts short it at times."""
     keys = {"bearing__inner_speed": "5500 rpm", "discharge__dielectric_strength": "100 V/um"}

@@ -103,6 +103,7 @@ def check_balance(state, radial, axial):
     assert state.residual < 1e-9
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(
     bearing=st.sampled_from([B6208, many(7), many(15, 40e-6), many(11, -3e-6), ANGULAR]),

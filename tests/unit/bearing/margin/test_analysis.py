@@ -56,6 +56,7 @@ def effect(result, key):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["balls", "rollers"])
 def test_the_margin_at_the_critical_speed_is_one(request, name):
     """Solved again at that speed at eight positions of the cage, where the analysis has two."""
@@ -139,6 +140,7 @@ def said_of_speeds(rpm):
     return result, speeds, bearing_verdict(result.solution, analysis).text
 
 
+@pytest.mark.slow
 def test_the_speed_below_which_surfaces_may_touch_is_that_of_a_lambda_ratio_of_three():
     """From a lambda ratio of 1.2, of 1.6 and of 3.8; at 200 rpm it is beyond the range of 20 to 800 rpm."""
     for n in (270, 400, 1400):
@@ -264,6 +266,7 @@ def test_effects_are_those_of_bearings_solved_again(balls):
     assert found.high_margin < balls.breaks()["margin"] < found.low_margin
 
 
+@pytest.mark.slow
 def test_the_load_acts_on_the_film_and_on_the_shaft_voltage(balls):
     """A load makes the film thinner, and the capacitance larger, which takes voltage from the shaft.
 
@@ -288,6 +291,7 @@ def test_effects_are_sorted_by_size(balls):
     assert touching.size == math.inf
 
 
+@pytest.mark.slow
 def test_inputs_of_each_kind_of_bearing(rollers):
     """Rollers and balls have a clearance, angular-contact bearings a contact angle in its place."""
     keys = {one.key for one in rollers.margin_analysis.effects}
@@ -303,6 +307,7 @@ def test_a_small_clearance_stays_positive():
     assert (found.low_input, found.high_input) == (pytest.approx(2e-6), pytest.approx(6e-6))
 
 
+@pytest.mark.slow
 def test_a_temperature_without_effect_is_said():
     oil = {"base": "paper", "viscosity": "12 mPa s"}
     analysis = solved(lubricant=oil).margin_analysis
@@ -370,6 +375,7 @@ def test_without_a_margin_there_is_no_analysis():
         assert analysis.effects == ()
 
 
+@pytest.mark.slow
 def test_a_stored_bearing_has_the_same_analysis_and_verdict(balls, tmp_path):
     save(balls, tmp_path)
     stored = load(tmp_path / "bearing.nc")

@@ -48,6 +48,7 @@ def judged(result, **analysis):
     return bearing_verdict(result.solution, MarginAnalysis(margin, NO_SPEEDS, **analysis))
 
 
+@pytest.mark.slow
 def test_a_bearing_that_holds_its_voltage(balls):
     """All of the numbers are those of its summary."""
     verdict, found = balls.verdict, balls.summary()
@@ -256,6 +257,7 @@ def test_across_a_lambda_ratio_of_one_nothing_turns_safe():
     assert {row["regime"] for row in below.contacts()} == {"touching", "partial film", "gap"}
 
 
+@pytest.mark.slow
 def test_a_field_beyond_any_liquid_is_a_warning():
     """100 kV of common mode: more than 3300 V/um in the film, above its strength and above 1000 V/um."""
     result = solved(motor__common_mode_voltage="100 kV")

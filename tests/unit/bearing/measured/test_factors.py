@@ -145,6 +145,7 @@ def test_rings_keep_their_difference_from_a_measured_temperature(case):
     assert ehlectric.film_factors(warmer, frame).mean.value == pytest.approx(0.7, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_range_moves_the_factor_as_its_ends_do(case, exact):
     """Half of the change of ln f between a case 4 K colder and 4 K warmer, over the square root of three."""
     ranged = case.replace({"ranges": {KELVIN: ["66 degC", "74 degC"]}})
@@ -215,6 +216,7 @@ def test_a_correction_multiplies_what_the_formulas_say():
     assert Correction.none().of(state) is state
 
 
+@pytest.mark.slow
 def test_solved_contacts_enter_by_their_ratio_to_the_atlas(case, monkeypatch):
     """Contacts "solved" by the atlas, with films 5 % thicker than its own."""
     quick = case.replace({"contacts": "atlas"})
@@ -247,6 +249,7 @@ def test_a_solved_bearing_gives_back_its_film_factor():
     assert abs(by_formula.mean.value - 0.8) > 5 * abs(found.mean.value - 0.8)
 
 
+@pytest.mark.slow
 def test_the_synthetic_example_gives_back_its_film_factor():
     """Its true factor lies in the stated interval, and the interval is no wider than 8 %."""
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")

@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 import ehlectric
 from tests.helpers.places import ROOT
 from tests.reference.synthetic_capacitance import FILE
@@ -9,6 +11,7 @@ from tests.reference.synthetic_capacitance import FILE
 GUIDE = ROOT / "docs" / "guide" / "measured.md"
 
 
+@pytest.mark.slow
 def test_the_script_of_the_guide_gives_its_numbers(tmp_path, monkeypatch, capsys):
     page = GUIDE.read_text(encoding="utf-8")
     (script,) = re.findall(r"^```python\n(.*?)^```", page, flags=re.S | re.M)

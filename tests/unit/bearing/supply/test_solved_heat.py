@@ -38,6 +38,7 @@ def rollers():
     return solve_bearing(case(ROLLERS))
 
 
+@pytest.mark.slow
 def test_solved_factor_of_balls_is_near_to_the_formula():
     """Solved films in pure rolling are 0.6 to 2 % above Wilson and Sheu, by docs/theory/bearing.md."""
     quick = prepare_bearing(case(factor="inlet-shear"), 1)
@@ -59,6 +60,7 @@ def test_films_of_the_bearing_have_the_solved_factor(rollers, supply):
     assert summary_of(solution)["bearing"]["heat_factor"] == solution.conditions.heat_factor
 
 
+@pytest.mark.slow
 def test_rollers_lose_more_film_the_faster_they_turn():
     """Heat goes with the square of the speed; at low speed nothing of the film is left to lose."""
     factors = [
@@ -113,6 +115,7 @@ def test_a_contact_is_solved_once():
     assert solved_heat._solved.cache_info().misses == known
 
 
+@pytest.mark.slow
 def test_stored_results_keep_the_factor(rollers, tmp_path, monkeypatch):
     save(rollers, tmp_path)
     monkeypatch.setattr(solved_heat, "_solved", None)
@@ -167,6 +170,7 @@ def test_what_the_factor_is_is_said(rollers):
     assert rows[0][-1] == "(solved heat in the film, in pure rolling)"
 
 
+@pytest.mark.slow
 def test_a_sweep_varies_the_word(tmp_path):
     """A sweep has the factor of each word beside it; that of a material without values is told."""
     table = case(ROLLERS, "none", bearing__inner_speed="6000 rpm")

@@ -76,6 +76,7 @@ def test_flooded_is_what_it_was(tables):
     assert not list(supply_warnings(flooded))
 
 
+@pytest.mark.slow
 def test_summary_of_a_greased_bearing():
     """Films are those of the same number as film factor; warnings say what the number rests on."""
     result = solve_bearing(case(bearing__supply="grease"))
@@ -111,6 +112,7 @@ def test_parts_of_a_film_factor_are_all_named(factor, note, row):
     assert next(film_factors(summary))[3] == row
 
 
+@pytest.mark.slow
 def test_half_time_goes_with_the_film_and_the_track():
     """t = 3/(rate h^2), so that half the film takes four times as long; rollers have no such time."""
     times = []

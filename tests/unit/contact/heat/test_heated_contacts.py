@@ -132,6 +132,7 @@ def test_a_film_without_heat_has_none_in_its_file(tmp_path):
     assert not {"temperature", "zeta", "shear_stress"} & set(dataset.variables)
 
 
+@pytest.mark.slow
 def test_damaged_numbers_are_refused(hot, tmp_path):
     path = tmp_path / "result.nc"
     dataset = hot.to_xarray()
@@ -263,6 +264,7 @@ def test_heat_that_does_not_fit_into_memory_is_refused():
     check_case(Case.from_dict(table | {"film": {"rheology": "eyring"}}))
 
 
+@pytest.mark.slow
 def test_a_point_contact_is_hot_on_both_sides_alike(tmp_path):
     """Half of the contact is solved; its temperature stands at all nodes, in the file and in a figure too."""
     result = solve(Case.from_dict(HOT_POINT))

@@ -41,6 +41,7 @@ def test_the_factor_is_measured_over_computed(case):
     assert [warning.code for warning in found.warnings] == ["formula-films"]
 
 
+@pytest.mark.slow
 def test_solved_films_are_those_of_solve(case):
     """Three solved films, and the one between them from the ratio to the formula."""
     films = [

@@ -95,6 +95,7 @@ def test_outside_is_that_of_a_ball_or_a_cylinder_on_a_plane(read, results, kind,
 PAPER_RADIUS = 14.1e-3
 
 
+@pytest.mark.slow
 def test_domain_may_end_anywhere(results):
     """A larger domain moves capacitance from the outside into it; their sum stays."""
     larger = {"grid.inlet": -6.0, "grid.outlet": 3.0, "grid.side": 4.0, "grid.nodes": 97}
@@ -103,6 +104,7 @@ def test_domain_may_end_anywhere(results):
     assert wide.meter.capacitance == pytest.approx(narrow.meter.capacitance, rel=0.02)
 
 
+@pytest.mark.slow
 @KINDS
 def test_thin_coating_changes_nothing_and_a_thick_one_takes_the_voltage(read, kind):
     bare = read(kind, fill="oil")

@@ -31,6 +31,7 @@ def flux_behind(result, i):
     return carried - density * fluidity * gap**3 / 12.0 * slope
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [LINE, ROUGH], ids=["sinusoid", "gaussian"])
 def test_what_leaves_the_zone_in_excess_is_the_error(case):
     """Flux through two full faces, one ahead of all spots and one behind the last full node of the zone."""
@@ -48,6 +49,7 @@ def test_what_leaves_the_zone_in_excess_is_the_error(case):
     assert gained / flow == pytest.approx(found.oil_made - found.oil_lost, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "case",
     [ROUGH, rough_point(gaussian(0.1e-6, 30e-6), speed=0.01)],

@@ -68,6 +68,7 @@ def film_vector(nodes):
     return f"v({upper})" if lower == "0" else f"v({upper})-v({lower})"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CIRCUITS)
 def test_voltage_without_breakdown_is_that_of_ngspice(name, tmp_path):
     """Within 0.1 % of the largest voltage at every time of ten periods."""
@@ -86,6 +87,7 @@ def test_voltage_without_breakdown_is_that_of_ngspice(name, tmp_path):
         np.testing.assert_allclose(mine, theirs, rtol=0.0, atol=1e-3 * np.max(np.abs(theirs)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["divider", "leaking", "coated"])
 def test_discharges_at_a_fixed_threshold_are_those_of_ngspice(name, tmp_path):
     """The same number of events; voltages, charges and energies within 1 %."""

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import numba
+import pytest
 
 from ehlectric.drive.discharges import compiled, march
 from ehlectric.drive.discharges.compiled import contents_of
@@ -27,6 +28,7 @@ def test_the_folder_is_that_of_the_sources():
     assert contents_of(SOURCE) not in str(numba.config.CACHE_DIR)
 
 
+@pytest.mark.slow
 def test_a_folder_of_the_user_is_kept(tmp_path):
     code = (
         "import numba; from ehlectric.drive.discharges import march;"

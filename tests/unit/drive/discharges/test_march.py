@@ -139,6 +139,7 @@ def test_both_polarities_discharge():
     np.testing.assert_allclose(np.abs(record.events[1:, VOLTAGE]), 5.0, rtol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("renewal", ["slow", "fast"])
 def test_rate_of_films_that_are_renewed(renewal):
     """A square wave, and films renewed at random with the rate nu; p is the chance that one breaks down.

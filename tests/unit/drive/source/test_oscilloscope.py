@@ -128,6 +128,7 @@ def files(draw):
     return values, steps / 1000 * factors[0], start / 1000 * factors[0], content.encode(encoding)
 
 
+@pytest.mark.slow
 @given(files())
 def test_any_dialect_is_read_to_the_printed_precision(tmp_path_factory, made):
     values, step, start, content = made

@@ -122,6 +122,7 @@ def test_stated_values_above_a_single_column():
     assert [column.unit for column in heads.columns] == ["V"]
 
 
+@pytest.mark.slow
 @given(st.lists(st.lists(fields, min_size=1, max_size=4), min_size=1, max_size=6), st.sampled_from(";,\t"))
 def test_the_fast_parser_reads_what_the_slow_one_reads(rows, separator):
     """Or nothing, and then the slow one decides."""

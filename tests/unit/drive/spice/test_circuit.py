@@ -109,6 +109,7 @@ def first_drop(values):
     return int(np.argmax(np.abs(values[1:]) < np.abs(values[:-1])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_switch_closes_at_the_breakdown_voltage(plain, sign, tmp_path):
     """Within a time step of the ramp of 10 V in 1 ms; behind 1 kOhm the arc cannot hold its voltage."""
@@ -161,6 +162,7 @@ def test_the_table_has_its_nodes(over_speed, tmp_path):
         assert resistance_of(tmp_path, include, instance) == pytest.approx(tau / own, rel=1e-4), speed
 
 
+@pytest.mark.slow
 def test_between_its_nodes_the_table_is_near_the_bearing(over_speed, tmp_path):
     """At 2500 rpm, between nodes at 2000 and 3000 rpm, against the bearing that is solved there."""
     result, include = solved(bearing__inner_speed="2500 rpm"), written(over_speed, tmp_path, **ARC)

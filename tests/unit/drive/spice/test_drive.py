@@ -42,6 +42,7 @@ def still(case):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("modulation", ["space-vector", "six-step"])
 def test_without_breakdown_the_shaft_has_the_voltage_of_the_divider(modulation, tmp_path):
     """From peak to peak: the DC link, or a third of it in six-step operation, over the capacitances."""
@@ -57,6 +58,7 @@ def test_without_breakdown_the_shaft_has_the_voltage_of_the_divider(modulation, 
     assert found["shaft_peak_to_peak"] == pytest.approx(ratio * swing, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_inductances_and_cable_are_those_of_the_simulation(tmp_path):
     """Largest and smallest voltage with ringing, after a rest that is longer than all of it."""
     case = small_drive(**STRONG, **PATHS)
@@ -79,6 +81,7 @@ def test_inductances_and_cable_are_those_of_the_simulation(tmp_path):
     assert np.ptp(after) == pytest.approx(found["shaft_peak_to_peak"], rel=2e-3)
 
 
+@pytest.mark.slow
 def test_the_arc_of_the_drive_discharges_each_bearing_by_itself(tmp_path):
     """Different bearings have subcircuits of their own; the current of the weaker one is that of its arc."""
     case = small_drive(**{"non_drive_end.discharge.dielectric_strength": "190 V/um"})
@@ -98,6 +101,7 @@ def test_the_arc_of_the_drive_discharges_each_bearing_by_itself(tmp_path):
     assert charging < 0.6 * peak
 
 
+@pytest.mark.slow
 def test_a_measured_voltage_is_the_source_of_the_bench(tmp_path):
     rows = [f"{k * 1e-7:.7e},{200.0 if k // 50 % 2 else -200.0}" for k in range(400)]
     (tmp_path / "scope.csv").write_text("time (s),voltage (V)\n" + "\n".join(rows) + "\n")

@@ -23,6 +23,7 @@ def plain():
     return solved()
 
 
+@pytest.mark.slow
 @given(st.text())
 def test_every_line_of_a_comment_is_one(text):
     for line in comment(text):

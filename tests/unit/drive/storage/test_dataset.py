@@ -25,6 +25,7 @@ def drive():
     return replace(result, solution=replace(result.solution, told=told))
 
 
+@pytest.mark.slow
 def test_a_loaded_result_equals_the_saved_one(drive, tmp_path):
     files = save(drive, tmp_path)
     assert [file.name for file in files] == ["summary.json", "events.csv", "drive.nc"]

@@ -328,6 +328,7 @@ def test_a_bearing_without_motor_has_no_shaft_voltage():
     assert not [found for found in ax.get_lines() if found.get_label().startswith("shaft")]
 
 
+@pytest.mark.slow
 def test_figures_are_saved(result, tmp_path):
     files = save_bearing_figures(result, tmp_path)
     assert [file.name for file in files] == list(bearing_figures_of(result))
@@ -336,6 +337,7 @@ def test_figures_are_saved(result, tmp_path):
     assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
 
 
+@pytest.mark.slow
 def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
     """And takes the figures of an earlier bearing away."""
     file = tmp_path / "bearing.toml"
@@ -349,6 +351,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
         assert written == {"summary.json", "contacts.csv", "impedance.csv", "bearing.nc", *figures}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
@@ -387,6 +390,7 @@ def test_titles_say_the_duty_once(title, line):
     assert title_of(figure(BearingResult(solution), LOADS))[1] == line
 
 
+@pytest.mark.slow
 def test_titles_say_the_finding(result):
     most = max(result.contacts(), key=lambda row: row["load"])
     thin = min(result.contacts(), key=lambda row: row["minimum_thickness"])
@@ -546,6 +550,7 @@ def example_at(n):
     return solve_bearing(case.replace(changes), workers=1)
 
 
+@pytest.mark.slow
 def test_curves_begin_where_the_surfaces_part():
     """At 100 rpm, lambda 0.65: voltages from a lambda ratio of 1 on, no speed without curve or hatch."""
     slow = example_at(100)
@@ -565,6 +570,7 @@ def test_curves_begin_where_the_surfaces_part():
     assert "breakdown expected" in [text.get_text() for text in ax.get_legend().get_texts()]
 
 
+@pytest.mark.slow
 def test_title_and_verdict_name_one_range_of_speeds():
     """At 200 rpm, lambda 1.04, the margin is below 1 from the speed where surfaces part to 800 rpm."""
     result = example_at(200)
@@ -652,6 +658,7 @@ def test_no_curve_runs_through_the_label_of_the_margin(points, first):
     no_curve_in_labels(speed_figure(points, SPEED_FIGURE_FILES[1], own=own))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [300, 400])
 def test_no_curve_runs_through_a_label_where_the_margin_is_below_one(n):
     """The first breakdown rises towards the shaft voltage on the right of the label."""
@@ -675,6 +682,7 @@ def no_curve_in_labels(drawn):
     assert box.y1 < ax.get_window_extent().y1
 
 
+@pytest.mark.slow
 def test_figures_over_speed_are_saved(points, tmp_path):
     files = save_speed_figures(points, tmp_path, "By hand")
     assert [file.name for file in files] == list(SPEED_FIGURE_FILES)

@@ -17,6 +17,7 @@ def result(kind):
     return result_of(kind)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("along", ["x", "y"])
 def test_cuts_are_of_the_result(result, kind, along):
     film, field, b = result.film, result.field, result.conditions.semi_axis_x
@@ -61,6 +62,7 @@ def test_smooth_films_are_dotted_beside_rough_ones():
     assert film_cut(result_of("circle")).get_legend() is None
 
 
+@pytest.mark.slow
 def test_lines_are_named_by_where_they_are(result, kind):
     b, (x, y) = result.conditions.semi_axis_x, result.film.minimum_position
     for ax, axis, position in zip(drawn(kind, cuts).figure.axes, "yx", (y, x), strict=False):

@@ -314,6 +314,7 @@ def test_panels_draw_on_given_axes():
         assert all(ax.has_data() for ax in axes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["across", "along", "gaussian"])
 def test_nothing_is_cut_or_written_over(result, kind):
     """All is on the page, nothing is over the title, and no legend is over its axes."""
@@ -333,6 +334,7 @@ def test_nothing_is_cut_or_written_over(result, kind):
                 assert legend.get_window_extent().y0 > ax.get_window_extent().y1
 
 
+@pytest.mark.slow
 def test_unsolved_figures_say_so(tmp_path):
     for figure in pages("unsolved").values():
         assert title_of(figure)[0] == "NOT CONVERGED"

@@ -49,6 +49,7 @@ def test_names_are_those_of_the_files(drive, grounded):
     assert title_of(drive.plot()) == title_of(figure(drive, VOLTAGES))
 
 
+@pytest.mark.slow
 def test_a_file_of_each_format_is_written(drive, tmp_path):
     files = save_figures(drive, tmp_path, FORMATS)
     assert [file.name for file in files] == list(in_formats(DRIVE_FIGURE_FILES, FORMATS))

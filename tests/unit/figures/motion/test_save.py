@@ -258,6 +258,7 @@ def test_waves_of_pure_rolling_have_one_line(ball):
     assert names == {"mean speed, also of surface 1"}
 
 
+@pytest.mark.slow
 def test_point_contacts_are_mapped_on_their_middle_line(ball):
     # The run is symmetric in y, of which the middle node is 0.
     middle = ball.dataset["thickness"].values[:, :, 20]
@@ -359,6 +360,7 @@ def test_frames_name_their_colours(run):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("contact", [CONTACT, BALL])
 def test_figures_are_written(contact, tmp_path, monkeypatch):
     monkeypatch.setitem(drawing._SCREEN, "savefig.dpi", 60)
@@ -370,6 +372,7 @@ def test_figures_are_written(contact, tmp_path, monkeypatch):
             assert image.size[0] == 7.2 * 60
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "left"),
     [
@@ -409,6 +412,7 @@ def test_frames_of_a_point_contact_are_maps_where_the_field_is(ball):
     assert (cross.get_xdata()[0], cross.get_ydata()[0]) == pytest.approx((0.5, -0.75))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("contact", [CONTACT, BALL])
 def test_animation_has_every_instant(contact, tmp_path):
     done = []
@@ -475,6 +479,7 @@ def program(folder, text):
     return f"{folder}{os.pathsep}{os.environ['PATH']}"
 
 
+@pytest.mark.slow
 def test_ffmpeg_is_given_every_pixel_of_every_instant(tmp_path, monkeypatch):
     copy = "with open(sys.argv[-1], 'wb') as file: shutil.copyfileobj(sys.stdin.buffer, file)"
     monkeypatch.setenv("PATH", program(tmp_path / "bin", copy))

@@ -114,6 +114,7 @@ def test_map_is_drawn_up_to_its_largest_value():
     assert filled(ax, 7.0, 0.3)
 
 
+@pytest.mark.slow
 def test_line_of_breakdown_is_where_it_is():
     """10 V (u/(4 m/s))^0.7 (w/(1 MN/m))^-0.1 is 5 V at u = 4 (0.5 (w/(1 MN/m))^0.1)^(1/0.7) m/s.
 
@@ -155,6 +156,7 @@ def test_map_without_the_line_says_on_which_side_it_is(potential, text):
     assert legend(value_map(results, SPEED, LOAD, VALUE))[-1] == text
 
 
+@pytest.mark.slow
 def test_film_has_no_line_of_breakdown():
     ax = value_map(grid({SPEED: SPEEDS, LOAD: LOADS}), SPEED, LOAD, "film.minimum_thickness")
     assert legend(ax) == ["20 points"]
@@ -320,6 +322,7 @@ def test_maps_are_saved(tmp_path, y, names):
     assert all(path.read_bytes().startswith(b"\x89PNG") for path in files)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "status",
     [

@@ -93,6 +93,7 @@ def test_line_contacts_of_library_oils(name, temperature, load, speed):
     assert found.errors["central"] < 0.03
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "temperature", "load", "lubricant", "ratio"),
     [
@@ -114,6 +115,7 @@ def test_point_contacts_of_library_oils(name, temperature, load, lubricant, rati
     assert found.errors["minimum"] < 0.08
 
 
+@pytest.mark.slow
 def test_film_on_a_patch_is_that_on_the_whole_grid():
     """A patch with half of the spacings gives the numbers of the whole domain on the finer grid."""
     laws = reference_laws()

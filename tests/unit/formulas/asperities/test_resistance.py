@@ -43,6 +43,7 @@ def test_two_spots():
         assert near == pytest.approx(0.055 + STEEL / (2.0 * np.pi * 4e-6), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_many_spots_over_a_disc():
     """Equal voltages: the resistance of the disc, rho/(2 alpha). Equal currents: 32/(3 pi^2) of it."""
     count, alpha = 2500, 1e-4

@@ -66,6 +66,7 @@ def test_two_rough_surfaces_are_an_integral_over_the_offset(level):
         assert float(found) == pytest.approx(expected, rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
 @given(levels=st.lists(st.integers(-200, 800).map(lambda k: k / 100), min_size=2, max_size=6, unique=True))
 def test_contact_falls_with_separation(model, levels):

@@ -130,6 +130,7 @@ def test_cells_of_a_cube_are_those_of_vtk():
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["line", "point", "bearing", "drive"])
 def test_a_mat_file_has_all_arrays_and_the_summary(name, request, tmp_path):
     result = request.getfixturevalue(name)
@@ -177,6 +178,7 @@ def test_names_of_matlab_are_valid_and_different():
     assert names["units"] == "units_2"
 
 
+@pytest.mark.slow
 def test_a_workbook_has_summary_inputs_and_table(bearing, tmp_path):
     """Numbers are numbers with their units, and a title that begins like a formula is a text."""
     book = openpyxl.load_workbook(export(bearing, tmp_path / "bearing.xlsx"))
@@ -200,6 +202,7 @@ def test_a_workbook_has_summary_inputs_and_table(bearing, tmp_path):
     assert [row[column] for row in table[1:]] == pytest.approx(list(frame["load"]), rel=1e-15)
 
 
+@pytest.mark.slow
 def test_a_sweep_and_a_folder_are_exported(tmp_path):
     sweep = Sweep.from_dict({"case": contact().replace({"grid.nodes": 401}), "vary": {SPEED: [1.0, 2.0]}})
     assert run_sweep(sweep, tmp_path / "sweep", workers=1).summary()["solved"] == 2

@@ -1,4 +1,4 @@
-"""Keeps files of a release, which later versions must read: python tests/data/releases/written.py
+"""Keeps files of a release, which later versions must read: python tests/data/releases/kept.py
 
 It writes a folder by the name of the version. The results are those of examples on coarse grids; the
 summary.json and sweep.csv beside a file have its numbers as the release gave them.
