@@ -3,17 +3,12 @@
 #   docker run --rm -p 8080:8080 ehlectric
 # It prints an address with a token, http://localhost:8080/?token=... Open it as it is on this machine; on another one put
 # the name of this machine in place of localhost. If you publish another port (-p 9000:8080), change the port too.
-FROM python:3.13-slim AS wheel
+FROM python:3.13-slim
 WORKDIR /source
 COPY . .
-RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
-
-FROM python:3.13-slim
-COPY --from=wheel /wheels /wheels
-COPY requirements.hashes /wheels/
-RUN pip install --no-cache-dir --require-hashes --requirement /wheels/requirements.hashes \
- && pip install --no-cache-dir --no-deps /wheels/*.whl \
- && rm -r /wheels \
+RUN pip install --no-cache-dir --require-hashes --requirement requirements.hashes \
+ && pip install --no-cache-dir --no-deps --no-build-isolation . \
+ && rm -r /source \
  && useradd --create-home ehlectric
 USER ehlectric
 WORKDIR /home/ehlectric

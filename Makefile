@@ -16,7 +16,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
 	@echo "make app     install and open the web app; options with: make app OPTIONS='--port 8100'"
-	@echo "make browser install what the tests of the web app, reports and netlists need: Chromium, pdftotext, ngspice"
+	@echo "make browser install what the tests of the web app, reports, netlists and exports need: Chromium, pdftotext, ngspice, Octave"
 	@echo "make test    install and run the tests"
 	@echo "make slow    run the long tests"
 	@echo "make thorough  run them with all of their random examples, and others each time; takes hours"
@@ -54,7 +54,7 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml requirements.lock
 	@touch $@
 
 $(VENV)/.docs: $(BIN)/python pyproject.toml requirements.lock
-	$(BIN)/python -m pip install --quiet --editable ".[docs]"
+	$(BIN)/python -m pip install --quiet --editable ".[docs,app,parquet,excel,cluster]"
 	@touch $@
 
 # All extras in one step, in place of one step for each command below.
@@ -71,12 +71,13 @@ app: $(VENV)/.app
 	$(BIN)/ehlectric app $(OPTIONS)
 
 # Tests in a browser are skipped without one, unless EHLECTRIC_BROWSER is "required"; tests that read a PDF are
-# skipped without pdftotext. Tests of netlists need ngspice as those in a browser need one.
+# skipped without pdftotext. Tests of netlists need ngspice, and those of exports Octave, as those in a browser need one.
 browser:
 	@missing=" chromium fonts-dejavu-core"; \
 	for name in $(BROWSERS); do if command -v $$name; then missing=; break; fi; done; \
 	command -v pdftotext || missing="$$missing poppler-utils"; \
 	command -v ngspice || missing="$$missing ngspice"; \
+	command -v octave-cli || missing="$$missing octave"; \
 	if [ -z "$$missing" ]; then exit; fi; \
 	if [ "$$(id -u)" = 0 ] && command -v apt-get > /dev/null; then \
 	  apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends $$missing; \
@@ -158,7 +159,7 @@ bench-public: $(VENV)/.dev
 
 lock:
 	uv pip compile pyproject.toml --extra dev --extra docs --extra instruments --extra parquet --extra cluster --extra app --universal --python-version 3.11 --no-header --quiet --output-file requirements.lock
-	uv pip compile pyproject.toml --extra app --extra excel --extra parquet --extra cluster --universal --python-version 3.11 --no-header --quiet --constraint requirements.lock --generate-hashes --output-file requirements.hashes
+	uv pip compile pyproject.toml packaging/build.in --extra app --extra excel --extra parquet --extra cluster --universal --python-version 3.11 --no-header --quiet --constraint requirements.lock --generate-hashes --output-file requirements.hashes
 
 # PDF of the paper on the software, by pandoc and typst from the registry.
 paper: $(VENV)/.dev

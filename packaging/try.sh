@@ -51,20 +51,30 @@ python - <<'PYTHON'
 import re
 import signal
 import subprocess
+import threading
 import urllib.request
 
-app = subprocess.Popen(["ehlectric", "app", "--no-browser", "--port", "0"], stdout=subprocess.PIPE, text=True)
-line = app.stdout.readline()
-address = re.search(r"http://\S+", line)[0]
-page = urllib.request.urlopen(address, timeout=60).read().decode()
-assert "ehlectric" in page, page[:200]
-app.send_signal(signal.SIGINT)
-app.wait(60)
+words = ["ehlectric", "app", "--no-browser", "--port", "0"]
+with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as app:
+    end = threading.Timer(120, app.kill)
+    end.start()
+    try:
+        address = re.search(r"http://\S+", app.stdout.readline())[0]
+        page = urllib.request.urlopen(address, timeout=60).read().decode()
+        assert "ehlectric" in page, page[:200]
+        app.send_signal(signal.SIGINT)
+        app.wait(60)
+    finally:
+        app.kill()
+        end.cancel()
 print("app:", address, f"{len(page)} characters")
 PYTHON
 ls
 
 # The same from the source distribution, as recipes of other packagers build it.
-pip install --quiet --no-deps --force-reinstall "$dist"/*.tar.gz
+if [ "${VERSIONS:-}" = newest ]; then
+  pip install --quiet hatchling
+fi
+pip install --quiet --no-deps --no-build-isolation --force-reinstall "$dist"/*.tar.gz
 ehlectric --version
 ehlectric check bearing_6208.toml | tail -n 3

@@ -10,6 +10,7 @@ from pathlib import Path
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
 
 # Extras that users install, in the order of the table.
 EXTRAS = ("", "app", "excel", "parquet", "cluster")
@@ -37,8 +38,8 @@ def _add(requirement: Requirement, extra: str, found: dict[str, str]) -> None:
         return
     try:
         package = distribution(name)
-    except PackageNotFoundError:
-        return
+    except PackageNotFoundError as error:
+        raise ExtensionError(f"{name} is not installed, so that its licence is not known") from error
     found[name] = extra
     for text in package.requires or ():
         own = Requirement(text)

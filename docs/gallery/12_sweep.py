@@ -22,11 +22,9 @@ sweep = ehlectric.Sweep.from_dict(
 )
 
 # %%
-# The points are solved in processes, which import this script again. The call is therefore below the line
-# ``if __name__ == "__main__":``; a notebook does not need it. The map shows the breakdown voltage: it depends
+# The points are solved in processes, one for each core. The map shows the breakdown voltage: it depends
 # on the speed far more than on the load.
-if __name__ == "__main__":
-    with TemporaryDirectory() as folder:
-        results = ehlectric.run_sweep(sweep, folder)
-    print(results)
-    results.plot(x="contact.entrainment_speed", y="contact.load_per_length")
+with TemporaryDirectory() as folder:
+    results = ehlectric.run_sweep(sweep, folder)
+print(results)
+results.plot(x="contact.entrainment_speed", y="contact.load_per_length")

@@ -1,29 +1,19 @@
 """Circuits simulated by the real ngspice, which reads netlists as a user's simulator does."""
 
-import os
 import re
-import shutil
 import subprocess
 
 import numpy as np
-import pytest
+
+from tests.helpers.programs import program
 
 _VALUE = re.compile(r"^(?:\w+\.)?(\w+)\s*=\s*(-?\d\.\d+e[+-]\d+)", re.MULTILINE)
-
-
-def _program():
-    found = shutil.which("ngspice")
-    if found is None:
-        if os.environ.get("EHLECTRIC_BROWSER") == "required":
-            pytest.fail("ngspice is missing; install it with: make browser")
-        pytest.skip("needs ngspice")
-    return found
 
 
 def run_netlist(path):
     """Run a file by ngspice in batch mode; its numbers by their names."""
     done = subprocess.run(
-        [_program(), "-b", path.name], cwd=path.parent, capture_output=True, text=True, timeout=300
+        [program("ngspice"), "-b", path.name], cwd=path.parent, capture_output=True, text=True, timeout=300
     )
     output = done.stdout + done.stderr
     assert done.returncode == 0, output

@@ -9,7 +9,7 @@ import tempfile
 from multiprocessing.util import Finalize, get_temp_dir
 from pathlib import Path
 
-from ehlectric.runtime.locks import take
+from ehlectric.runtime.locks import RENAMES_OPEN, take
 
 # Names of the folders of servers, and of the file in each that its server keeps locked.
 _PREFIX, _LOCK = "ehlectric-app-", "lock"
@@ -44,10 +44,11 @@ class Scratch:
     def __init__(self) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
         # The file gets its name when it is locked, so that no other server takes the folder for a dead one's.
-        unlocked = self.folder / "unlocked"
-        self._lock = unlocked.open("wb")
+        begun = self.folder / ("unlocked" if RENAMES_OPEN else _LOCK)
+        self._lock = begun.open("wb")
         take(self._lock.fileno())
-        unlocked.rename(self.folder / _LOCK)
+        if RENAMES_OPEN:
+            begun.rename(self.folder / _LOCK)
         # At exit, and after multiprocessing has removed its folder in it.
         Finalize(None, shutil.rmtree, (self.folder,), {"ignore_errors": True}, exitpriority=-200)
 

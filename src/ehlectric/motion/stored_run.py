@@ -67,7 +67,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
     dataset = read_dataset(path)
-    check_format(dataset.attrs, SCHEMA, path, "a motion", unnamed=True)
+    check_format(dataset.attrs, SCHEMA, path, "a run with moving roughness", unnamed=True)
     if "case" not in dataset.attrs or "frame_step" not in dataset:
         raise InputError(path, "is no motion of ehlectric")
     with refusing(path):

@@ -30,8 +30,8 @@ def example(name: str) -> Path:
     Parameters
     ----------
     name : str
-        Name of a file as ``ehlectric examples`` lists it, such as "bearing_6208" or "surfaces/dektak-1.csv";
-        ".toml" may be left out.
+        Name of an example as ``ehlectric examples`` lists it, such as "bearing_6208", or of a file that one
+        needs, such as "surfaces/dektak-1.csv".
 
     Returns
     -------
@@ -49,15 +49,15 @@ def example(name: str) -> Path:
     'line_contact.toml'
     >>> example("bearing")
     Traceback (most recent call last):
-    ehlectric.errors.InputError: example: got 'bearing'; expected a name that ehlectric examples lists, as
+    ehlectric.errors.InputError: example: got 'bearing'; expected an example or a file that one needs, as
     'bearing_6208'
     """
     folder, name = examples_folder(), str(name)
-    files = [path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.is_file()]
+    files = [path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.suffix != ".md"]
     found = name if name in files else f"{name}.toml"
     if found not in files:
         (near,) = get_close_matches(name, [file.removesuffix(".toml") for file in files], n=1, cutoff=0.0)
-        takes = f"a name that ehlectric examples lists, as {near!r}"
+        takes = f"an example or a file that one needs, as {near!r}"
         raise InputError("example", got=shown(name), takes=takes)
     return folder / found
 

@@ -11,10 +11,12 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.storage.dataset import SCHEMA as BEARING
 from ehlectric.contact import files as of_contacts
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.storage.dataset import SCHEMA as CONTACT
 from ehlectric.drive import files as of_drives
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.storage.dataset import SCHEMA as DRIVE
 from ehlectric.errors import InputError, shown
+from ehlectric.motion.content import SCHEMA as MOVING
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runs.folders import stored_result
@@ -28,10 +30,20 @@ if TYPE_CHECKING:
 AnyResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | MotionResult
 
 
-# Results of bearings and drives, by the kinds that their files state; all others are contacts.
+def _moving(_dataset: xr.Dataset, path: Path) -> MotionResult:
+    """Result with moving roughness, whose file may be incomplete."""
+    return MotionResult.of(read_motion(path))
+
+
+# Results by the kinds that their files state; files of contacts from before 1.0 state none.
 _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
-    format_of({"schema": BEARING})[0]: of_bearings.result_of,
-    format_of({"schema": DRIVE})[0]: of_drives.result_of,
+    format_of({"schema": schema})[0]: result_of
+    for schema, result_of in (
+        (CONTACT, of_contacts.result_of),
+        (BEARING, of_bearings.result_of),
+        (DRIVE, of_drives.result_of),
+        (MOVING, _moving),
+    )
 }
 
 
@@ -72,6 +84,8 @@ def load(path: str | Path) -> AnyResult:
         return MotionResult.of(read_motion(path))
     dataset = read_dataset(path)
     kind, _ = format_of(dataset.attrs)
+    if kind and kind not in _OF_KINDS:
+        raise InputError(path, "is not a result of ehlectric")
     return _OF_KINDS.get(kind, of_contacts.result_of)(dataset, path)
 
 

@@ -66,6 +66,10 @@ def solve_many(
 ) -> Iterator[Solved[BearingResult]]: ...
 @overload
 def solve_many(
+    cases: Iterable[DriveCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[DriveResult]]: ...
+@overload
+def solve_many(
     cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
 ) -> Iterator[Solved[Result | PointResult | BearingResult | DriveResult]]: ...
 
@@ -147,11 +151,22 @@ def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Generat
     """Cases solved in processes of this machine."""
     with ExitStack() as crews:
         crew: Crew = crews.enter_context(processes(number))
-        batches = finished_tasks(cases, crew, solve_case, LostError, _ran_out)
+        handed = ((index, _without_classes_of_the_script(case)) for index, case in cases)
+        batches = finished_tasks(handed, crew, solve_case, LostError, _ran_out)
         crews.callback(batches.close)
         for batch in batches:
             for index, outcome in batch:
                 yield _told(index, outcome)
+
+
+def _without_classes_of_the_script(given: Solvable) -> Solvable:
+    """Case of nested tables, in which values may be of classes that other processes cannot import."""
+    if not isinstance(given, Mapping):
+        return given
+    try:
+        return case_of(given)
+    except InputError:
+        return given  # refused where it is solved, as a case that does not stop the others
 
 
 def _ran_out(outcome: _Outcome) -> bool:

@@ -21,7 +21,7 @@ import numpy as np
 
 from ehlectric.errors import InputError, WriteError
 from ehlectric.runtime.interrupts import held_back
-from ehlectric.runtime.locks import take
+from ehlectric.runtime.locks import RENAMES_OPEN, take
 
 # Content of a file, or a function that writes it to an open file.
 Content = bytes | Callable[[BinaryIO], object]
@@ -172,12 +172,20 @@ def _beside(path: Path) -> Iterator[tuple[Path, Callable[[], None]]]:
     # The name is known before the file is made: a signal in between must not leave the file behind.
     beside = path.resolve().with_name(f"{_HIDDEN}{secrets.token_hex(8)}{path.suffix}")
     number = -1
+
+    def finish() -> None:
+        nonlocal number
+        flush(number)
+        if not RENAMES_OPEN:
+            os.close(number)
+            number = -1
+
     try:
         with writing(path, beside):
             # The kernel takes the umask off this mode: the umask can only be read by changing it.
             number = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
             take(number)
-            yield beside, lambda: flush(number)
+            yield beside, finish
     finally:
         if number >= 0:
             os.close(number)

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import errno
+import os
 from importlib import import_module
 from typing import Literal
 
 Taken = Literal["taken", "busy", "none"]
+
+# Whether the system renames files that are open. Windows does not.
+RENAMES_OPEN = os.name != "nt"
+
+# Place of the locked byte on Windows, where others cannot write it: near the largest that it takes.
+_FAR = 2**31 - 2
 
 # Errors that mean that somebody else has the lock.
 _BUSY = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
@@ -47,6 +54,8 @@ def _lock(number: int) -> None:
             windows = import_module("msvcrt")
         except ModuleNotFoundError:
             raise OSError(errno.ENOSYS, "no locks") from None
+        os.lseek(number, _FAR, os.SEEK_SET)
         windows.locking(number, windows.LK_NBLCK, 1)
+        os.lseek(number, 0, os.SEEK_SET)
     else:
         posix.flock(number, posix.LOCK_EX | posix.LOCK_NB)

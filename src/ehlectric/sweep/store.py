@@ -270,7 +270,8 @@ def _opened(path: Path, mode: str) -> sqlite3.Connection:
         (application,) = file.execute("PRAGMA application_id").fetchone()
         (version,) = file.execute("PRAGMA user_version").fetchone()
         (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
-        if (application, version) != (_APPLICATION, _VERSION) and (tables or mode != "rwc"):
+        known = application == _APPLICATION and 1 <= version <= _VERSION
+        if not known and (tables or mode != "rwc"):
             later = application == _APPLICATION and version > _VERSION
             raise InputError(path, f"is {'of a later version' if later else 'not a sweep'} of ehlectric")
     except BaseException:

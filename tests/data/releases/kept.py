@@ -1,7 +1,7 @@
 """Keeps files of a release, which later versions must read: python tests/data/releases/kept.py
 
-It writes a folder by the name of the version. The results are those of examples on coarse grids; the
-summary.json and sweep.csv beside a file have its numbers as the release gave them.
+It writes a folder by the name of the version: the files of the examples, and results of them on coarse grids.
+The summary.json and sweep.csv beside a result have its numbers as the release gave them.
 """
 
 import shutil
@@ -34,6 +34,7 @@ RESULTS = {
         {"nodes = 1601 ": "nodes = 201 ", '"50 um"': '"200 um"', "record = 200 ": "record = 10 "},
     ),
     "sweep": ("sweep.toml", {"count = 6": "count = 2"}),
+    "drives": ("drive_map.toml", {"count = 5": "count = 3", "count = 4": "count = 2"}),
 }
 
 
@@ -58,5 +59,9 @@ def keep(example: str, lines: dict[str, str], target: Path) -> None:
 
 
 if __name__ == "__main__":
+    cases = HERE / __version__ / "cases"
+    cases.mkdir(parents=True, exist_ok=True)
+    for file in EXAMPLES.glob("*.toml"):
+        shutil.copy(file, cases)
     for name, (example, lines) in RESULTS.items():
         keep(example, lines, HERE / __version__ / name)

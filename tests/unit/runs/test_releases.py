@@ -7,8 +7,10 @@ import h5netcdf
 import pandas
 import pytest
 
-from ehlectric import load
+from ehlectric import Sweep, load
 from ehlectric.errors import InputError
+from ehlectric.runs.kinds import kind_of_file
+from ehlectric.runs.solve import case_of
 from ehlectric.runtime.checks.seal import seal
 from ehlectric.sweep.store import read_sweep
 from ehlectric.version import __version__
@@ -16,6 +18,7 @@ from tests.helpers.places import ROOT
 
 RELEASES = ROOT / "tests" / "data" / "releases"
 RESULTS = sorted(path.parent for path in RELEASES.glob("*/*/*.nc"))
+CASES = sorted(RELEASES.glob("*/cases/*.toml"))
 SWEEPS = sorted(path.parent for path in RELEASES.glob("*/*/sweep.sqlite"))
 
 # What a summary says in words may be worded anew, and what a computation took is not that of reading.
@@ -39,6 +42,15 @@ def numbers(value, path=()):
         yield path, value
 
 
+@pytest.mark.parametrize("file", CASES, ids=lambda path: f"{path.parents[1].name}-{path.name}")
+def test_a_case_file_is_taken(file):
+    """Files of the examples as the release had them; their surfaces are not read here."""
+    if kind_of_file(file) == "sweep":
+        Sweep.from_toml(file)
+    else:
+        case_of(file)
+
+
 def test_this_release_has_files():
     """python tests/data/releases/kept.py makes them."""
     kinds = {path.name for path in RELEASES.glob(f"{__version__}/*/*.*") if path.suffix in {".nc", ".sqlite"}}
@@ -53,7 +65,7 @@ def test_a_stored_result_has_its_numbers(folder):
     found = dict(numbers(json.loads(json.dumps(load(folder).summary()))))
     assert len(stored) > 80
     assert stored.keys() <= found.keys()
-    assert {path: found[path] for path in stored} == pytest.approx(stored, rel=1e-6)
+    assert {path: found[path] for path in stored} == pytest.approx(stored, rel=1e-6, abs=0.0)
 
 
 @pytest.mark.parametrize("folder", SWEEPS, ids=name_of)
@@ -65,7 +77,23 @@ def test_a_stored_sweep_has_its_numbers(folder):
     for head, values in stored.items():
         name = head.partition(" [")[0]
         if not name.startswith("seconds."):
-            assert list(found[name]) == pytest.approx(list(values), rel=1e-5, nan_ok=True), name
+            assert list(found[name]) == pytest.approx(list(values), rel=1e-5, abs=0.0, nan_ok=True), name
+
+
+@pytest.mark.parametrize("name", ["line", "motion"])
+def test_a_file_from_before_formats_had_names_is_read(name, tmp_path):
+    shutil.copytree(RELEASES / "1.0.0" / name, tmp_path / "out")
+    (path,) = (tmp_path / "out").glob("*.nc")
+    with h5netcdf.File(path, "a") as file:
+        del file.attrs["schema"]
+    seal(path)
+    assert load(tmp_path / "out").summary() == load(RELEASES / "1.0.0" / name).summary()
+
+
+def test_a_renamed_run_with_moving_roughness_is_read(tmp_path):
+    folder = RELEASES / "1.0.0" / "motion"
+    shutil.copy(folder / "motion.nc", tmp_path / "run7.nc")
+    assert load(tmp_path / "run7.nc") == load(folder)
 
 
 @pytest.mark.parametrize("folder", [path for path in RESULTS if path.parent.name == __version__], ids=name_of)

@@ -126,6 +126,23 @@ def test_a_script_needs_no_main_guard(tmp_path):
     assert sorted(done.stdout.splitlines()) == ["0 True", "1 True", "run"]
 
 
+@pytest.mark.slow
+def test_tables_may_have_values_of_classes_of_the_script(tmp_path):
+    """Processes cannot import these classes."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import enum, ehlectric\n"
+        "class Oil(enum.StrEnum):\n"
+        "    PAPER = 'paper'\n"
+        f"table = {CONTACT!r} | {{'lubricant': {{'base': Oil.PAPER}}}}\n"
+        "for one in ehlectric.solve_many([table, table], workers=2):\n"
+        "    print(one.result.converged, one.error)\n",
+        encoding="utf-8",
+    )
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr, done.stdout) == (0, "", "True None\n" * 2)
+
+
 @pytest.mark.parametrize("one", [CASES[0], CONTACT, "case.toml", 3])
 def test_a_single_case_is_no_list_of_cases(one):
     with pytest.raises(

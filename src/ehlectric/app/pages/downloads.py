@@ -63,8 +63,8 @@ class Downloads:
     folder : callable, optional
         Returns the folder of a result of the present inputs that the page has; None, or a folder without
         files, where there is none and the files are to be made.
-    only_reports : bool
-        Whether the card has the reports alone.
+    only_made : bool
+        Whether the card has only what is made from a result: reports, and files for other programs.
 
     Notes
     -----
@@ -78,7 +78,7 @@ class Downloads:
         kind: Literal["bearing", "drive", "contact", "sweep"],
         folder: Callable[[], Path | None] = lambda: None,
         *,
-        only_reports: bool = False,
+        only_made: bool = False,
     ) -> None:
         self.session, self._kind, self._folder = session, kind, folder
         self._made: tuple[Inputs, Written] | None = None
@@ -86,16 +86,21 @@ class Downloads:
         self._then: Callable[[Path], Any] | None = None
         self._command: ui.element | None = None
         with (
-            card("Report" if only_reports else "Files and report"),
+            card("Report, and files for other programs" if only_made else "Files and report"),
             ui.element("div").classes("downloads"),
         ):
-            if not only_reports:
+            if not only_made:
                 with ui.element("p"):
                     ui.label("The case runs with the command, with the same numbers to the last digit:")
                     self._command = ui.element("code")
             with ui.element("div").classes("buttons"):
-                if not only_reports:
+                if not only_made:
                     self._file_buttons()
+                for test, words, ending, kinds in _EXPORTS:
+                    if self._kind in kinds:
+                        _button(
+                            words, test, partial(self._wanted, partial(self._convert, FILES_EXPORTED, ending))
+                        )
                 for test, words, ending in _REPORTS:
                     _button(words, test, partial(self._wanted, partial(self._convert, FILES_REPORT, ending)))
             self._box = JobBox(self._ended)
@@ -109,9 +114,6 @@ class Downloads:
         _button("Case (TOML)", "download-toml", self.toml)
         for test, words, what in _FILES:
             _button(words, test, partial(self._wanted, partial(self._pack, what)))
-        for test, words, ending, kinds in _EXPORTS:
-            if self._kind in kinds:
-                _button(words, test, partial(self._wanted, partial(self._convert, FILES_EXPORTED, ending)))
 
     @property
     def title(self) -> str:

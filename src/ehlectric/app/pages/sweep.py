@@ -208,7 +208,7 @@ class SweepPage:
                 button.props("no-caps outline data-testid=download-toml")
                 self.downloads = [self._download_of(*about) for about in _DOWNLOADS]
             ui.label("ehlectric sweep sweep.toml runs this file; the files are those that it writes.")
-        Downloads(self.session, "sweep", self._finished_folder, only_reports=True)
+        Downloads(self.session, "sweep", self._finished_folder, only_made=True)
 
     def _finished_folder(self) -> Path | None:
         """Folder of the database, where it has points of the present inputs and is not written to."""

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 _VERSION = (2, 1)
 _CELLS = {1: 3, 2: 9, 3: 12}
 
+# Largest number of points that are compressed together.
+_CHUNK = 50_000
+
 
 def vtkhdf_file(result: Any) -> bytes:
     """Content of a VTKHDF file in SI units: the blocks "film" and "field" of a contact, or a film over time.
@@ -77,7 +80,7 @@ def _stationary(root: h5py.Group, dataset: xr.Dataset) -> None:
         group.attrs["Index"] = index
         group.attrs["Version"] = np.array(_VERSION)
         own = tuple(map(str, dims))
-        _grid(group, tuple(dataset.sizes[dim] for dim in own), _points(dataset, own, height))
+        _grid(group, tuple(dataset.sizes[dim] for dim in own))[:] = _points(dataset, own, height)
         _values(group, dataset, own)
         # A node of its own: VTK before 9.6 takes no names from the blocks themselves.
         assembly.create_group(name, track_order=True)[name] = h5py.SoftLink(f"/VTKHDF/{name}")
@@ -90,7 +93,9 @@ def _moving(root: h5py.Group, dataset: xr.Dataset) -> None:
     times = dataset["frame_time"].values
     sizes = tuple(dataset.sizes[dim] for dim in plane)
     number = int(np.prod(sizes))
-    _grid(root, sizes, np.concatenate([_points(dataset, plane, one) for one in film]))
+    points = _grid(root, sizes, len(times))
+    for step, one in enumerate(film):
+        points[number * step : number * (step + 1)] = _points(dataset, plane, one)
     steps = root.create_group("Steps", track_order=True)
     steps.attrs["NSteps"] = len(times)
     steps["Values"] = times
@@ -111,17 +116,18 @@ def _type(group: h5py.Group, name: str) -> None:
     group.attrs.create("Type", name.encode(), dtype=h5py.string_dtype("ascii", len(name)))
 
 
-def _grid(group: h5py.Group, sizes: tuple[int, ...], points: Array) -> None:
-    """Write an unstructured grid of these sizes; points of several instants are behind each other."""
-    connected = cells(sizes)
+def _grid(group: h5py.Group, sizes: tuple[int, ...], instants: int = 1) -> h5py.Dataset:
+    """Write an unstructured grid of these sizes, and return its points, those of all instants in a row."""
+    connected, number = cells(sizes), int(np.prod(sizes))
     _type(group, "UnstructuredGrid")
-    group["NumberOfPoints"] = np.array([int(np.prod(sizes))])
+    group["NumberOfPoints"] = np.array([number])
     group["NumberOfCells"] = np.array([len(connected)])
     group["NumberOfConnectivityIds"] = np.array([connected.size])
-    group["Points"] = points
     group["Connectivity"] = connected.ravel()
     group["Offsets"] = np.arange(0, connected.size + 1, connected.shape[1])
     group["Types"] = np.full(len(connected), _CELLS[len(sizes)], dtype=np.uint8)
+    shape, chunk = (instants * number, 3), (min(number, _CHUNK), 3)
+    return group.create_dataset("Points", shape, float, chunks=chunk, compression="gzip", shuffle=True)
 
 
 def _values(group: h5py.Group, dataset: xr.Dataset, dims: tuple[str, ...]) -> list[str]:

@@ -1,16 +1,20 @@
 """Processes that do not import the script that starts them.
 
 Those of ``multiprocessing`` do, and a script that solves at its top level would then solve again in each of
-them. Only functions of packages are called here, so that nothing of the script is needed.
+them. Only functions and values of packages are handed to them: what a script defines, they cannot import.
 """
 
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from multiprocessing.context import SpawnContext, SpawnProcess
 from types import ModuleType
+
+# Two threads that start processes at once would leave the empty module behind.
+_ONE_AT_A_TIME = threading.Lock()
 
 
 class Process(SpawnProcess):
@@ -30,10 +34,14 @@ class Context(SpawnContext):
 
 @contextmanager
 def _without_script() -> Iterator[None]:
-    """Context in which ``__main__`` has no file, by which a new process would find it."""
-    script = sys.modules["__main__"]
-    sys.modules["__main__"] = ModuleType("__main__")
-    try:
-        yield
-    finally:
-        sys.modules["__main__"] = script
+    """Context in which ``__main__`` is empty, without the file by which a new process would find the script.
+
+    It lasts some milliseconds, in which other threads cannot pickle what the script defines.
+    """
+    with _ONE_AT_A_TIME:
+        script = sys.modules["__main__"]
+        sys.modules["__main__"] = ModuleType("__main__")
+        try:
+            yield
+        finally:
+            sys.modules["__main__"] = script

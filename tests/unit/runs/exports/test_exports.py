@@ -1,6 +1,5 @@
 """Results in files of other programs, read back by the libraries of those programs."""
 
-import shutil
 import subprocess
 
 import numpy as np
@@ -29,6 +28,7 @@ from ehlectric.runs.exports.paraview import cells
 from tests.helpers.drives import small_drive
 from tests.helpers.moving_cases import TABLES, moving
 from tests.helpers.places import EXAMPLES
+from tests.helpers.programs import program
 from tests.helpers.sweep_models import SPEED
 from tests.helpers.sweep_models import case as contact
 
@@ -149,9 +149,7 @@ def test_a_mat_file_has_all_arrays_and_the_summary(name, request, tmp_path):
 
 def test_octave_reads_a_mat_file(line, tmp_path):
     """Sizes, a value of the summary and a unit, as a user types them."""
-    octave = shutil.which("octave-cli")
-    if octave is None:
-        pytest.skip("needs Octave")
+    octave = program("octave-cli")
     export(line, tmp_path / "line.mat")
     typed = (
         "load line.mat; printf('%d %d\\n', size(strength)); printf('%.17g\\n', min(thickness)); "
