@@ -40,13 +40,18 @@ def test_command(benchmark, words):
         ("starved_contact", 2),
         ("mixed_contact", 2),
     ],
+    ids=["line", "rough", "ball", "hot", "starved", "mixed"],
 )
 def test_contact(benchmark, example, rounds):
     case = Case.from_toml(EXAMPLES / f"{example}.toml")
     assert benchmark.pedantic(solve, (case,), rounds=rounds, warmup_rounds=1).converged
 
 
-@pytest.mark.parametrize(("contacts", "rounds"), [("solved", 2), ("atlas", 5), ("formula", 5)])
+@pytest.mark.parametrize(
+    ("contacts", "rounds"),
+    [("solved", 2), ("atlas", 5), ("formula", 5)],
+    ids=["solved", "atlas", "formula"],
+)
 def test_bearing(benchmark, contacts, rounds):
     case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml").replace({"contacts": contacts})
     assert benchmark.pedantic(solve, (case,), rounds=rounds, warmup_rounds=rounds > 2).converged
