@@ -6,7 +6,9 @@ import re
 import sqlite3
 import tomllib
 
+import openpyxl
 import pytest
+from scipy.io import loadmat
 
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.words import in_field_unit
@@ -81,6 +83,9 @@ def test_a_map_fills_and_its_database_is_that_of_the_command(open_page, app_serv
     command("report", other, "-o", "own.html", folder=tmp_path)
     assert len(cells_of(report)) > 100
     assert cells_of(report) == cells_of(tmp_path / "own.html")
+    workbook = openpyxl.load_workbook(downloaded(page, "download-xlsx", tmp_path, milliseconds=60_000))
+    assert workbook["table"].max_row == 1 + 16
+    assert loadmat(downloaded(page, "download-mat", tmp_path))["bearing_capacitance"].size == 16
 
 
 @pytest.mark.slow
