@@ -64,7 +64,7 @@ install: $(BIN)/python pyproject.toml requirements.lock
 
 run: $(VENV)/.run
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS)
-	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS)
+	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts atlas -o $(BEARING_RESULTS)
 	@echo "The figures are in $(CURDIR)/results:" && ls $(RESULTS)/*.png $(BEARING_RESULTS)/*.png
 
 app: $(VENV)/.app
@@ -127,7 +127,7 @@ figures: $(VENV)/.test
 	$(BIN)/ehlectric sweep examples/sweep.toml -o results/sweep --quiet
 	$(BIN)/ehlectric map results/sweep --x contact.entrainment_speed --y contact.load_per_length --quiet
 	cp results/sweep/map_discharge.breakdown_voltage.png docs/figures/breakdown_map.png
-	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts formula -o $(BEARING_RESULTS) --quiet
+	$(BIN)/ehlectric bearing examples/bearing_6208.toml --contacts atlas -o $(BEARING_RESULTS) --quiet
 	cp $(BEARING_RESULTS)/breakdown_over_speed.png docs/figures
 	$(BIN)/ehlectric sweep examples/bearing_regime_map.toml -o results/regimes --quiet
 	$(BIN)/ehlectric map results/regimes --x bearing.inner_speed --y bearing.temperature --value bearing.contact_time_share --quiet
