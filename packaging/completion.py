@@ -1,7 +1,7 @@
 """Keys that an editor offers in a bearing file, by the language server tombi: python packaging/completion.py
 
-It needs tombi (pip install tombi) and ehlectric on the path. It writes a bearing file in a new folder, opens it as
-an editor does, and prints what is offered after "radial_".
+It needs tombi (pip install tombi) and ehlectric on the path. It writes a bearing file in a new folder, opens
+it as an editor does, and prints what is offered after "radial_".
 """
 
 import json
