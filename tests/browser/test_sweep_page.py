@@ -5,6 +5,7 @@ import json
 import re
 import sqlite3
 import tomllib
+from contextlib import closing
 
 import openpyxl
 import pytest
@@ -48,7 +49,7 @@ def rows_of(path):
 
 def points_of(path):
     """All rows of a database by table, without the date of the last run."""
-    with sqlite3.connect(path) as database:
+    with closing(sqlite3.connect(path)) as database, database:
         names = [name for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
         rows = {name: list(database.execute(f'SELECT * FROM "{name}"')) for name in names}
     return {name: [row for row in found if row[0] != "date"] for name, found in rows.items()}
