@@ -8,7 +8,6 @@ import shutil
 import sqlite3
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -258,7 +257,7 @@ def database(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]
         target.write_bytes(mutated_bytes(source.read_bytes(), draw))
     else:
         shutil.copyfile(source, target)
-        with closing(sqlite3.connect(target)) as connection, connection:
+        with sqlite3.connect(target) as connection:
             for _ in range(draw.choice((1, 1, 2))):
                 _alter(connection, draw)
         connection.close()

@@ -5,7 +5,6 @@ import shutil
 import sqlite3
 import subprocess
 import sys
-from contextlib import closing
 from dataclasses import replace
 
 import pytest
@@ -197,7 +196,7 @@ def test_files_that_are_no_database(tmp_path, content):
 
 
 def test_databases_of_others(tmp_path):
-    with closing(sqlite3.connect(tmp_path / NAME)) as other, other:
+    with sqlite3.connect(tmp_path / NAME) as other:
         other.execute("CREATE TABLE mine (a)")
     other.close()
     refused_by_both(tmp_path, r"sweep\.sqlite: is not a sweep of ehlectric$")
@@ -205,7 +204,7 @@ def test_databases_of_others(tmp_path):
 
 def test_sweeps_of_a_later_version(tmp_path):
     begun(tmp_path, speeds(1))
-    with closing(sqlite3.connect(tmp_path / NAME)) as file, file:
+    with sqlite3.connect(tmp_path / NAME) as file:
         file.execute("PRAGMA user_version = 99")
     file.close()
     refused_by_both(tmp_path, r"sweep\.sqlite: is of a later version of ehlectric$")
@@ -216,7 +215,7 @@ def test_sweeps_of_a_later_version(tmp_path):
 )
 def test_damage_within(tmp_path, statement):
     begun(tmp_path, speeds(2), [FOUND])
-    with closing(sqlite3.connect(tmp_path / NAME)) as file, file:
+    with sqlite3.connect(tmp_path / NAME) as file:
         file.execute(statement)
     file.close()
     with pytest.raises(InputError, match=r"sweep\.sqlite: is damaged: "):

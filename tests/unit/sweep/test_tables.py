@@ -5,7 +5,6 @@ import dataclasses
 import json
 import math
 import sqlite3
-from contextlib import closing
 
 import numpy as np
 import pytest
@@ -67,7 +66,7 @@ def test_heads_of_the_csv_have_units(gridded):
 
 def test_the_csv_is_the_database(gridded):
     folder, _ = gridded
-    with closing(sqlite3.connect(folder / NAME)) as file, file:
+    with sqlite3.connect(folder / NAME) as file:
         found = file.execute(
             "SELECT number, inputs, refused, status, reason, summary "
             "FROM points LEFT JOIN results USING (key) ORDER BY number"
