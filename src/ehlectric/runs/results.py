@@ -37,7 +37,7 @@ def _moving(_dataset: xr.Dataset, path: Path) -> MotionResult:
 
 # Results by the kinds that their files state; files of contacts from before 1.0 state none.
 _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
-    format_of({"schema": schema})[0]: result_of
+    format_of(schema)[0]: result_of
     for schema, result_of in (
         (CONTACT, of_contacts.result_of),
         (BEARING, of_bearings.result_of),
@@ -83,7 +83,7 @@ def load(path: str | Path) -> AnyResult:
     if path.name == MOTION:
         return MotionResult.of(read_motion(path))
     dataset = read_dataset(path)
-    kind, _ = format_of(dataset.attrs)
+    kind, _ = format_of(dataset.attrs.get("schema"))
     if kind and kind not in _OF_KINDS:
         raise InputError(path, "is not a result of ehlectric")
     return _OF_KINDS.get(kind, of_contacts.result_of)(dataset, path)

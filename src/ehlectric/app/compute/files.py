@@ -28,7 +28,6 @@ from ehlectric.cases.table import tables_of_text
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runs.by_kind import RUNS
-from ehlectric.runs.exports.files import export
 from ehlectric.runs.folders import stored_result
 from ehlectric.runs.results import load
 from ehlectric.runtime.parallel.workers import cores
@@ -39,6 +38,9 @@ OUT, PACKED = "out", "packed"
 
 # Names that an uploaded file may keep: those that no file system reads in another way.
 _NAME = re.compile(r"[\w(][\w .()+,-]{0,99}", re.UNICODE)
+
+# Endings of reports.
+_REPORTS = ("pdf", "html")
 
 # Formats of figures.
 _FORMATS = ("svg", "png")
@@ -303,38 +305,15 @@ def _surfaces(table: Mapping[str, Any], folder: Path) -> list[str]:
     return sorted({name for _, name in names_in(table) if not Path(name).is_absolute()})
 
 
-def report(out: Path, ending: str, title: str, folder: Path, progress: Progress) -> str:
-    """Report on a result, and its path.
+def converted(out: Path, ending: str, title: str, folder: Path, progress: Progress) -> str:
+    """Report on a result, or its file for another program, and the path of it.
 
     Parameters
     ----------
     out : Path
         Folder of the result.
     ending : str
-        "pdf" or "html".
-    title : str
-        Name of the report, without its ending.
-    folder : Path
-        Folder of the session.
-    progress : callable
-        As ``runtime.progress`` tells it.
-    """
-    progress(0, 0, "writing the report")
-    (folder / PACKED).mkdir(exist_ok=True)
-    target = folder / PACKED / f"{title}.{ending}"
-    import_module("ehlectric.report.files").write_report(out, target)
-    return str(target)
-
-
-def exported(out: Path, ending: str, title: str, folder: Path, progress: Progress) -> str:
-    """File of a result for another program, and its path.
-
-    Parameters
-    ----------
-    out : Path
-        Folder of the result.
-    ending : str
-        "mat", "xlsx" or "vtkhdf".
+        "pdf" or "html" of a report; "mat", "xlsx" or "vtkhdf".
     title : str
         Name of the file, without its ending.
     folder : Path
@@ -347,6 +326,12 @@ def exported(out: Path, ending: str, title: str, folder: Path, progress: Progres
     InputError
         If the result has no such form, or a package is missing.
     """
-    progress(0, 0, "converting the result")
+    of_report = ending in _REPORTS
+    progress(0, 0, "writing the report" if of_report else "converting the result")
     (folder / PACKED).mkdir(exist_ok=True)
-    return str(export(out, folder / PACKED / f"{title}.{ending}"))
+    target = folder / PACKED / f"{title}.{ending}"
+    if of_report:
+        import_module("ehlectric.report.files").write_report(out, target)
+    else:
+        import_module("ehlectric.runs.exports.files").export(out, target)
+    return str(target)

@@ -9,14 +9,7 @@ from typing import Any, Literal
 
 from nicegui import ui
 
-from ehlectric.app.answers.call import Call
-from ehlectric.app.answers.calls import (
-    FILES_DRAWN,
-    FILES_EXPORTED,
-    FILES_PACKED,
-    FILES_REPORT,
-    FILES_WRITTEN,
-)
+from ehlectric.app.answers.calls import FILES_CONVERTED, FILES_DRAWN, FILES_PACKED, FILES_WRITTEN
 from ehlectric.app.answers.files import Download, Written, file_title
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.parts import JobBox, card
@@ -33,16 +26,17 @@ _FILES: tuple[tuple[str, str, Download], ...] = (
     ("download-figures", "Figures (SVG, PNG)", "figures"),
     ("download-all", "Everything (ZIP)", "all"),
 )
-# For other programs: data-testid, words, ending, and the kinds of pages whose results have this form.
-_EXPORTS: tuple[tuple[str, str, str, tuple[str, ...]], ...] = (
-    ("download-mat", "MATLAB, Octave (MAT)", "mat", ("bearing", "drive", "contact", "sweep")),
-    ("download-xlsx", "Spreadsheet (XLSX)", "xlsx", ("bearing", "drive", "contact", "sweep")),
-    ("download-vtkhdf", "ParaView (VTKHDF)", "vtkhdf", ("contact",)),
-)
-_REPORTS = (
+# What is made from a result, for other programs and as reports: data-testid, words, and ending.
+_MADE = (
+    ("download-mat", "MATLAB, Octave (MAT)", "mat"),
+    ("download-xlsx", "Spreadsheet (XLSX)", "xlsx"),
+    ("download-vtkhdf", "ParaView (VTKHDF)", "vtkhdf"),
     ("download-report-pdf", "Report (PDF)", "pdf"),
     ("download-report-html", "Report (HTML)", "html"),
 )
+
+# Forms that only the results of contacts have.
+_OF_CONTACTS = ("vtkhdf",)
 
 # Downloads that need figures.
 _DRAWN: tuple[Download, ...] = ("figures", "all")
@@ -96,13 +90,9 @@ class Downloads:
             with ui.element("div").classes("buttons"):
                 if not only_made:
                     self._file_buttons()
-                for test, words, ending, kinds in _EXPORTS:
-                    if self._kind in kinds:
-                        _button(
-                            words, test, partial(self._wanted, partial(self._convert, FILES_EXPORTED, ending))
-                        )
-                for test, words, ending in _REPORTS:
-                    _button(words, test, partial(self._wanted, partial(self._convert, FILES_REPORT, ending)))
+                for test, words, ending in _MADE:
+                    if ending not in _OF_CONTACTS or kind == "contact":
+                        _button(words, test, partial(self._wanted, partial(self._convert, ending)))
             self._box = JobBox(self._ended)
             self._status = ui.label().classes("told-status").props('role="status"')
             self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-download"')
@@ -201,9 +191,9 @@ class Downloads:
         else:
             self._offer(Path(path))
 
-    async def _convert(self, call: Call[str], ending: str, out: Path) -> None:
+    async def _convert(self, ending: str, out: Path) -> None:
         """Download a report on a folder of results, or its result in the form of another program."""
-        self._start(call, out, ending, self.title, self.session.folder)
+        self._start(FILES_CONVERTED, out, ending, self.title, self.session.folder)
 
     def _offer(self, path: Path) -> None:
         """Download a file of the session."""

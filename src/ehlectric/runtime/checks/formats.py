@@ -12,9 +12,9 @@ from ehlectric.errors import InputError
 _DIGITS = 6
 
 
-def format_of(attributes: Mapping[Any, Any]) -> tuple[str, int]:
-    """Kind and version of a file, as ``("ehlectric.drive.result", 1)``; ``("", 0)`` where it states none."""
-    kind, _, version = str(attributes.get("schema", "")).rpartition("/")
+def format_of(schema: object) -> tuple[str, int]:
+    """Kind and version in a schema, as ``("ehlectric.drive.result", 1)``; ``("", 0)`` where it has none."""
+    kind, _, version = str(schema).rpartition("/")
     known = version.isascii() and version.isdecimal() and len(version) <= _DIGITS
     return (kind, int(version)) if known else ("", 0)
 
@@ -53,7 +53,7 @@ def check_format(
     """
     if unnamed and "schema" not in attributes:
         return
-    (own, version), (kind, stored) = format_of({"schema": schema}), format_of(attributes)
+    (own, version), (kind, stored) = format_of(schema), format_of(attributes.get("schema"))
     if kind != own or not stored:
         raise InputError(path, f"is not {what} of ehlectric")
     if stored > version:
