@@ -62,7 +62,7 @@ def vtkhdf_file(result: Any) -> bytes:
         root.attrs["Version"] = np.array(_VERSION)
         (_moving if isinstance(result, MotionResult) else _stationary)(root, dataset)
         target.attrs["source"] = f"ehlectric {__version__}, SI units"
-        target.attrs["title"] = result.case.title
+        target.attrs["title"] = str(dataset.attrs.get("title", result.case.title))
     return file.getvalue()
 
 
