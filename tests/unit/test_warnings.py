@@ -7,6 +7,7 @@ import pytest
 
 import ehlectric
 from ehlectric.errors import CODES, ResultWarning
+from tests.helpers.places import ROOT
 
 SOURCE = Path(ehlectric.__file__).parent
 # The codes themselves, and the module that classifies warnings of earlier versions.
@@ -42,6 +43,12 @@ def test_every_code_is_used():
     """A code that no generator gives any more is taken out of the table."""
     used = set().union(*map(literals, syntax_trees()))
     assert set(CODES) - used <= FOREIGN
+
+
+def test_every_code_is_explained():
+    """The page of troubleshooting says in its own words what each means and what to do."""
+    page = (ROOT / "docs" / "guide" / "troubleshooting.md").read_text(encoding="utf-8")
+    assert [code for code in CODES if f"`{code}`" not in page] == []
 
 
 @pytest.mark.slow

@@ -1,6 +1,6 @@
 """Worker processes of this machine, and other crews that solve tasks.
 
-The processes end at once where a run is stopped, and with their parent process.
+The processes end as soon as nobody waits for a task of theirs, and with their parent process.
 """
 
 from __future__ import annotations
@@ -100,7 +100,6 @@ def processes(number: int) -> Iterator[Crew]:
         The processes.
     """
     pool = _pool(number)
-    abandoned = False
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
         # The first calls start the processes. They inherit the setting that ignores interrupts (Ctrl-C).
@@ -112,20 +111,15 @@ def processes(number: int) -> Iterator[Crew]:
         end_now(pool)
         pool = _pool(number)
 
-    def abandon(futures: Iterable[Future[Any]]) -> None:
-        # Not cancelled one by one: where a process dies at that moment, the pool's own thread then fails.
-        nonlocal abandoned
-        abandoned = abandoned or any(not future.done() for future in futures)
+    def abandon(_: Iterable[Future[Any]]) -> None:
+        """They end with the pool. Were they cancelled as a process dies, its own thread would fail."""
 
     try:
         yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True, abandon=abandon)
-    except BaseException:
+    finally:
+        # Not left to end by themselves: in a process that multiprocessing started, the pool's thread may come
+        # too late to tell them, and the process then waits for them for ever. This is also faster.
         end_now(pool)
-        raise
-    if abandoned:
-        end_now(pool)
-    else:  # The processes end by themselves and need not be waited for.
-        pool.shutdown(wait=False)
 
 
 def _pool(number: int) -> ProcessPoolExecutor:
