@@ -66,7 +66,11 @@ def read_motion(path: str | Path) -> xr.Dataset:
     """
     path = Path(path)
     path = path / MOTION if path.is_dir() else path
-    dataset = read_dataset(path)
+    return checked_motion(read_dataset(path), path)
+
+
+def checked_motion(dataset: xr.Dataset, path: Path) -> xr.Dataset:
+    """What ``read_motion`` returns, of a file that has been read."""
     check_format(dataset.attrs, SCHEMA, path, "a run with moving roughness", unnamed=True)
     if "case" not in dataset.attrs or "frame_step" not in dataset:
         raise InputError(path, "is no motion of ehlectric")

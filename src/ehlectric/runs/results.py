@@ -18,7 +18,7 @@ from ehlectric.drive.storage.dataset import SCHEMA as DRIVE
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.content import SCHEMA as MOVING
 from ehlectric.motion.result import MotionResult
-from ehlectric.motion.stored_run import MOTION, read_motion
+from ehlectric.motion.stored_run import MOTION, checked_motion
 from ehlectric.runs.folders import stored_result
 from ehlectric.runtime.checks.formats import format_of
 from ehlectric.runtime.netcdf import read_dataset
@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 AnyResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | MotionResult
 
 
-def _moving(_dataset: xr.Dataset, path: Path) -> MotionResult:
+def _moving(dataset: xr.Dataset, path: Path) -> MotionResult:
     """Result with moving roughness, whose file may be incomplete."""
-    return MotionResult.of(read_motion(path))
+    return MotionResult.of(checked_motion(dataset, path))
 
 
-# Results by the kinds that their files state; files of contacts from before 1.0 state none.
+# Results by the kinds that their files state; files from before 1.0 state none, of contacts or moving.
 _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
     format_of(schema)[0]: result_of
     for schema, result_of in (
@@ -80,13 +80,12 @@ def load(path: str | Path) -> AnyResult:
     path = stored_result(path)
     if path.name == SWEEP:
         raise InputError(path.parent, "is the folder of a sweep", takes="a result; read_sweep reads a sweep")
-    if path.name == MOTION:
-        return MotionResult.of(read_motion(path))
     dataset = read_dataset(path)
     kind, _ = format_of(dataset.attrs.get("schema"))
     if kind and kind not in _OF_KINDS:
         raise InputError(path, "is not a result of ehlectric")
-    return _OF_KINDS.get(kind, of_contacts.result_of)(dataset, path)
+    unnamed = _moving if path.name == MOTION else of_contacts.result_of
+    return _OF_KINDS.get(kind, unnamed)(dataset, path)
 
 
 def save(result: Result | PointResult | BearingResult | DriveResult, folder: str | Path) -> list[Path]:
