@@ -5,6 +5,7 @@ import os
 import random
 import re
 import signal
+import subprocess
 import time
 
 import h5netcdf
@@ -17,7 +18,8 @@ from ehlectric.errors import ConvergenceError
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.stored_run import MotionRun, read_motion
-from tests.helpers.commands import Begun, run_command
+from tests.helpers.commands import COMMAND, Begun, run_command
+from tests.helpers.processes import wait_until
 
 CASE = """\
 title = "Bump"
@@ -330,6 +332,22 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
     assert more.sizes["step"] - 1 > steps
     np.testing.assert_allclose(np.diff(more["time"]), more["time"][1], rtol=1e-9)
     assert more["minimum_thickness"].values.min() > 1e-7
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="Windows closes its terminals otherwise")
+def test_a_run_after_nohup_outlives_its_terminal(tmp_path):
+    (tmp_path / "case.toml").write_text(LONG)
+    words = ["nohup", COMMAND, "run", "case.toml", "-o", "out", "--no-plots"]
+    with subprocess.Popen(
+        words, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as process:
+        assert wait_until(lambda: kept(tmp_path) >= 2, seconds=60.0)
+        process.send_signal(signal.SIGHUP)
+        saved = kept(tmp_path)
+        assert wait_until(lambda: kept(tmp_path) > saved + 1, seconds=60.0)
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(30.0) == 128 + signal.SIGTERM
 
 
 def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):

@@ -70,5 +70,8 @@ class AppServer:
         self.process.send_signal(number)
         try:
             return self.process.wait(20.0)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
         finally:
             self.process.stdout.close()

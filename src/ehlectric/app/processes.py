@@ -157,7 +157,8 @@ class Worker:
     def kill(self) -> None:
         """End the process now, with all that it started."""
         process = self._process
-        if process is None or not process.is_alive():
+        # Where the server of forks has died, its processes count as dead, but one that answers is alive.
+        if process is None or not (process.is_alive() or self._using.locked()):
             return
         with contextlib.suppress(OSError, AttributeError):
             # The process leads a group of its own; systems without groups lack the function.

@@ -11,6 +11,7 @@ from ehlectric.app.scratch import clear_left_behind, take_temporary_files
 from ehlectric.app.security import Guard
 from ehlectric.app.work import Limits, Work
 from ehlectric.errors import InputError
+from ehlectric.runtime.interrupts import held_back
 
 # Ports that are tried where none is given.
 _PORTS = range(8080, 8180)
@@ -67,7 +68,8 @@ def start(
         # This is how a user ends it.
         pass
     finally:
-        work.close()
+        with held_back():  # What is left running here would be waited for at the exit.
+            work.close()
         listening.close()
 
 

@@ -204,7 +204,9 @@ def _failed(error: Exception) -> int:
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
     for number in _ENDING:
-        signal.signal(number, _stop)
+        # After ``nohup`` the signal of a terminal that is closed is ignored, and stays so.
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _stop)
     for stream in (sys.stdout, sys.stderr):
         # A terminal without a micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]

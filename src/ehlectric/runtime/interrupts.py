@@ -36,7 +36,9 @@ def held_back() -> Iterator[None]:
     before: dict[int, Any] = {}
     try:
         for number in _STOPPING:
-            before[number] = signal.signal(number, lambda number, _: came.append(number))
+            # What is ignored, as after ``nohup``, is also ignored by processes that are started meanwhile.
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                before[number] = signal.signal(number, lambda number, _: came.append(number))
         yield
     finally:
         for held, handler in before.items():

@@ -3,6 +3,8 @@
 import asyncio
 import logging
 import os
+import signal
+from multiprocessing.forkserver import _forkserver
 
 import pytest
 
@@ -172,7 +174,9 @@ def test_a_job_that_takes_too_long_is_stopped():
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="processes are watched by the files of Linux")
 @pytest.mark.parametrize("how", ["cancel", "close the session", "close the work"])
-def test_a_job_ends_with_all_that_it_started(how, tmp_path):
+@pytest.mark.parametrize("forks", ["served", pytest.param("no longer served", marks=pytest.mark.slow)])
+def test_a_job_ends_with_all_that_it_started(how, forks, tmp_path):
+    """Also where the process that makes the others has died, as when a terminal is closed."""
     path = tmp_path / "numbers"
 
     async def use(work):
@@ -182,6 +186,10 @@ def test_a_job_ends_with_all_that_it_started(how, tmp_path):
             await asyncio.sleep(0.05)
         numbers = [int(text) for text in path.read_text().split()]
         assert all(map(alive, numbers))
+        if forks == "no longer served":
+            server = _forkserver._forkserver_pid
+            os.kill(server, signal.SIGKILL)
+            assert wait_until(lambda: not alive(server))
         {"cancel": job.cancel, "close the session": share.close, "close the work": work.close}[how]()
         assert job.state == "cancelled"
         return numbers

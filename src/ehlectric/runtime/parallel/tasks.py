@@ -140,7 +140,10 @@ def finished_tasks(
             refused = _fill(flying, remaining, crew, call)
             if not flying and not refused:
                 return
-            finished = _take(flying, wait(flying, _PULSE, FIRST_COMPLETED).done, crew, ran_out)
+            ended = wait(flying, _PULSE, FIRST_COMPLETED).done
+            if not ended:
+                crew.check()
+            finished = _take(flying, ended, crew, ran_out)
             died, short = refused + finished.died, finished.short
             yield finished.outcomes
             if (died or short) and not finished.cancelled:
@@ -216,7 +219,7 @@ def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T
     """Outcome of a task run with nothing else in flight, to find out whether it kills its process."""
     _ask(crew)
     try:
-        outcome: T = crew.submit(call, value).result()
+        outcome: T = _result(crew, crew.submit(call, value))
     except CancelledError:
         raise LostError("tasks in flight were cancelled") from None
     except Exception as error:  # raised by the executor
@@ -232,10 +235,17 @@ def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T
     return outcome
 
 
+def _result(crew: Crew, future: Future[T]) -> T:
+    """Wait for a result; an error where its process dies."""
+    while not wait([future], _PULSE).done:
+        crew.check()
+    return future.result()
+
+
 def _ask(crew: Crew) -> None:
     """Check with an empty call that the crew still answers, and raise a LostError if it does not."""
     try:
-        crew.submit(_here).result()
+        _result(crew, crew.submit(_here))
     except (CancelledError, Exception) as error:
         text = f"{type(error).__name__}: {error}".rstrip(": ")
         raise LostError(f"the processes stopped, nothing more can be solved: {text}") from None

@@ -7,11 +7,14 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
+
+from ehlectric.runtime.interrupts import held_back
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future, ProcessPoolExecutor
@@ -21,6 +24,9 @@ T = TypeVar("T")
 # Tasks in flight per process: one that is being solved, and three that wait, so that no process idles while
 # finished tasks are saved. A disk takes up to 30 ms for that, and a line contact 15 ms.
 _AHEAD = 4
+
+# Largest number of processes: Windows can wait for no more at once.
+_MOST = 61 if os.name == "nt" else sys.maxsize
 
 # Environment variables in which BLAS libraries look up the number of threads when they are loaded.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -56,6 +62,9 @@ class Crew:
         Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
     abandon : callable
         Function that is given the futures that nobody waits for any more, and stops what it can of them.
+    check : callable
+        Function that is called about every second while nothing finishes, and ends a crew that would never
+        finish.
     """
 
     submit: Callable[..., Future[Any]]
@@ -64,6 +73,7 @@ class Crew:
     waiting: Callable[[], str] = str
     one_machine: bool = False
     abandon: Callable[[Iterable[Future[Any]]], None] = cancel
+    check: Callable[[], None] = lambda: None
 
 
 def crew_of(executor: Executor) -> Crew:
@@ -99,6 +109,7 @@ def processes(number: int) -> Iterator[Crew]:
     Crew
         The processes.
     """
+    number = min(number, _MOST)
     pool = _pool(number)
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
@@ -114,8 +125,13 @@ def processes(number: int) -> Iterator[Crew]:
     def abandon(_: Iterable[Future[Any]]) -> None:
         """They end with the pool. Were they cancelled as a process dies, its own thread would fail."""
 
+    def check() -> None:
+        # Where a process dies in the middle of a result, the pool waits for the rest of it.
+        if any(process.exitcode is not None for process in _of(pool)):
+            _terminate(pool)
+
     try:
-        yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True, abandon=abandon)
+        yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True, abandon=abandon, check=check)
     finally:
         # Not left to end by themselves: in a process that multiprocessing started, the pool's thread may come
         # too late to tell them, and the process then waits for them for ever. This is also faster.
@@ -135,6 +151,8 @@ def _prepare_process() -> None:
     """Prepare a new process: it ends with its parent, and uses one BLAS thread."""
     from threadpoolctl import threadpool_limits
 
+    # Where the process has not inherited it, as on Windows.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     end_with_parent()
     # The environment limits libraries that are loaded later; threadpool_limits limits loaded libraries.
     os.environ |= dict.fromkeys(_THREADS, "1")
@@ -144,22 +162,36 @@ def _prepare_process() -> None:
 def end_now(pool: ProcessPoolExecutor) -> None:
     """End a pool and its processes at once, without waiting for the tasks that are running."""
     with without_interrupts():
-        for process in list((getattr(pool, "_processes", None) or {}).values()):
-            process.terminate()
+        _terminate(pool)
         pool.shutdown(cancel_futures=True)
+
+
+def _of(pool: ProcessPoolExecutor) -> list[Any]:
+    """Processes of a pool."""
+    return list((getattr(pool, "_processes", None) or {}).values())
+
+
+def _terminate(pool: ProcessPoolExecutor) -> None:
+    """End the processes of a pool, also where one of them is sending a result."""
+    for process in _of(pool):
+        process.terminate()
+    results = getattr(pool, "_result_queue", None)
+    if results is not None:
+        # Of a result that was cut off, the pool's thread would wait for the rest while a writer is open.
+        results._writer.close()
 
 
 @contextmanager
 def without_interrupts() -> Iterator[None]:
-    """Context in which Ctrl-C is ignored. In other threads than the main thread it does nothing."""
-    if threading.current_thread() is not threading.main_thread():
+    """Context in which Ctrl-C is ignored, and other signals that stop the program are held back.
+
+    In other threads than the main thread it does nothing.
+    """
+    with held_back():
+        if threading.current_thread() is threading.main_thread():
+            # Processes that are started inherit this; ``held_back`` restores what was before.
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
         yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def end_with_parent() -> None:

@@ -1,16 +1,20 @@
 """Tasks in processes: one whose process dies or that finds too little memory is run again, alone."""
 
+import gc
 import os
 import signal
+import struct
 import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from multiprocessing.queues import SimpleQueue
 from pathlib import Path
 
 import pytest
 
 from ehlectric.errors import InputError, LostError
 from ehlectric.runtime.parallel.tasks import run_all
+from ehlectric.runtime.parallel.workers import processes
 
 
 def marked(folder, text, act):
@@ -24,6 +28,23 @@ def marked(folder, text, act):
 
 def die():
     os.kill(os.getpid(), signal.SIGKILL)
+
+
+def begin_to_send():
+    """Send the size of a result and its first bytes, as a process does that is ended then."""
+    (results,) = [each for each in gc.get_objects() if isinstance(each, SimpleQueue)]
+    os.write(results._writer.fileno(), struct.pack("!i", 1_000_000) + b"first")
+
+
+def send_in_part_and_die():
+    begin_to_send()
+    die()
+
+
+def send_in_part_and_stay(path):
+    begin_to_send()
+    Path(path).touch()
+    time.sleep(600.0)
 
 
 def starve():
@@ -40,7 +61,12 @@ def test_tasks_run_in_processes_of_their_own():
     assert found == {n: 2**n for n in range(5)}
 
 
-@pytest.mark.parametrize("act", [die, starve])
+SENDS = pytest.mark.skipif(os.name == "nt", reason="pipes of Windows have messages, which are sent whole")
+
+
+@pytest.mark.parametrize(
+    "act", [die, starve, pytest.param(send_in_part_and_die, marks=[SENDS, pytest.mark.slow])]
+)
 def test_a_task_that_fails_once_is_run_again(tmp_path, act):
     found = {}
     tasks = [partial(marked, tmp_path, "a", act), partial(divmod, 7, 2), partial(divmod, 9, 2)]
@@ -78,6 +104,19 @@ def test_the_processes_end_with_an_error(tmp_path):
     with pytest.raises(ZeroDivisionError):
         run_all(tasks, lambda _number, _result: None, limit=2)
     assert time.monotonic() - started < 50.0
+
+
+@SENDS
+def test_the_processes_end_while_one_sends_its_result(tmp_path):
+    def left():
+        with processes(1) as crew:
+            crew.submit(send_in_part_and_stay, tmp_path / "sent")
+            while not (tmp_path / "sent").exists():
+                time.sleep(0.01)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        left()
 
 
 def test_a_run_that_is_stopped_leaves_no_error_of_its_threads(monkeypatch, capfd):
