@@ -116,6 +116,21 @@ def test_messages_do_not_move_the_page(page):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    ("writes", "text"),
+    [("setTimeout(done, 1500)", "Link copied"), ("", "Copy the link from the field.")],
+    ids=["late", "never"],
+)
+def test_a_browser_that_takes_its_time_over_the_link(page, writes, text):
+    """As one that draws figures without a graphics card, or asks its user first."""
+    wait_for_number(page, "capacitance", capacitance())
+    page.evaluate(f"() => {{ navigator.clipboard.writeText = () => new Promise((done) => {{ {writes} }}) }}")
+    page.get_by_test_id("copy-link").click()
+    page.get_by_test_id("toast").filter(has_text=text).wait_for()
+    assert page.get_by_test_id("link").input_value().startswith(f"{page.url}?")
+
+
+@pytest.mark.slow
 def test_the_short_answer_leads_to_the_answer_on_a_phone(open_page, app_server):
     page = open_page(app_server, "/", width=400, height=800)
     wait_for_number(page, "capacitance", capacitance())

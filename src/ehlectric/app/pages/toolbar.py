@@ -41,8 +41,18 @@ document.addEventListener("keydown", event => {
 });
 </script>"""
 
-# Copies a text, and says whether the browser allowed it: other machines need https for it.
-_COPY = "navigator.clipboard ? navigator.clipboard.writeText({}).then(() => true, () => false) : false"
+# Copies the link to an address, and says whether the browser allowed it: other machines need https for it,
+# and browsers may ask their user first.
+_COPY = """
+const link = window.location.origin + {};
+const board = navigator.clipboard;
+const copied = board ? board.writeText(link).then(() => true, () => false) : false;
+const asking = new Promise((done) => setTimeout(() => done(false), 3000));
+return [link, await Promise.race([copied, asking])];
+"""
+
+# Time in which the browser answers, also where it draws figures without a graphics card [s].
+_ANSWER = 60.0
 
 
 def address_of(path: str, inputs: Inputs) -> str:
@@ -107,9 +117,10 @@ class Toolbar:
             self._tell(error=f"no link holds these inputs: it has more than {LONGEST_QUERY} characters")
             return
         address = address_of(self._path, self.session.inputs)
-        link = f"{await ui.run_javascript('window.location.origin')}{address}"
-        self._link.value = link
-        copied = await ui.run_javascript(f"return await ({_COPY.format(json.dumps(link))})")
+        answer = await ui.run_javascript(_COPY.format(json.dumps(address)), timeout=_ANSWER)
+        if answer is None:  # The tab was closed meanwhile.
+            return
+        self._link.value, copied = answer
         self._link.set_visibility(True)
         brief(self._toast, "Link copied" if copied else "Copy the link from the field.")
         if not copied:
