@@ -92,6 +92,8 @@ def test_twenty_sessions_at_once_within_their_memory(own_server, open_page):
     server = own_server()
     loads = [600 + 100 * number for number in range(20)]
     pages = [open_page(server) for _ in loads]
+    for page in pages:
+        page.set_default_timeout(60_000.0)
     for page, load in zip(pages, loads, strict=True):
         type_into(page, LOAD, f"{load} N")
     for page, load in zip(pages, loads, strict=True):

@@ -175,6 +175,7 @@ def test_a_click_on_the_map_opens_the_point_in_a_new_tab(open_page, app_server):
     page.get_by_test_id("plan").filter(has_text="4 points").wait_for()
     run(page)
     wait_for_points(page, "4 solved")
+    page.get_by_test_id("verdict").locator(".light").wait_for()  # Its place is above the map.
     layer = page.get_by_test_id("map").locator(".nsewdrag").first
     layer.scroll_into_view_if_needed()
     box = layer.bounding_box()

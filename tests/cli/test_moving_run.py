@@ -367,7 +367,7 @@ def test_kills_lose_nothing_that_was_kept(tmp_path):
     """Twice kill -9 at a random moment: it goes on, and ends as it would have."""
     moment, steps = random.Random(3), 0
     for _ in range(2):
-        process = begun(tmp_path, kept(tmp_path) + 1, LONG.replace("20.0", "1.0"))
+        process = begun(tmp_path, kept(tmp_path) + 1, LONG.replace("20.0", "3.0"))
         time.sleep(moment.uniform(0.0, 0.3))
         os.kill(process.pid, signal.SIGKILL)
         process.communicate(timeout=30)

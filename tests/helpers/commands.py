@@ -7,6 +7,7 @@ status.
 import multiprocessing
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -27,6 +28,9 @@ def _command(arguments, folder, output, errors, group):
 
     if group:
         os.setsid()
+    if hasattr(signal, "SIGHUP"):
+        # The command respects a signal that is ignored, as it is where the tests themselves run after nohup.
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
     for number, path in ((1, output), (2, errors)):
         os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT), number)
     os.chdir(folder)

@@ -210,4 +210,9 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         # A terminal without a micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
-    sys.exit(_status())
+    status = _status()
+    for number in (signal.SIGINT, *_ENDING):
+        # From here on Python would answer a signal, such as that of an impatient user, by a traceback.
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+    sys.exit(status)
