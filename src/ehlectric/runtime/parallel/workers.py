@@ -113,8 +113,8 @@ def processes(number: int) -> Iterator[Crew]:
     pool = _pool(number)
 
     def submit(call: Callable[..., T], *values: Any) -> Future[T]:
-        # The first calls start the processes, which inherit the setting that ignores interrupts (Ctrl-C). Later
-        # calls hold them back only: one that came meanwhile would be lost.
+        # The first calls start the processes, which inherit the setting that ignores interrupts (Ctrl-C).
+        # Later calls hold an interrupt back: it would be lost.
         with without_interrupts() if len(_of(pool)) < number else held_back():
             return pool.submit(call, *values)
 
