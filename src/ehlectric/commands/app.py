@@ -28,13 +28,11 @@ from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
 from ehlectric.commands.terminal import NOT_CONVERGED, WRONG_INPUT
 from ehlectric.errors import InputError
+from ehlectric.runtime.interrupts import not_ignored
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.version import __version__
 
 SIGNALLED = 128  # plus the number of the signal, as in shells
-
-# Signals that end a command; Windows does not have all of them.
-_ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 _EXAMPLES = """\b
 Examples:
@@ -203,16 +201,14 @@ def _failed(error: Exception) -> int:
 
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
-    for number in _ENDING:
-        # After ``nohup`` the signal of a terminal that is closed is ignored, and stays so.
-        if signal.getsignal(number) is not signal.SIG_IGN:
+    for number in not_ignored():
+        if number != signal.SIGINT:  # Python raises KeyboardInterrupt.
             signal.signal(number, _stop)
     for stream in (sys.stdout, sys.stderr):
         # A terminal without a micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     status = _status()
-    for number in (signal.SIGINT, *_ENDING):
+    for number in not_ignored():
         # From here on Python would answer a signal, such as that of an impatient user, by a traceback.
-        if signal.getsignal(number) is not signal.SIG_IGN:
-            signal.signal(number, signal.SIG_DFL)
+        signal.signal(number, signal.SIG_DFL)
     sys.exit(status)

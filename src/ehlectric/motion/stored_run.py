@@ -70,7 +70,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 
 
 def checked_motion(dataset: xr.Dataset, path: Path) -> xr.Dataset:
-    """What ``read_motion`` returns, of a file that has been read."""
+    """Check a dataset read from a file, and return its solved part, as ``read_motion`` does."""
     check_format(dataset.attrs, SCHEMA, path, "a run with moving roughness", unnamed=True)
     if "case" not in dataset.attrs or "frame_step" not in dataset:
         raise InputError(path, "is no motion of ehlectric")

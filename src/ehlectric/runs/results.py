@@ -35,7 +35,7 @@ def _moving(dataset: xr.Dataset, path: Path) -> MotionResult:
     return MotionResult.of(checked_motion(dataset, path))
 
 
-# Results by the kinds that their files state; files from before 1.0 state none, of contacts or moving.
+# Results by the kinds that their files state. Files from before 1.0 state none; their names tell it.
 _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
     format_of(schema)[0]: result_of
     for schema, result_of in (

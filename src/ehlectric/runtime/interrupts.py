@@ -1,4 +1,4 @@
-"""Interrupts that wait until a file is written."""
+"""Signals that stop the program, and a context in which they wait, as until a file is written."""
 
 from __future__ import annotations
 
@@ -8,8 +8,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-_NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
+_NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # Windows does not have all of them.
 _STOPPING = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
+
+
+def not_ignored() -> list[signal.Signals]:
+    """Signals that stop the program. After ``nohup`` that of a closed terminal does not: it is ignored.
+
+    An ignored signal must keep this setting. Processes that are started inherit it, but they inherit no handler.
+    """
+    return [number for number in _STOPPING if signal.getsignal(number) is not signal.SIG_IGN]
 
 
 @contextmanager
@@ -35,10 +43,8 @@ def held_back() -> Iterator[None]:
     came: list[int] = []
     before: dict[int, Any] = {}
     try:
-        for number in _STOPPING:
-            # What is ignored, as after ``nohup``, is also ignored by processes that are started meanwhile.
-            if signal.getsignal(number) is not signal.SIG_IGN:
-                before[number] = signal.signal(number, lambda number, _: came.append(number))
+        for number in not_ignored():
+            before[number] = signal.signal(number, lambda number, _: came.append(number))
         yield
     finally:
         for held, handler in before.items():
