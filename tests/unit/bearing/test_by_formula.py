@@ -23,6 +23,7 @@ from tests.helpers.bearings import (
     ring_of,
     solve_contact,
 )
+from tests.helpers.each import each
 from tests.helpers.oils import alpha_star
 
 D, PITCH, LENGTH = 11.906e-3, 60e-3, 10e-3
@@ -91,8 +92,8 @@ def gauss(ends, count):
     return (middle[:, None] + half[:, None] * t).ravel(), (half[:, None] * w).ravel()
 
 
-@pytest.mark.parametrize("inner", [True, False])
-@pytest.mark.parametrize("angle", [0.0, 0.4])
+@each("inner", [True, False])
+@each("angle", [0.0, 0.4])
 def test_a_ball(inner, angle):
     """Hertz's numbers by Johnson, films as printed, the sums of dA/h by Gauss over the halves of the domain.
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from ehlectric.bearing.circuit import Circuit, impedance, leaking_admittance
 from ehlectric.bearing.shaft_voltage import voltage_ratio
+from tests.helpers.each import each
 
 capacitances = st.floats(1e-12, 1e-9)
 strengths = st.floats(0.5, 500.0)
@@ -110,7 +111,7 @@ def test_one_element_by_hand():
     assert turned.through_breakdown == pytest.approx(20.0, rel=1e-12, abs=0.0)
 
 
-@pytest.mark.parametrize("number", [1, 3, 9, 100])
+@each("number", [1, 3, 9, 100])
 def test_all_equal(number):
     """n elements of two equal contacts: n C/2, twice the strength of one, and both break at once."""
     found = circuit_of(*[(50e-12, 50e-12, 4.0, 4.0)] * number)

@@ -13,6 +13,7 @@ from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
 from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_case, contact_of, ring_of
+from tests.helpers.each import each
 from tests.helpers.oils import alpha_star
 
 D, PITCH, ROLLER, LENGTH = 11.906e-3, 60e-3, 11e-3, 10e-3
@@ -109,8 +110,8 @@ def test_the_least_load_is_the_first_that_fits(inner):
     assert not fits(10**-0.1 * least)
 
 
-@pytest.mark.parametrize("inner", [True, False])
-@pytest.mark.parametrize("load", [1e-3, 1.0, 30.0, 900.0])
+@each("inner", [True, False])
+@each("load", [1e-3, 1.0, 30.0, 900.0])
 def test_cases_take_these_domains(inner, load):
     """In the units of the case: half-widths, or semi-axes along and across."""
     for tables in (UNLIKE, ROLLERS):

@@ -1,9 +1,8 @@
 """Warnings of inputs that a machine hardly has, and of inputs that stand for a range."""
 
-import pytest
-
 from ehlectric.bearing.warnings import input_warnings, library_viscosity
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.each import each
 
 GRADE = {
     "lubricant__temperature__kinematic_viscosity_40": None,
@@ -20,8 +19,8 @@ def test_an_ordinary_bearing_has_none():
     assert told() == {}
 
 
-@pytest.mark.parametrize(
-    ("code", "just", "above", "text"),
+@each(
+    "code, just, above, text",
     [
         # 60 mm and 16 667 rpm are 1e6 mm/min.
         (

@@ -13,6 +13,7 @@ from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.bearing.ring_contacts import RollerContact
 from ehlectric.bearing.solver import check_bearing, solve_bearing
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, ring_of
+from tests.helpers.each import each
 
 ANGULAR = {
     "bearing__kind": "angular-contact ball",
@@ -46,7 +47,7 @@ def about(result, word):
     return [text for text in map(str, result.warnings) if word in text]
 
 
-@pytest.mark.parametrize(("radial", "axial"), [(1e-30, 0.0), (1e-6, 1e-4), (1e-4, 1e-4), (0.06, 0.0)])
+@each("radial, axial", [(1e-30, 0.0), (1e-6, 1e-4), (1e-4, 1e-4), (0.06, 0.0)])
 def test_a_load_is_more_than_the_weight_of_a_ball(radial, axial):
     """A steel ball of 11.906 mm: 7830 kg/m^3 pi D^3/6 9.807 m/s^2 = 0.0679 N."""
     text = refusal(BALLS, bearing__radial_load=radial, bearing__axial_load=axial)

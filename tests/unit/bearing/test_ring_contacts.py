@@ -21,6 +21,7 @@ from ehlectric.bearing.ring_contacts import (
 )
 from ehlectric.formulas.hertz_point import dry_contact, point_deflection
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, rigid_capacitance, ring_of
+from tests.helpers.each import each
 from tests.helpers.oils import alpha_star
 
 D, PITCH = 11.906e-3, 60e-3
@@ -68,8 +69,8 @@ def test_rollers_contacts_by_hand(inner, race_radius):
     assert found == pytest.approx([4.5, VISCOSITY, ALPHA], rel=1e-4, abs=0.0)
 
 
-@pytest.mark.parametrize(("inner", "groove", "sign"), RINGS)
-@pytest.mark.parametrize("angle", [0.0, 0.3])
+@each("inner, groove, sign", RINGS)
+@each("angle", [0.0, 0.3])
 def test_around_a_balls_film(inner, groove, sign, angle):
     """Of a film that is the deformed gap itself nothing is missed, and what is around it is that gap's."""
     ring = of(UNLIKE, inner=inner, angle=angle)

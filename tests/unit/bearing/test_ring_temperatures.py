@@ -12,6 +12,7 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.tables.bearing import input_rows
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.each import each
 
 TABLE = {"temperature": ["40 degC", "100 degC"], "strength": ["20 V/um", "14 V/um"]}
 OVER_TEMPERATURE = {"discharge__dielectric_strength": None, "discharge__strength_table": TABLE}
@@ -31,8 +32,8 @@ def temperatures(case):
     return tuple(round(part.temperature - 273.15, 9) for part in parts)
 
 
-@pytest.mark.parametrize(
-    ("given", "found"),
+@each(
+    "given, found",
     [
         ((70, None, None), (70, 70, 70)),
         ((None, 80, None), (80, 80, 80)),

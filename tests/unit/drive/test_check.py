@@ -7,6 +7,7 @@ from ehlectric.cases.drives.case import ENDS
 from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import drive_summary
 from ehlectric.runs.meaning import check
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 
@@ -59,9 +60,9 @@ def test_a_strength_that_needs_the_field_is_told(drive):
     assert "drive_end.lubricant.viscosity_law: needs solved contacts" in row.note
 
 
-@pytest.mark.parametrize("look", [check, solve_drive])
-@pytest.mark.parametrize(
-    ("changes", "message"),
+@each("look", [check, solve_drive])
+@each(
+    "changes, message",
     [
         ({"circuit.grounding_rng": 1.0}, r"^remedies\.2\.changes\.circuit\.grounding_rng: unknown key; "),
         ({"source.rise_time": "-1 ns"}, r"^remedies\.2\.changes\.source\.rise_time: got '-1 ns'; "),

@@ -12,6 +12,7 @@ from ehlectric.drive.statistics import event_rate
 from ehlectric.drive.verdict import SELDOM, drive_verdict, most_by_law
 from ehlectric.errors import ResultWarning
 from tests.helpers.drives import drive_with_remedy
+from tests.helpers.each import each
 
 NOTE = ResultWarning("isothermal-film", "smooth films")
 
@@ -70,8 +71,8 @@ def test_law_at_the_largest_voltage_is_the_rate_of_films_drawn_at_random():
     assert most_by_law(end | {"breakdown_voltage": None}) == 0.0
 
 
-@pytest.mark.parametrize(
-    ("values", "level", "words"),
+@each(
+    "values, level, words",
     [
         ({}, "green", "No discharge expected: none in"),
         # In 0.2 s nothing happened, but the law lets films break down 0.3 times in a second.

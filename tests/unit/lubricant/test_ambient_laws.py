@@ -11,13 +11,14 @@ from ehlectric.errors import InputError
 from ehlectric.lubricant.atmospheric import ATMOSPHERIC_LAWS, roelands_over_temperature, vogel
 from ehlectric.lubricant.conductivity import CONDUCTIVITY_LAWS, arrhenius, constant_conductivity
 from ehlectric.lubricant.temperature import interpolated
+from tests.helpers.each import each
 from tests.unit.lubricant.oils import VOGEL
 
 ROELANDS = {"viscosity": 0.04, "reference_temperature": 313.15, "roelands_s0": 1.1}
 ARRHENIUS = {"conductivity": 1e-10, "conductivity_activation": 5e4, "conductivity_temperature": 313.15}
 
 
-@pytest.mark.parametrize(("celsius", "expected"), [(40, 84.5), (60, 34.6), (80, 17.2), (100, 9.86)])
+@each("celsius, expected", [(40, 84.5), (60, 34.6), (80, 17.2), (100, 9.86)])
 def test_viscosity_of_fva_3(celsius, expected):
     """0.062 mPa s exp(1021.7/(T + 101.5517)) with T in degrees Celsius, as printed."""
     found = 1e3 * vogel(celsius + 273.15, **VOGEL)
@@ -61,8 +62,8 @@ def test_roelands_by_hand_and_its_limits():
     assert roelands_over_temperature(1e9, **ROELANDS) == pytest.approx(math.exp(-9.67), rel=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("name", "oil", "temperature", "text"),
+@each(
+    "name, oil, temperature, text",
     [
         ("vogel", VOGEL, 171.0, r"got 171 K; expected above 171\.6 K, the range of atmospheric_law 'vogel'"),
         ("vogel", VOGEL, None, "missing; atmospheric_law 'vogel' needs it"),

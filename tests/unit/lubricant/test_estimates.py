@@ -8,6 +8,7 @@ import pytest
 
 from ehlectric import InputError
 from ehlectric.lubricant.estimates import BASE_OILS, LEAST, MOST, Gold, alpha_estimate, so_klaus
+from tests.helpers.each import each
 
 # ESDU 85027 (1985, reissued 2007), table 10.2: viscosity [mPa s] and pressure exponent [1/GPa] at 30, 60 and
 # 100 degC. The table has no densities: those of the same kinds of oil are put in, as in its class at 15 degC.
@@ -60,7 +61,7 @@ def test_mineral_oils_of_esdu():
     assert np.max(ratios) < 1.07
 
 
-@pytest.mark.parametrize("base_oil", BASE_OILS)
+@each("base_oil", BASE_OILS)
 def test_scatter_covers_nine_of_ten_measured_coefficients(base_oil):
     if base_oil.startswith("mineral"):
         off = [abs(ratio - 1.0) for ratio in _mineral()]

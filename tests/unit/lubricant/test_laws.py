@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from ehlectric.errors import InputError
 from ehlectric.lubricant import density, permittivity, viscosity
+from tests.helpers.each import each
 
 ROELANDS = {"pressure_viscosity_coefficient": 22e-9, "roelands_z": 0.67, "roelands_pressure": 0.198e9}
 DENSITY = {"density_c1": 0.59e9, "density_c2": 1.34}
@@ -86,7 +87,7 @@ def test_laws_rise_with_pressure(law, parameters, low, high):
     assert law(low, **parameters)[0] <= law(high, **parameters)[0] * (1.0 + rounding)
 
 
-@pytest.mark.parametrize(("law", "parameters"), PRESSURE_LAWS)
+@each("law, parameters", PRESSURE_LAWS)
 def test_isothermal_laws_take_no_notice_of_the_temperature(law, parameters):
     pressure = np.array([0.0, 1e8, 1e9])
     cold, hot = (
@@ -105,9 +106,7 @@ TABLES = (viscosity.VISCOSITY_LAWS, density.DENSITY_LAWS, permittivity.PERMITTIV
 LAWS = [law for table in TABLES for law in table.values()]
 
 
-@pytest.mark.parametrize(
-    "law", [law for table in TABLES for law in table.values()], ids=lambda law: law.function.__name__
-)
+@each("law", [law for table in TABLES for law in table.values()], ids=lambda law: law.function.__name__)
 def test_parameters_of_an_entry_are_the_keywords_of_its_functions(law):
     """So that a law is called with what its case gives, and a warning of it too."""
     names = {parameter.name for parameter in law.parameters}

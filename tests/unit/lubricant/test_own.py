@@ -11,6 +11,7 @@ from ehlectric.lubricant.own import SampledLaws
 from ehlectric.lubricant.permittivity import clausius_mossotti
 from ehlectric.lubricant.viscosity import roelands
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 
 OIL = {"pressure_viscosity_coefficient": 22e-9, "roelands_z": 0.67, "roelands_pressure": 0.198e9}
 
@@ -79,8 +80,8 @@ def test_the_temperature_reaches_the_laws():
     assert warm.conditions.viscosity == pytest.approx(0.04 * np.exp(-0.6), rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("law", "text"),
+@each(
+    "law, text",
     [
         (lambda p, _: np.full_like(p, np.nan), "laws.viscosity: got nan Pa s of <lambda> .* at 0 GPa"),
         (lambda p, _: -p - 1.0, "laws.viscosity: got -1 Pa s"),

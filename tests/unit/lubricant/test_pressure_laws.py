@@ -20,6 +20,7 @@ from ehlectric.lubricant.alpha import film_alpha, initial_alpha, reciprocal_asym
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson, dowson_higginson_pressure
 from ehlectric.lubricant.glass import GLASS_VISCOSITY, LARGEST_EXPONENT
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, roelands
+from tests.helpers.each import each
 from tests.unit.lubricant.oils import (
     DOOLITTLE,
     LARSSON_C,
@@ -86,7 +87,7 @@ def test_laws_rise_with_pressure_without_a_jump(name, data, temperature):
     assert np.all(np.diff(value) <= 3.0 * np.maximum(slope[1:], slope[:-1]) * np.diff(p) + 1e-12 * value[1:])
 
 
-@by_law
+@each("name", LAWS)
 def test_temperatures_broadcast_and_are_needed(name):
     law, oil = LAWS[name]
     p, at = np.array([[0.0], [1e9]]), np.array([300.0, 340.0, 380.0])
@@ -101,9 +102,7 @@ def test_temperatures_broadcast_and_are_needed(name):
 # ---- Viscosity
 
 
-@pytest.mark.parametrize(
-    ("celsius", "alpha", "star"), [(40, 22.4, 21.6), (60, 19.7, 18.8), (80, 17.6, 16.6), (100, 16.0, 14.8)]
-)
+@each("celsius, alpha, star", [(40, 22.4, 21.6), (60, 19.7, 18.8), (80, 17.6, 16.6), (100, 16.0, 14.8)])
 def test_coefficients_of_fva_3(celsius, alpha, star):
     """Slope at zero pressure 1/(a1 + a2 T) with the printed constants; alpha* of another program."""
     law = partial(modulus.modulus, temperature=celsius + CELSIUS, **MODULUS)

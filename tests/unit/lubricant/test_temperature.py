@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from ehlectric import InputError
 from ehlectric.lubricant.temperature import COLD, HOT, Walther, density
 from ehlectric.lubricant.viscosity import roelands, roelands_alpha
+from tests.helpers.each import each
 
 VG46 = Walther.of(46e-6, 6.8e-6)
 oils = st.tuples(st.floats(5e-6, 1e-3), st.floats(0.1, 0.9)).map(
@@ -25,7 +26,7 @@ def test_through_both_points(oil):
     assert walther.viscosity(HOT) == pytest.approx(at_100, rel=1e-9, abs=0.0)
 
 
-@pytest.mark.parametrize("celsius", [-10.0, 20.0, 55.0, 70.0, 120.0])
+@each("celsius", [-10.0, 20.0, 55.0, 70.0, 120.0])
 def test_a_straight_line_on_the_paper_of_the_standard(celsius):
     """log10 log10(nu + 0.7) over log10 T by linear interpolation between the two points, or beyond them."""
     double = [math.log10(math.log10(nu + 0.7)) for nu in (46.0, 6.8)]
@@ -39,7 +40,7 @@ def test_at_70_degrees_by_hand():
     assert VG46.viscosity(343.15) * 1e6 == pytest.approx(10.0**10.0**0.07615 - 0.7, rel=2e-4, abs=0.0)
 
 
-@pytest.mark.parametrize("temperature", [283.15, 313.15, 343.15, 393.15])
+@each("temperature", [283.15, 313.15, 343.15, 393.15])
 def test_slope_is_the_derivative(temperature):
     """Central difference of ln nu, whose error is of the order of the step squared."""
     step = 0.05
@@ -84,7 +85,7 @@ def test_alpha_is_the_slope_of_roelands_law_at_ambient_pressure(viscosity, z, p0
     assert alpha == pytest.approx(grown / 1e3, rel=1e-5, abs=0.0)
 
 
-@pytest.mark.parametrize("viscosity", [0.004, 0.0125, 0.04, 0.4])
+@each("viscosity", [0.004, 0.0125, 0.04, 0.4])
 def test_lines_of_all_temperatures_meet_in_the_pole_of_roelands(viscosity):
     """Towards p = -p0 every oil at every temperature has e^-9.67 = 6.3e-5 Pa s: the law that films take."""
     alpha = roelands_alpha(viscosity, 0.67, 0.198e9)

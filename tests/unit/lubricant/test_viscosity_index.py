@@ -13,6 +13,7 @@ from ehlectric.lubricant.viscosity_index import (
     viscosity_at_100,
     viscosity_index,
 )
+from tests.helpers.each import each
 
 
 @pytest.mark.parametrize(
@@ -46,7 +47,7 @@ TABLE = [
 ]
 
 
-@pytest.mark.parametrize(("y", "low", "high"), TABLE)
+@each("y, low, high", TABLE)
 def test_reference_oils(y, low, high):
     assert _reference(y) == pytest.approx((low, high), rel=1.2e-3)
     # The reference oils have the indices 0 and 100 by definition.

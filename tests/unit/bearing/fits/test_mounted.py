@@ -12,6 +12,7 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.labels import label_of
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.each import each
 
 FITS = {
     "bearing__radial_clearance": None,
@@ -88,8 +89,8 @@ def test_a_preload_and_a_loose_ring_are_warned_of():
     assert "the interference of 10 µm becomes -28 µm" in warning.text
 
 
-@pytest.mark.parametrize(
-    ("changes", "line"),
+@each(
+    "changes, line",
     [
         (
             {"bearing__radial_clearance": "10 um"},

@@ -19,6 +19,7 @@ from ehlectric.bearing.gaps.groove import (
 from ehlectric.bearing.gaps.raceway import Raceway, groove_gap
 from ehlectric.errors import InputError
 from ehlectric.formulas.hertz_point import dry_contact, point_deflection
+from tests.helpers.each import each
 
 D, PITCH = 11.906e-3, 60e-3  # 6208
 E = 226e9
@@ -65,9 +66,9 @@ def reach(race, gap, psi):
     return low
 
 
-@pytest.mark.parametrize("outer", [False, True])
-@pytest.mark.parametrize("angle", [0.0, 0.5])
-@pytest.mark.parametrize("gap", [-8e-6, 1e-6, 1e-4])
+@each("outer", [False, True])
+@each("angle", [0.0, 0.5])
+@each("gap", [-8e-6, 1e-6, 1e-4])
 def test_gap_by_vectors(outer, angle, gap):
     race = race_of(outer=outer, angle=angle)
     for psi, phi in ((0.0, 0.0), (0.5, 0.0), (-0.6, 0.05), (0.3, 0.2)):
@@ -77,8 +78,8 @@ def test_gap_by_vectors(outer, angle, gap):
         assert found == pytest.approx(distance, rel=1e-9, abs=1e-16)
 
 
-@pytest.mark.parametrize("outer", [False, True])
-@pytest.mark.parametrize("angle", [0.0, 0.5])
+@each("outer", [False, True])
+@each("angle", [0.0, 0.5])
 def test_parabolas_at_the_contact(outer, angle):
     """1/Rx = 1/r + s cos(alpha)/R, R the race's radius at the contact, and 1/Ry = 1/r - 1/r_g."""
     race, s = race_of(outer=outer, angle=angle), 1.0 if outer else -1.0
@@ -90,8 +91,8 @@ def test_parabolas_at_the_contact(outer, angle):
     assert across == pytest.approx(0.5e-12 * (1.0 / r - 1.0 / rg), rel=1e-6, abs=0.0)
 
 
-@pytest.mark.parametrize("outer", [False, True])
-@pytest.mark.parametrize("angle", [0.0, 0.5])
+@each("outer", [False, True])
+@each("angle", [0.0, 0.5])
 def test_radii_of_a_catalogues_bearing(outer, angle):
     """Harris: 1/Rx = 2/D +- 2 cos a/(d_m -+ D cos a), upper signs inside, and 1/Ry = 2/D - 1/(f D)."""
     race, s = race_of(0.53, outer=outer, angle=angle), -1.0 if outer else 1.0
@@ -127,16 +128,18 @@ def test_adaptive_quadrature(gap, outer, groove, angle):
     assert groove_capacitance(race, gap) == pytest.approx(2.0 * epsilon_0 * half, rel=1e-8, abs=0.0)
 
 
-@pytest.mark.parametrize("outer", [False, True])
-@pytest.mark.parametrize("groove", [0.505, 0.6])
-@pytest.mark.parametrize("gap", [1e-9, 5e-6, 1e-4])
-@pytest.mark.parametrize("angle", [0.0, 0.6])
+@each("outer", [False, True])
+@each("groove", [0.505, 0.6])
+@each("gap", [1e-9, 5e-6, 1e-4])
+@each("angle", [0.0, 0.6])
 def test_twice_the_nodes_change_nothing(outer, groove, gap, angle, monkeypatch):
     race = race_of(groove, outer=outer, angle=angle)
     found = groove_capacitance(race, gap)
-    monkeypatch.setattr(capacitances, "_ALONG", 2 * capacitances._ALONG)
-    monkeypatch.setattr(capacitances, "_ACROSS", 2 * capacitances._ACROSS)
-    assert found == pytest.approx(groove_capacitance(race, gap), rel=1e-11, abs=0.0)
+    with monkeypatch.context() as patch:
+        patch.setattr(capacitances, "_ALONG", 2 * capacitances._ALONG)
+        patch.setattr(capacitances, "_ACROSS", 2 * capacitances._ACROSS)
+        finer = groove_capacitance(race, gap)
+    assert found == pytest.approx(finer, rel=1e-11, abs=0.0)
 
 
 def charge_of_a_plane(r, h, rho):
@@ -148,8 +151,8 @@ def charge_of_a_plane(r, h, rho):
     return charge
 
 
-@pytest.mark.parametrize("outer", [False, True])
-@pytest.mark.parametrize("gap", [1e-8, 1e-6, 5e-6, 1e-4])
+@each("outer", [False, True])
+@each("gap", [1e-8, 1e-6, 5e-6, 1e-4])
 def test_a_groove_that_opens_to_a_plane(outer, gap):
     """Exactly the charge within rho < r of a sphere over a plane. Heights alone are 2.5 to 5 % short of it.
 
@@ -301,8 +304,8 @@ def test_inside_and_outside_add_up(outer, angle, gap):
     assert outside + 2.4 * epsilon_0 * inside == pytest.approx(whole, rel=1e-8, abs=0.0)
 
 
-@pytest.mark.parametrize("outer", [False, True])
-@pytest.mark.parametrize(("load", "film"), [(20.0, 1e-8), (600.0, 1e-7), (600.0, 2e-6), (5000.0, 1e-6)])
+@each("outer", [False, True])
+@each("load, film", [(20.0, 1e-8), (600.0, 1e-7), (600.0, 2e-6), (5000.0, 1e-6)])
 def test_twice_the_nodes_change_nothing_outside(outer, load, film, monkeypatch):
     race = race_of(outer=outer, angle=0.2)
     dry = loaded(race, load)
@@ -310,9 +313,10 @@ def test_twice_the_nodes_change_nothing_outside(outer, load, film, monkeypatch):
     domains = [(*ends, side * dry.semi_axis_y) for side in (1.2, 1.75)]
     contact = LoadedContact(dry, E, film - dry.approach, 0.0)
     found = [outside_capacitance(race, contact, domain) for domain in domains]
-    for name in ("_BESIDE", "_AHEAD", "_BEHIND"):
-        monkeypatch.setattr(capacitances, name, tuple(2 * nodes for nodes in getattr(capacitances, name)))
-    finer = [outside_capacitance(race, contact, domain) for domain in domains]
+    with monkeypatch.context() as patch:
+        for name in ("_BESIDE", "_AHEAD", "_BEHIND"):
+            patch.setattr(capacitances, name, tuple(2 * nodes for nodes in getattr(capacitances, name)))
+        finer = [outside_capacitance(race, contact, domain) for domain in domains]
     assert found == pytest.approx(finer, rel=1e-8, abs=0.0)
 
 
@@ -391,8 +395,8 @@ def test_domain_may_be_any(outer):
     assert found == pytest.approx(epsilon_0 * ring, rel=5e-3, abs=0.0)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "angle", "message"),
+@each(
+    "arguments, angle, message",
     [
         ((0.5, 0.2), 0.0, "above 0.5"),
         ((0.52, 0.0), 0.0, "shoulder_height"),
@@ -435,9 +439,9 @@ def by_cells(*, outer, shoulder, gap, cells=(200, 600)):
     ]
 
 
-@pytest.mark.parametrize("outer", [False, True])
-@pytest.mark.parametrize("shoulder", [0.2, 0.07])
-@pytest.mark.parametrize("gap", [2e-6, 5e-6, 2e-5])
+@each("outer", [False, True])
+@each("shoulder", [0.2, 0.07])
+@each("gap", [2e-6, 5e-6, 2e-5])
 def test_a_6208_by_cells(outer, shoulder, gap):
     """Gap along the ball's radius or the raceway's normal, area of raceway or ball: ours is between them."""
     found = groove_capacitance(race_of(shoulder=shoulder, outer=outer), gap)

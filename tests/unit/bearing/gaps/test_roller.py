@@ -9,6 +9,7 @@ from scipy.integrate import quad
 
 from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.formulas.hertz_line import line_gap, reduced_radius
+from tests.helpers.each import each
 
 ROLLER, INNER, OUTER = 5.5e-3, 27.25e-3, 38.25e-3  # nearly an NU 208
 RACES = [RollerRaceway(ROLLER, INNER, outer=False), RollerRaceway(ROLLER, OUTER, outer=True)]
@@ -46,8 +47,8 @@ def test_exact_charge_of_all_of_the_race():
         )
 
 
-@pytest.mark.parametrize("race", RACES)
-@pytest.mark.parametrize("gap", [1e-9, 1e-7, 1e-6, 1e-5, 1e-4])
+@each("race", RACES)
+@each("gap", [1e-9, 1e-7, 1e-6, 1e-5, 1e-4])
 def test_exact_circles(race, gap):
     """What the next order misses is all at the ends, where the gap is 0.4 radii: it does not grow with C."""
     phi = np.arcsin(ROLLER / race.pitch_radius(gap))

@@ -17,6 +17,7 @@ from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.formulas.film_point import PointContact
+from tests.helpers.each import each
 
 E, DENSITY = 226e9, 7800.0
 RPM = 2.0 * np.pi / 60.0
@@ -34,7 +35,7 @@ def many(elements, clearance=0.0):
     return BallBearing(elements, 54e-3 * math.sin(math.pi / elements), 60e-3, 0.52, 0.52, clearance)
 
 
-@pytest.mark.parametrize("elements", [8, 9, 10, 12, 16, 24])
+@each("elements", [8, 9, 10, 12, 16, 24])
 def test_stribeck(elements):
     """Zero clearance, a ball on the load line: loads go with cos^(3/2), F/sum cos^(5/2) is 4.37 F/Z."""
     state = solve(many(elements), 1000.0)
@@ -49,7 +50,7 @@ def test_stribeck(elements):
         assert state.inner_load[0] == pytest.approx(4.385 * 1000.0 / 9, rel=2e-4, abs=0.0)
 
 
-@pytest.mark.parametrize("clearance", [0.0, 5e-6, 20e-6, -5e-6])
+@each("clearance", [0.0, 5e-6, 20e-6, -5e-6])
 def test_sjovall(clearance):
     """F = Z Q_max J(e), J = 1/(2 pi) int (1 - (1 - cos)/(2 e))^(3/2) cos, e = (1 - P/(2 x))/2, many balls."""
     state = solve(many(80, clearance), 500.0)
@@ -66,8 +67,8 @@ def test_clearance_loads_fewer_balls_more():
     assert largest[-1] == pytest.approx(500.0, rel=1e-9, abs=0.0)
 
 
-@pytest.mark.parametrize("bearing", [B6208, ANGULAR])
-@pytest.mark.parametrize("load", [1.0, 100.0, 5000.0])
+@each("bearing", [B6208, ANGULAR])
+@each("load", [1.0, 100.0, 5000.0])
 def test_pure_axial_load_is_shared_equally(bearing, load):
     """F_a/Z = sin a K A^(3/2) (cos a0/cos a - 1)^(3/2) at rest, solved for a; K of that very angle."""
     state = solve(bearing, 0.0, load)
@@ -137,8 +138,8 @@ def test_stiffness_is_the_exact_one_at_every_angle():
             assert q == pytest.approx(k * d**1.5, rel=1e-10, abs=1e-6)
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.6, 1.2])
-@pytest.mark.parametrize(("inner", "groove", "sign"), [(True, 0.52, 1.0), (False, 0.53, -1.0)])
+@each("angle", [0.0, 0.6, 1.2])
+@each("inner, groove, sign", [(True, 0.52, 1.0), (False, 0.53, -1.0)])
 def test_stiffness_by_complete_integrals(inner, groove, sign, angle):
     """Hertz as Harris has it: F(rho) = ((k^2 + 1) E - 2 K)/((k^2 - 1) E) gives k, the ratio of the axes.
 

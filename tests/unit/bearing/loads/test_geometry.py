@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from ehlectric import InputError
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
+from tests.helpers.each import each
 
 BALLS = {
     "elements": 9,
@@ -104,8 +105,8 @@ def test_relief_of_the_logarithmic_profile(length, depth):
     assert not RollerBearing(**(ROLLERS | {"profile": "none"})).relief(x).any()
 
 
-@pytest.mark.parametrize(
-    ("other", "message"),
+@each(
+    "other, message",
     [
         ({"elements": 16}, "elements: got 16; expected 3 to 15"),
         ({"elements": 2}, "elements: got 2; expected 3 to 15"),

@@ -5,6 +5,7 @@ import pytest
 
 from ehlectric import InputError
 from ehlectric.bearing.loads.ring import Operation, balance
+from tests.helpers.each import each
 
 
 def springs(directions, clearance, power):
@@ -20,9 +21,9 @@ def springs(directions, clearance, power):
     return reaction
 
 
-@pytest.mark.parametrize("power", [1.0, 10.0 / 9.0, 1.5])
-@pytest.mark.parametrize("load", [1e-4, 1.0, 1e6])
-@pytest.mark.parametrize("reach", [1e-9, 1e-5, 1.0])
+@each("power", [1.0, 10.0 / 9.0, 1.5])
+@each("load", [1e-4, 1.0, 1e6])
+@each("reach", [1e-9, 1e-5, 1.0])
 def test_one_spring_beyond_a_clearance(power, load, reach):
     """x = clearance + (F/k)^(1/n), whatever the first step; the second direction is free and stays at 0."""
     reaction = springs(np.array([[1.0, 0.0]]), 1e-5, power)

@@ -14,6 +14,7 @@ from ehlectric.bearing.loads.geometry import RollerBearing
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.rollers import line_stiffness, roller_equilibrium
 from ehlectric.formulas.hertz_line import body_compliance, reduced_modulus
+from tests.helpers.each import each
 
 STEEL = reduced_modulus(body_compliance(206e9, 0.3), body_compliance(206e9, 0.3))
 DENSITY = 7800.0
@@ -30,7 +31,7 @@ def many(elements, clearance=0.0, profile="none"):
     return RollerBearing(elements, 54e-3 * math.sin(math.pi / elements), 60e-3, 11e-3, clearance, profile)
 
 
-@pytest.mark.parametrize("elements", [8, 9, 10, 12, 16, 24])
+@each("elements", [8, 9, 10, 12, 16, 24])
 def test_stribeck(elements):
     """Zero clearance: loads go with cos^(10/9), Q_max = F/sum cos^(19/9) = 4.08 F/Z."""
     state = solve(many(elements), 5000.0)
@@ -41,7 +42,7 @@ def test_stribeck(elements):
     assert state.inner_load[0] == pytest.approx(4.08 * 5000.0 / elements, rel=0.01, abs=0.0)
 
 
-@pytest.mark.parametrize("clearance", [0.0, 5e-6, 20e-6, -5e-6])
+@each("clearance", [0.0, 5e-6, 20e-6, -5e-6])
 def test_sjovall(clearance):
     """F = Z Q_max J(e), J = 1/(2 pi) int (1 - (1 - cos)/(2 e))^(10/9) cos, e = (1 - P/(2 x))/2."""
     state = solve(many(80, clearance), 5000.0)
@@ -156,8 +157,8 @@ def test_unloaded_rollers():
     assert not outside.outer_gap.any()
 
 
-@pytest.mark.parametrize(
-    ("duty", "other", "message"),
+@each(
+    "duty, other, message",
     [
         ((500.0, 10.0), {}, "axial_load: got 10 N; expected 0: the raceways"),
         ((0.0, 10.0), {}, "axial_load: got 10 N; expected 0: the raceways"),

@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import minimize
 
 from ehlectric.bearing.loads.seating import Grooves, lean_outward, seat
+from tests.helpers.each import each
 
 INNER, OUTER = 0.24e-3, 0.30e-3  # distance of ball and groove centres where they touch
 K = np.array([1.2e10]), np.array([0.9e10])
@@ -23,8 +24,8 @@ def energy(p, g, outward):
     return 0.4 * K[0][0] * inner**2.5 + 0.4 * K[1][0] * outer**2.5 - outward * p[1]
 
 
-@pytest.mark.parametrize("outward", [0.5, 20.0, 500.0])
-@pytest.mark.parametrize(
+@each("outward", [0.5, 20.0, 500.0])
+@each(
     "g",
     [
         (0.0, 550e-6),

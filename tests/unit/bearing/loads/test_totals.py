@@ -4,7 +4,6 @@ import dataclasses
 import math
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +12,7 @@ from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.rollers import roller_equilibrium
 from ehlectric.bearing.loads.totals import mirrored
+from tests.helpers.each import each
 
 SOLID = 226e9, 7800.0
 BALLS = BallBearing(9, 11.906e-3, 60e-3, 0.52, 0.52, radial_clearance=10e-6)
@@ -48,8 +48,8 @@ def test_balls(part, radial, axial):
     assert_mirrored(lambda at: ball_equilibrium(BALLS, at, *SOLID), BALLS, angle, (radial, axial, 300.0))
 
 
-@pytest.mark.parametrize("speed", [0.0, 300.0])
-@pytest.mark.parametrize("part", [0.2, 0.5, 0.7])
+@each("speed", [0.0, 300.0])
+@each("part", [0.2, 0.5, 0.7])
 def test_rollers(speed, part):
     angle = part * 2.0 * math.pi / ROLLERS.elements
     assert_mirrored(

@@ -18,6 +18,7 @@ from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 FORMULA = {"contacts": "formula"}
@@ -190,8 +191,8 @@ def test_a_margin_that_falls_at_high_speed_has_two_critical_speeds(sheared):
     assert own.critical_speed == pytest.approx(speeds.critical, rel=0.01)
 
 
-@pytest.mark.parametrize(
-    ("crossings", "above", "broken", "critical", "upper"),
+@each(
+    "crossings, above, broken, critical, upper",
     [
         ((), True, (), None, None),
         ((), False, ((None, None),), None, None),

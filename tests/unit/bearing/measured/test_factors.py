@@ -18,6 +18,7 @@ from ehlectric.bearing.preparation import with_film_factor
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, ROLLERS
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.reference.synthetic_capacitance import BACKGROUND, FACTOR, FILE, NOISE
 from tests.reference.synthetic_capacitance import SPEEDS as SPEEDS_OF_FILE
@@ -181,8 +182,8 @@ def test_files_hold_what_the_result_has(case, exact):
     assert set(found.to_dataframe().attrs["units"]) == set(found.columns)
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
+@each(
+    "options, words",
     [
         ({"background": "900 nF"}, "no capacitance above the background"),
         ({"background": "-1 pF"}, "background: got '-1 pF'"),

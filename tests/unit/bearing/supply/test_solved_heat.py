@@ -21,6 +21,7 @@ from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.runtime.checks.schema import UnfitError
 from ehlectric.tables.bearing_films import film_factors
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
+from tests.helpers.each import each
 
 THERMAL = {
     "lubricant__temperature__thermal_conductivity": "0.14 W/m/K",
@@ -196,8 +197,8 @@ def test_the_app_answers_at_once_by_the_formula(monkeypatch):
     assert answer.numbers["heat_factor"] == resolve_bearing(case(ROLLERS, "inlet-shear")).heat_factor
 
 
-@pytest.mark.parametrize(
-    ("changes", "line"),
+@each(
+    "changes, line",
     [
         (
             {"lubricant__heat_capacity": None},

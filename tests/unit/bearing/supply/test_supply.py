@@ -17,6 +17,7 @@ from ehlectric.errors import InputError
 from ehlectric.formulas.replenishment import replenishment_factor
 from ehlectric.tables.bearing_films import film_factors
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 SIZE = {"bearing__bore": "40 mm", "bearing__outer_diameter": "80 mm"}
@@ -147,8 +148,8 @@ def test_a_measured_factor_contains_the_supply():
     assert states[0] == states[1]
 
 
-@pytest.mark.parametrize(
-    ("changes", "line"),
+@each(
+    "changes, line",
     [
         ({"bearing__supply": "greased"}, "bearing.supply: got 'greased'; expected 'flooded', 'oil-bath', "),
         ({"bearing__supply": 0}, "bearing.supply: got 0; expected 'flooded'"),

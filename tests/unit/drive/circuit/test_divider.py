@@ -5,6 +5,7 @@ import pytest
 from ehlectric.bearing.meter.path import Path
 from ehlectric.drive.circuit.divider import capacitive_divider
 from tests.helpers.drives import element, motor
+from tests.helpers.each import each
 
 INDUCTANCES = (
     {},
@@ -14,7 +15,7 @@ INDUCTANCES = (
 )
 
 
-@pytest.mark.parametrize("keys", INDUCTANCES)
+@each("keys", INDUCTANCES)
 def test_divider_is_that_of_the_capacitances(keys):
     """C_wr/(C_wr + C_rf + C_DE + C_NDE), whatever lies before the winding."""
     circuit, bearings = motor(**keys), [element(300e-12), element(200e-12)]
@@ -22,7 +23,7 @@ def test_divider_is_that_of_the_capacitances(keys):
     assert capacitive_divider(circuit, bearings) == pytest.approx((share, share), rel=1e-12)
 
 
-@pytest.mark.parametrize("keys", INDUCTANCES)
+@each("keys", INDUCTANCES)
 def test_a_coating_takes_its_part(keys):
     """Films of 300 pF in series with a coating of 600 pF: 200 pF, of whose voltage they have two thirds."""
     circuit = motor(**keys)

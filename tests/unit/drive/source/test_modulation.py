@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from ehlectric.cases.drives.source import Source
 from ehlectric.drive.source.modulation import edge_rate, sinusoidal, space_vector, steps_of
 from ehlectric.drive.source.segments import Ringing, edges
+from tests.helpers.each import each
 
 LINK = 600.0
 
@@ -44,8 +45,8 @@ def test_levels_of_six_steps():
     assert voltage == pytest.approx(LINK / 6.0 * np.where(np.arange(30) % 2 == 0, 1.0, -1.0))
 
 
-@pytest.mark.parametrize(
-    ("one", "rate"),
+@each(
+    "one, rate",
     [
         # All phases switch together.
         (source(modulation_index=0.0), 2 * 2000.0),

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from ehlectric.drive.source.oscilloscope import read_waveform
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 from tests.helpers.places import ROOT
 
 DATA = ROOT / "tests" / "data" / "waveforms"
@@ -47,8 +48,8 @@ def refused(path, **keywords):
     return line
 
 
-@pytest.mark.parametrize(
-    ("name", "keywords", "told"),
+@each(
+    "name, keywords, told",
     [
         ("tektronix_tds2000", {}, []),
         ("tektronix_mso4000", {}, []),
@@ -159,8 +160,8 @@ def test_any_content_is_read_or_is_the_error_of_the_project(tmp_path_factory, co
 GOOD = [f"{k},{value:.4f}" for k, value in enumerate(wave(40))]
 
 
-@pytest.mark.parametrize(
-    ("lines", "message"),
+@each(
+    "lines, message",
     [
         ([], "is empty; expected lines of time and voltage"),
         (["", " ", ""], "is empty"),
@@ -216,7 +217,7 @@ def test_what_is_no_text_file_is_refused(tmp_path):
     assert "is a directory" in refused(tmp_path)
 
 
-@pytest.mark.parametrize(
+@each(
     "content",
     [
         "," * 90_000,
@@ -232,7 +233,6 @@ def test_what_is_no_text_file_is_refused(tmp_path):
         "t,u\n" + "0,1\n" * 9 + "1" * 90_000 + ",1\n" + "2,3\n" * 9,
         "\n" * 1_000_000,
     ],
-    ids=range(12),
 )
 def test_hostile_files_are_refused_soon(tmp_path, content):
     began = time.process_time()
@@ -297,7 +297,7 @@ def test_a_file_without_times_needs_the_interval(tmp_path):
     assert read_waveform(decimal, step=2e-9)[0].values == pytest.approx(wave(30), abs=1e-4)
 
 
-@pytest.mark.parametrize(
+@each(
     "stated",
     ["Sample Interval,4e-9", "Sampling Period: 4 ns", "Sample Rate,250000000.0", "Sampling Rate: 250 MSa/s"],
 )

@@ -1,7 +1,6 @@
 """Doubts about measured waveforms: what is told, and what is not."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -14,6 +13,7 @@ from ehlectric.drive.source.quality import (
     unresolved_edges,
 )
 from ehlectric.drive.source.waveform import Waveform
+from tests.helpers.each import each
 
 COUNT = 20_000
 
@@ -61,9 +61,9 @@ SOUND = {
 }
 
 
-@pytest.mark.parametrize("values", SOUND.values(), ids=SOUND)
-def test_waveforms_that_are_not_clipped(values):
-    assert clipped_levels(values) == {}
+@each("name", SOUND)
+def test_waveforms_that_are_not_clipped(name):
+    assert clipped_levels(SOUND[name]) == {}
 
 
 CUT = {
@@ -79,8 +79,9 @@ CUT = {
 }
 
 
-@pytest.mark.parametrize(("values", "level"), CUT.values(), ids=CUT)
-def test_clipped_waveforms_are_told_at_each_end(values, level):
+@each("name", CUT)
+def test_clipped_waveforms_are_told_at_each_end(name):
+    values, level = CUT[name]
     assert list(clipped_levels(np.minimum(values, level))) == [level]
     assert list(clipped_levels(np.maximum(values, -level))) == [-level]
     both = np.clip(values, -level, level)
@@ -107,9 +108,7 @@ def test_levels_are_counted_over_the_whole_record():
     assert few_levels(np.arange(100.0) % 7) is None
 
 
-@pytest.mark.parametrize(
-    ("samples", "unresolved"), [(0, True), (1, True), (2, True), (3, False), (4, False), (6, False)]
-)
+@each("samples, unresolved", [(0, True), (1, True), (2, True), (3, False), (4, False), (6, False)])
 def test_edges_with_fewer_than_three_samples(samples, unresolved):
     """An edge that is straight between two samples with a given number of samples between 10 and 90 %."""
     width = samples + 1
@@ -134,8 +133,8 @@ def test_a_spike_of_one_sample_is_not_resolved():
     assert found == 1
 
 
-@pytest.mark.parametrize(
-    ("cut", "duration", "told"),
+@each(
+    "cut, duration, told",
     [(0, None, False), (0, 3e-5, False), (25, None, False), (25, 7.4e-6, False), (25, 3e-5, True)],
 )
 def test_a_seam_of_a_repeated_record_is_told(cut, duration, told):

@@ -7,6 +7,7 @@ from scipy.signal import firwin, upfirdn
 from ehlectric.drive.source.resampling import HALF, resample
 from ehlectric.drive.source.waveform import Waveform
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 
 STEP = 1e-9
 RATIOS = [1.2, 3.0, 7.3, np.pi, 25.0, 312.5]
@@ -28,8 +29,8 @@ def amplitude_and_phase(values, frequency, first):
     return np.hypot(real, imaginary), np.arctan2(imaginary, real)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
-@pytest.mark.parametrize("frequency", [0.01, 0.13, 0.29, 0.4])
+@each("ratio", RATIOS)
+@each("frequency", [0.01, 0.13, 0.29, 0.4])
 def test_a_sine_below_two_fifths_of_the_new_rate_keeps_amplitude_and_phase(ratio, frequency):
     count = int(200 * ratio)
     coarse = resample(Waveform(0.0, STEP, sine(frequency / ratio, count)), ratio * STEP)
@@ -38,8 +39,8 @@ def test_a_sine_below_two_fifths_of_the_new_rate_keeps_amplitude_and_phase(ratio
     assert phase == pytest.approx(0.7, abs=1e-3)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
-@pytest.mark.parametrize("frequency", [0.5, 0.52, 0.6, 0.97, 1.0, 1.4, 3.3])
+@each("ratio", RATIOS)
+@each("frequency", [0.5, 0.52, 0.6, 0.97, 1.0, 1.4, 3.3])
 def test_a_sine_above_the_new_limit_is_suppressed_by_60_decibels(ratio, frequency):
     if frequency > 0.5 * ratio:
         frequency = 0.5 * ratio  # the highest one that the old samples have
@@ -47,7 +48,7 @@ def test_a_sine_above_the_new_limit_is_suppressed_by_60_decibels(ratio, frequenc
     assert np.max(np.abs(interior(coarse))) < 1e-3
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
+@each("ratio", RATIOS)
 def test_a_constant_stays_constant_up_to_the_ends(ratio):
     coarse = resample(Waveform(-3.0, STEP, np.full(int(90 * ratio), 311.7)), ratio * STEP)
     assert np.max(np.abs(coarse.values - 311.7)) < 1e-12 * 311.7
@@ -75,7 +76,7 @@ def test_whole_ratios_agree_with_the_polyphase_filter_of_scipy(ratio):
     assert coarse.values[inside] == pytest.approx(other[inside], abs=2e-5)
 
 
-@pytest.mark.parametrize("ratio", [1.5, 2.0, 7.3, 40.0, np.pi])
+@each("ratio", [1.5, 2.0, 7.3, 40.0, np.pi])
 def test_a_jump_overshoots_as_documented(ratio):
     count = int(200 * ratio)
     jump = np.where(np.arange(count) < count // 2, -50.0, 50.0)

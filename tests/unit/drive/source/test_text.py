@@ -12,14 +12,15 @@ from ehlectric.drive.source.text.numbers import Columns, block_of
 from ehlectric.drive.source.text.spacing import Spacing, resolution
 from ehlectric.drive.source.text.spelling import parts, spelled
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 
 
 def layout(text):
     return layout_of("scope.csv", text.split("\n"))
 
 
-@pytest.mark.parametrize(
-    ("row", "separator", "decimal"),
+@each(
+    "row, separator, decimal",
     [
         ("0.5;1.5", ";", "."),
         ("0,5;1,5", ";", ","),
@@ -58,8 +59,8 @@ def test_a_single_line_of_numbers_above_the_heads_belongs_to_the_header():
     assert found.first == 4
 
 
-@pytest.mark.parametrize(
-    ("head", "name", "unit"),
+@each(
+    "head, name, unit",
     [
         ("Time (us)", "Time", "us"),
         ("CH1 [kV]", "CH1", "kV"),
@@ -78,8 +79,8 @@ def test_names_and_units_of_heads(head, name, unit):
     assert parts(head) == (name, unit)
 
 
-@pytest.mark.parametrize(
-    ("written", "unit"),
+@each(
+    "written, unit",
     [
         ("Second", "s"),
         ("S", "s"),

@@ -10,6 +10,7 @@ from ehlectric import InputError, solve_bearing, write_netlist
 from ehlectric.drive.spice.over_speed import interpolated, speeds_of
 from ehlectric.drive.spice.text import comment, name_of, number
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.each import each
 
 ARC = {"arc_resistance": "1 ohm", "extinction_voltage": "1 V"}
 
@@ -130,8 +131,8 @@ def test_files_of_others_are_kept(plain, tmp_path):
     assert other.read_text() == "* my library\n"
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
+@each(
+    "options, message",
     [
         ({"arc_resistance": "1 ohm"}, "extinction_voltage: missing"),
         ({"extinction_voltage": "1 V"}, "arc_resistance: missing"),
@@ -144,11 +145,12 @@ def test_files_of_others_are_kept(plain, tmp_path):
         ({"bench": "bench.cir"}, "motor.switching_frequency: missing"),
     ],
 )
-def test_wrong_inputs_are_refused_by_their_names(plain, options, message, tmp_path):
-    options = options | ({"bench": tmp_path / "bench.cir"} if "bench" in options else {})
+def test_wrong_inputs_are_refused_by_their_names(plain, options, message, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("netlist")
+    options = options | ({"bench": folder / "bench.cir"} if "bench" in options else {})
     with pytest.raises(InputError, match=message):
-        write_netlist(plain, tmp_path / "bearing.lib", **options)
-    assert not list(tmp_path.iterdir())
+        write_netlist(plain, folder / "bearing.lib", **options)
+    assert not list(folder.iterdir())
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from ehlectric.drive.storage.content import check
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.checks.schema import UnfitError
 from tests.helpers.drives import drive_with_remedy
+from tests.helpers.each import each
 
 
 @pytest.fixture(scope="module")
@@ -58,8 +59,8 @@ def test_numbers_that_differ_make_another_result(drive):
     assert other != drive
 
 
-@pytest.mark.parametrize(
-    ("name", "change", "says"),
+@each(
+    "name, change, says",
     [
         ("event_bearing", lambda values: values + 1, "event_bearing is not 0 or 1"),
         ("event_count", lambda values: values + 1, "event_count is not the number of values along event"),
