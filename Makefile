@@ -11,24 +11,26 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check format docs schemas figures screenshots bench bench-release bench-compare bench-public lock packages paper clean
+.PHONY: help install run app browser test slow thorough lint check format docs pages figures screenshots bench bench-release bench-compare bench-public lock packages wheel paper clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
 	@echo "make app     install and open the web app; options with: make app OPTIONS='--port 8100'"
 	@echo "make browser install what the tests of the web app, reports, netlists and exports need: Chromium, pdftotext, ngspice, Octave"
 	@echo "make test    install and run the tests"
-	@echo "make slow    run the long tests"
+	@echo "make slow    run the long tests; a part of them with: make slow SHARD=2/$(SHARDS)"
 	@echo "make thorough  run them with all of their random examples, and others each time; takes hours"
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make lint    the same without the tests"
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
+	@echo "make pages   build the documentation without running its gallery"
 	@echo "make figures draw the figures of the README again"
 	@echo "make screenshots  take the pictures of the web app for the documentation again"
 	@echo "make bench   run the benchmarks and print their tables"
 	@echo "make bench-release  record the times of this release in benchmarks/releases; compare them by make bench-compare"
 	@echo "make packages  build wheel and source distribution, and try them in a new environment"
+	@echo "make wheel   build the wheel alone, and try it"
 	@echo "make paper   build the PDF of the paper on the software; takes pandoc from the registry"
 	@echo "make bench-public  solve a point contact with public packages too; takes them from the registry"
 
@@ -88,11 +90,37 @@ browser:
 test: $(VENV)/.test
 	$(BIN)/python -m pytest
 
-# Tests in a browser come last and one at a time: they hold the time in which a page answers, and a machine that
-# computes something else beside them answers late.
+# Long tests in shards of some ten minutes on two cores. What a shard leaves out is in the next but one: the
+# fourth takes all tests that no other shard takes.
+SHARDS := 5
+FILM := tests/convergence/film
+REST := tests/convergence tests/published tests/reference tests/measured
+PROCESSES := tests/attack tests/cli
+OTHERS = $(addprefix --ignore=,$(FILM) $(REST) $(PROCESSES) tests/browser)
+SLOW := $(BIN)/python -m pytest -m slow --junitxml=build/slow-$$(date +%s).xml
+
 slow: $(VENV)/.test
-	@$(BIN)/python -m pytest -m slow --ignore=tests/browser; others=$$?; \
-	$(BIN)/python -m pytest -m slow -n 0 tests/browser && exit $$others
+	@case "$(SHARD)" in \
+	  "") $(MAKE) --no-print-directory --keep-going $(foreach number,1 2 3 4 5,slow-$(number)) ;; \
+	  [1-$(SHARDS)]/$(SHARDS)) $(MAKE) --no-print-directory slow-$(firstword $(subst /, ,$(SHARD))) ;; \
+	  *) echo "SHARD is 1/$(SHARDS) to $(SHARDS)/$(SHARDS), not $(SHARD)"; exit 2 ;; \
+	esac
+
+slow-1:
+	$(SLOW) $(FILM)
+
+slow-2:
+	$(SLOW) $(REST) --ignore=$(FILM)
+
+slow-3:
+	$(SLOW) $(PROCESSES)
+
+slow-4:
+	$(SLOW) $(OTHERS)
+
+# The browser's tests one at a time, and what is no test: the gallery of the documentation, and both packages.
+slow-5: docs packages
+	$(SLOW) -n 0 tests/browser
 
 thorough: $(VENV)/.test
 	EHLECTRIC_THOROUGH=1 $(BIN)/python -m pytest -m "slow or not slow" --ignore=tests/browser
@@ -114,8 +142,9 @@ docs: $(VENV)/.docs
 	$(BIN)/python -m sphinx -W --keep-going -n -q -b html docs docs/_build/html
 	@echo "The documentation is in $(CURDIR)/docs/_build/html/index.html"
 
-schemas: $(VENV)/.run
-	$(BIN)/python -c "from ehlectric.runs.schema import write_schemas; write_schemas()"
+# The same without running the scripts of the gallery.
+pages: $(VENV)/.docs
+	$(BIN)/python -m sphinx -W --keep-going -n -q -b html -D plot_gallery=0 docs docs/_build/pages
 
 figures: $(VENV)/.test
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet
@@ -173,5 +202,11 @@ packages: $(VENV)/.dev
 	$(BIN)/python -m hatchling build --directory dist
 	packaging/try.sh dist $(PYTHON)
 
+# The wheel alone, tried in the same way.
+wheel: $(VENV)/.dev
+	rm -rf dist
+	$(BIN)/python -m hatchling build --target wheel --directory dist
+	packaging/try.sh dist $(PYTHON)
+
 clean:
-	rm -rf $(VENV) results docs/_build docs/_generated docs/auto_gallery docs/api/generated .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage
+	rm -rf $(VENV) build dist results docs/_build docs/_generated docs/auto_gallery docs/api/generated .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .coverage

@@ -1,6 +1,8 @@
 """Fixtures shared by all tests."""
 
 import signal
+import tomllib
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -16,6 +18,19 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 # that it fails for what was changed; a thorough one draws others.
 settings.register_profile("repeated", deadline=None, derandomize=not THOROUGH)
 settings.load_profile("repeated")
+
+# Long tests that every change must pass, by what they would catch.
+GATE = tomllib.loads((Path(__file__).parent / "gate.toml").read_text(encoding="utf-8"))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Mark the long tests of ``gate.toml``: single cases by their whole name, all cases by the name without them."""
+    chosen = {name for group in GATE.values() for name in group["tests"]}
+    for item in items:
+        if item.nodeid in chosen or item.nodeid.partition("[")[0] in chosen:
+            item.add_marker("gate")
+
 
 PAPER_CONTACT = {
     "reduced_radius": "14.1 mm",

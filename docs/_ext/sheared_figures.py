@@ -14,8 +14,7 @@ if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
 from measured_figures.look import BLUE, GREEN, GREY, ORANGE, decades, label, new  # noqa: E402
-from tests.convergence.film.test_sheared_film import friction, solved  # noqa: E402
-from tests.unit.film.sheared.contacts import line_contact  # noqa: E402
+from tests.unit.film.sheared.contacts import friction, line_contact, solved  # noqa: E402
 
 from ehlectric.film.sheared.laws import Rheology  # noqa: E402
 from ehlectric.runtime.files import prepare  # noqa: E402

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +11,6 @@ import typer
 from ehlectric.commands.options import files_ending, one_of
 from ehlectric.commands.terminal import echo_files, user_errors
 from ehlectric.errors import InputError, shown
-from ehlectric.runs.example_files import schemas_folder
 
 KINDS = ("contact", "bearing", "drive", "sweep")
 
@@ -55,7 +55,7 @@ def schema(
 
 
 def schema_text(kind: str) -> str:
-    """Text of the JSON Schema of a kind of file.
+    """Text of the JSON Schema of a kind of file, made from the tables by which files are checked.
 
     Raises
     ------
@@ -64,4 +64,6 @@ def schema_text(kind: str) -> str:
     """
     if kind not in KINDS:
         raise InputError("KIND", got=shown(kind), takes=f"one of {', '.join(KINDS)}")
-    return (schemas_folder() / f"{kind}.json").read_text(encoding="utf-8")
+    from ehlectric.runs.schema import schema_of
+
+    return json.dumps(schema_of(kind), indent=1, ensure_ascii=False) + "\n"

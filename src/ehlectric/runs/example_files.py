@@ -1,4 +1,4 @@
-"""Files of the examples, in an installed package or in the repository, and the schemas of the package."""
+"""Files of the examples, in an installed package or in the repository."""
 
 from __future__ import annotations
 
@@ -71,8 +71,3 @@ def example_text(name: str) -> str:
         If the examples are not part of this installation.
     """
     return (examples_folder() / f"{name}.toml").read_text(encoding="utf-8")
-
-
-def schemas_folder() -> Path:
-    """Folder of the JSON Schemas of case, bearing, drive and sweep files, which is part of the package."""
-    return _HERE / "schemas"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import tomllib
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
@@ -17,7 +16,7 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.input_keys import TABLES, descriptions, phrase
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
-from ehlectric.runs.example_files import examples_folder, schemas_folder
+from ehlectric.runs.example_files import examples_folder
 from ehlectric.runs.kinds import kind_of_tables
 from ehlectric.sweep.inputs import Sweep
 
@@ -90,21 +89,6 @@ def schema_of(kind: str) -> dict[str, Any]:
     used = {root} | set(_used(schema, tables))
     schema["definitions"] = {name: tables[name] for name in sorted(used & set(tables))}
     return {"$schema": _DIALECT, "title": f"{kind} file of ehlectric", **schema}
-
-
-def schema_text(kind: str) -> str:
-    """Text of the schema of a kind of file, as it lies in the package.
-
-    A schema is made from all tables, which take a second to load. So the texts are part of the package, and
-    a test compares them with ``schema_of``; ``make schemas`` writes them anew.
-    """
-    return json.dumps(schema_of(kind), indent=1, ensure_ascii=False) + "\n"
-
-
-def write_schemas() -> None:
-    """Write the schemas of all kinds into the package."""
-    for kind in SCHEMAS:
-        (schemas_folder() / f"{kind}.json").write_text(schema_text(kind), encoding="utf-8")
 
 
 def _named(place: Mapping[str, Any]) -> str:

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from ehlectric.film.mesh import Mesh, Width
-from ehlectric.film.nested import nested_iteration
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.profile import Across
-from ehlectric.film.sheared.traction import filled_part, traction
+from ehlectric.film.sheared.traction import traction
 from tests.helpers.share import share
 from tests.unit.film.sheared.contacts import (
     ALPHA,
@@ -19,36 +18,17 @@ from tests.unit.film.sheared.contacts import (
     Warm,
     circular_contact,
     fluid_of,
+    friction,
     line_contact,
+    solved,
 )
 
 EYRING = Rheology("eyring", {"eyring_stress": 5e6})
 
 
-def solved(problem):
-    """Solution on the grid of the problem, which must converge."""
-    solution = nested_iteration(problem, None)[-1]
-    assert solution.status == "converged"
-    return solution
-
-
 def central(solution):
     """Film thickness H at the centre of a line contact."""
     return float(np.interp(0.0, solution.level.mesh.x, solution.state.thickness[:, 0]))
-
-
-def friction(problem, solution):
-    """Traction of a solved contact, with the cavitated film behind it."""
-    law, state, level = problem.fluid.flow, solution.state, solution.level
-    columns = law.columns(problem.fluid, state.pressure, state.thickness, level.mesh)
-    return traction(
-        columns,
-        state.thickness,
-        level.mesh,
-        load=level.load,
-        stress_ratio=law.stress_scale / law.pressure_scale,
-        filled=filled_part(solution.final.full_film, columns.density.mean(axis=0) * state.thickness),
-    )
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ import pytest
 from ehlectric.app.compute.cases import case_of, drive_of, kind_of, names_in, sweep_of, with_own_files
 from ehlectric.app.inputs import Inputs
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, EXAMPLES
 
 ROUGH = tomllib.loads((EXAMPLES / "rough_contact.toml").read_text(encoding="utf-8"))
@@ -39,7 +40,7 @@ def test_a_file_of_the_session_is_read(folder):
         assert Path(case.roughness[0].file) == folder / "surfaces" / "dektak-1.csv"
 
 
-@pytest.mark.parametrize(
+@each(
     "name",
     [
         str(DEKTAK),
@@ -135,11 +136,11 @@ def test_a_drive_is_no_case_of_another_page():
         case_of(table)
 
 
-@pytest.mark.parametrize(
-    ("key", "told"),
+@each(
+    "key, told",
     [("drive_end.file", "its tables"), ("non_drive_end.file", "its tables"), ("source.file", "uploaded")],
 )
-@pytest.mark.parametrize("name", ["/etc/passwd", "../secret.toml", "bearing_6208.toml"])
+@each("name", ["/etc/passwd", "../secret.toml", "bearing_6208.toml"])
 def test_a_drive_opens_no_file_that_was_not_uploaded(folder, key, told, name):
     OPENED.clear()
     table = Inputs(DRIVE).changed({key: name}).table

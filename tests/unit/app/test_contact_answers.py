@@ -30,6 +30,7 @@ from ehlectric.runs.meaning import check
 from ehlectric.runs.results import load
 from ehlectric.runtime.progress import silent
 from ehlectric.tables.contact import result_rows
+from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import EXAMPLES
 
@@ -276,9 +277,9 @@ def test_surfaces_that_do_not_touch_have_no_spots():
     assert view_of(result).spots == ()
 
 
-@pytest.mark.parametrize("geometry", ["line", "point"])
-@pytest.mark.parametrize(
-    ("key", "typed", "value"),
+@each("geometry", ["line", "point"])
+@each(
+    "key, typed, value",
     [
         ("contact.hardness", "7", 7e9),
         ("contact.boundary_friction", "0.12", 0.12),
@@ -326,8 +327,8 @@ def test_film_that_did_not_converge_has_no_numbers():
     assert view.rows[0].alarm
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "told"),
+@each(
+    "key, value, told",
     [
         ("contact.load_per_length", "-1 MN/m", "contact.load_per_length"),
         ("contact.load", "20 N", "contact.load"),
@@ -342,7 +343,7 @@ def test_errors_have_their_key(key, value, told, tmp_path):
     assert error.value.key == told
 
 
-@pytest.mark.parametrize("name", ["/etc/passwd", "../secret.csv", "sub/profile.csv", "..\\secret.csv"])
+@each("name", ["/etc/passwd", "../secret.csv", "sub/profile.csv", "..\\secret.csv"])
 def test_files_outside_of_the_session_are_refused(name, tmp_path):
     table = table_of("line_contact") | {"roughness": [{"surface": 1, "file": name}]}
     with pytest.raises(InputError, match="uploaded"):

@@ -27,6 +27,7 @@ from ehlectric.cases.drives import source as drive_source
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import describe, input_field, number_of
 from ehlectric.cases.quantity import Quantity
+from tests.helpers.each import each
 
 FIELDS = {field.key: field for group in DRIVE_GROUPS for field in group.fields}
 KEYS = [key for key, field in FIELDS.items() if field.kind != "ways" and key != "title"]
@@ -43,13 +44,13 @@ def test_names_of_tables_are_those_of_the_cases():
     assert set(MEASURED) == set(drive_source.MEASURED)
 
 
-@pytest.mark.parametrize("key", KEYS)
+@each("key", KEYS)
 def test_every_key_is_one_of_a_drive_file_and_is_described(key):
     input_field(key)
     assert describe(key)
 
 
-@pytest.mark.parametrize("key", NUMBERS)
+@each("key", NUMBERS)
 def test_units_and_sliders_are_those_of_the_key(key):
     field, kind = FIELDS[key], number_of(input_field(key))
     if isinstance(kind, Quantity) and field.unit not in ("", "%", "degC"):
@@ -80,7 +81,7 @@ def test_the_start_is_the_example_and_has_fields_for_all_of_it():
     assert drive().title == "Drive of a pump"
 
 
-@pytest.mark.parametrize("key", [key for key, field in FIELDS.items() if field.kind == "ways"])
+@each("key", [key for key, field in FIELDS.items() if field.kind == "ways"])
 def test_every_way_of_the_example_makes_a_case(key):
     for place, way in enumerate(FIELDS[key].ways):
         if not way.listed:
@@ -144,7 +145,7 @@ def test_the_other_end_begins_as_the_drive_end_and_remembers():
     assert not OTHER.tells(typed)
 
 
-@pytest.mark.parametrize("title", PRESETS)
+@each("title", PRESETS)
 def test_every_usual_remedy_is_a_case_and_can_be_taken_back(title):
     start = DRIVE.changed({"remedies": None})
     on = start.changed({"remedies": with_remedy(start, title, changes_of(start, title))})

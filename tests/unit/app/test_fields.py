@@ -16,6 +16,7 @@ from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.cases.library.grade import GRADES
 from ehlectric.cases.quantity import Quantity
 from ehlectric.runs.example_files import example_text
+from tests.helpers.each import each
 
 FIELDS = [field for group in BEARING_GROUPS for field in group.fields if field.kind != "ways"]
 NUMBERS = [field for field in FIELDS if field.kind in ("number", "count")]
@@ -26,12 +27,12 @@ def by_key(found):
     return found.key
 
 
-@pytest.mark.parametrize("field", FIELDS, ids=by_key)
+@each("field", FIELDS, ids=by_key)
 def test_every_key_is_one_of_a_bearing_file(field):
     input_field(field.key)
 
 
-@pytest.mark.parametrize("field", NUMBERS, ids=by_key)
+@each("field", NUMBERS, ids=by_key)
 def test_units_are_those_of_the_key(field):
     kind = number_of(input_field(field.key))
     if isinstance(kind, Quantity):
@@ -43,8 +44,8 @@ def test_units_are_those_of_the_key(field):
         assert units.factor(si_unit(field.unit), kind.unit) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("place", [0.0, 0.37, 1.0])
-@pytest.mark.parametrize("field", NUMBERS, ids=by_key)
+@each("place", [0.0, 0.37, 1.0])
+@each("field", NUMBERS, ids=by_key)
 def test_values_of_a_slider_are_allowed(field, place):
     """The check is that of the key of an input file, for what the form writes there."""
     written = field.from_slider(place)
@@ -58,8 +59,8 @@ def test_values_of_a_slider_are_allowed(field, place):
         kind.parse(written)
 
 
-@pytest.mark.parametrize("place", [0.0, 1.0])
-@pytest.mark.parametrize("key", ["bearing.inner_speed", "bearing.temperature", "bearing.composite_rq"])
+@each("place", [0.0, 1.0])
+@each("key", ["bearing.inner_speed", "bearing.temperature", "bearing.composite_rq"])
 def test_ends_of_a_slider_make_a_case(key, place):
     field = next(field for field in FIELDS if field.key == key)
     case_of_dict(EXAMPLE.changed({key: field.from_slider(place)}).table, written=True)
@@ -79,8 +80,8 @@ def test_place_is_the_inverse_of_at(place, field):
     assert field.place(field.high) == 1.0
 
 
-@pytest.mark.parametrize(
-    ("text", "unit", "number"),
+@each(
+    "text, unit, number",
     [
         ("1.8 kN", "N", 1800.0),
         ("1800N", "N", 1800.0),
@@ -136,7 +137,7 @@ def test_every_choice_of_the_library_is_taken():
     assert listed <= set(choices())
 
 
-@pytest.mark.parametrize("field", [field for field in FIELDS if field.choices], ids=by_key)
+@each("field", [field for field in FIELDS if field.choices], ids=by_key)
 def test_words_of_choices_are_those_of_the_key(field):
     if field.key == "lubricant.temperature.iso_vg":
         assert {int(word) for word in field.choices} <= set(GRADES)

@@ -15,6 +15,7 @@ from ehlectric.app.compute.files import drawn, packed, uploaded, write
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.uploads import MOST_TOGETHER
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, EXAMPLES
 
 
@@ -26,8 +27,8 @@ def silent(_done, _of, _text):
     pass
 
 
-@pytest.mark.parametrize(
-    ("name", "kind"),
+@each(
+    "name, kind",
     [
         ("bearing_6208", "bearing"),
         ("line_contact", "contact"),
@@ -137,14 +138,14 @@ def test_a_sweep_asks_for_its_case(tmp_path):
     assert found.table["case"] == tomllib.loads(example("discharge").decode())
 
 
-@pytest.mark.parametrize("path", ["/etc/passwd", "../../passwd", "C:\\me\\passwd", "\\\\host\\a\\passwd"])
+@each("path", ["/etc/passwd", "../../passwd", "C:\\me\\passwd", "\\\\host\\a\\passwd"])
 def test_a_path_of_another_machine_is_asked_for_by_its_name(tmp_path, path):
     table = tomllib.loads(example("rough_contact").decode())
     table["roughness"][0]["file"] = path
     assert uploaded({"a.toml": Inputs(table).toml().encode()}, tmp_path).missing == ("passwd",)
 
 
-@pytest.mark.parametrize("path", ["..", ".", "", "a/..", ".bashrc", "a\0b", "con: x", "x" * 200, "a\nb"])
+@each("path", ["..", ".", "", "a/..", ".bashrc", "a\0b", "con: x", "x" * 200, "a\nb"])
 def test_a_name_that_no_file_may_have_is_refused(tmp_path, path):
     table = tomllib.loads(example("rough_contact").decode())
     table["roughness"][0]["file"] = path
@@ -153,8 +154,8 @@ def test_a_name_that_no_file_may_have_is_refused(tmp_path, path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(
-    ("contents", "says"),
+@each(
+    "contents, says",
     [
         ({"a.toml": b"a = " + b"1" * MOST_CASE}, "at most 200000 bytes"),
         ({"a.toml": b"\xff\xfe"}, "not a text file in UTF-8"),

@@ -2,17 +2,16 @@
 
 import tomllib
 
-import pytest
-
 from ehlectric.app.fields.rules import changed, own_values
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.form import _sent
 from ehlectric.runs.example_files import example_text
+from tests.helpers.each import each
 
 EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
 
 
-@pytest.mark.parametrize(
+@each(
     "changes",
     [
         {"bearing.radial_load": "2 kN"},
@@ -24,7 +23,6 @@ EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
         {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}},
         own_values(EXAMPLE, "bearing.base"),
     ],
-    ids=str,
 )
 def test_what_is_sent_makes_the_inputs_of_the_form(changes):
     after = changed(EXAMPLE, changes)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from ehlectric.app.inputs import LONGEST_QUERY, History, Inputs
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 
@@ -25,7 +26,7 @@ def exact(inputs):
     return json.dumps(inputs.table, sort_keys=True)
 
 
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+@each("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 def test_an_address_and_a_text_hold_every_example(path):
     inputs = Inputs(tomllib.loads(path.read_text(encoding="utf-8")))
     assert inputs.linkable
@@ -76,8 +77,8 @@ def test_short_texts_are_readable_in_an_address():
     assert inputs.address() == "bearing.radial_load=1800+N&bearing.base=%276208%27&bearing.film_factor=0.7"
 
 
-@pytest.mark.parametrize(
-    ("pairs", "says"),
+@each(
+    "pairs, says",
     [
         ([("a", "1"), ("a.b", "2")], "has 'a.b' within another value"),
         ([("a.b", "1"), ("a", "2")], "has 'a' twice"),
@@ -101,9 +102,7 @@ def test_a_wrong_address_is_refused_in_words(pairs, says):
     assert str(error) == str(refused.value)
 
 
-@pytest.mark.parametrize(
-    "text", ["[" * 5000, "{a=" * 3000, "1" * 5000, "a." * 5000, '"""' + "x" * 100, "\x00"]
-)
+@each("text", ["[" * 5000, "{a=" * 3000, "1" * 5000, "a." * 5000, '"""' + "x" * 100, "\x00"])
 def test_a_hostile_value_is_a_text_or_an_error(text):
     try:
         found = Inputs.of_query([("a", text)]).value("a")

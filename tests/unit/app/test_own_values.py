@@ -14,6 +14,7 @@ from ehlectric.app.inputs import Inputs
 from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.quantity import to_si
 from ehlectric.runs.example_files import example_text
+from tests.helpers.each import each
 
 EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
 ALPHA, EXPONENT = "lubricant.pressure_viscosity_coefficient", "lubricant.roelands_z"
@@ -52,8 +53,8 @@ def test_given_values_are_not_told_as_assumed():
     assert assumed(changed(EXAMPLE, {"lubricant.base": "fva-3"})) == ""
 
 
-@pytest.mark.parametrize(
-    ("changes", "lacks", "told"),
+@each(
+    "changes, lacks, told",
     [
         ({}, {"pressure_viscosity_coefficient"}, "which with the viscosity gives the pressure-viscosity"),
         ({ALPHA: "15 1/GPa"}, set(), "Roelands' z 0.67 of 'paper'"),
@@ -61,7 +62,6 @@ def test_given_values_are_not_told_as_assumed():
         ({BASE_OIL: "pao"}, {"pressure_viscosity_coefficient", "roelands_z"}, "as estimated for pao"),
         ({BASE_OIL: "pao", ALPHA: "15 1/GPa"}, {"roelands_z"}, "from the coefficient and the viscosity"),
     ],
-    ids=["library", "alpha", "exponent", "base oil", "base oil and alpha"],
 )
 def test_the_rise_with_pressure_is_told_as_the_case_resolves_it(changes, lacks, told):
     """Keys that the resolved table lacks follow from others; ``lubricant.at`` computes them."""
@@ -129,7 +129,7 @@ def test_a_way_comes_back_with_its_last_values():
     assert changed(other, memory.way(field, viscosity, other)) == typed
 
 
-@pytest.mark.parametrize("field", [field for field in FIELDS.values() if field.ways], ids=lambda one: one.key)
+@each("field", [field for field in FIELDS.values() if field.ways], ids=lambda one: one.key)
 def test_every_way_is_taken_whatever_was_before(field):
     memory, inputs = Memory(BEARING_GROUPS), EXAMPLE
     for place, way in enumerate(field.ways):

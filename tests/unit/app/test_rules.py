@@ -14,6 +14,7 @@ from ehlectric.cases.contact import CONTACT_ALTERNATIVES
 from ehlectric.cases.contact import ONLY as CASE_ONLY
 from ehlectric.errors import InputError
 from ehlectric.runs.example_files import example_text
+from tests.helpers.each import each
 
 EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
 
@@ -22,7 +23,7 @@ def case(inputs):
     return case_of_dict(inputs.table, written=True)
 
 
-@pytest.mark.parametrize(
+@each(
     "changes",
     [
         {"bearing.base": "6306"},
@@ -34,7 +35,6 @@ def case(inputs):
         {"discharge.weibull": {"scale": "20 V/um", "shape": 5.0, "reference_area": "1 mm^2"}},
         {"bearing.coating": {"base": "schaeffler-j20aa", "relative_permittivity": 9.0}},
     ],
-    ids=str,
 )
 def test_changes_as_a_case_replaces_them(changes):
     """Expected: ``BearingCase.replace``, which the library's users call."""
@@ -62,7 +62,7 @@ def test_lists_are_those_of_the_cases():
     assert DIMENSIONS == bearing_case._DIMENSIONS
 
 
-@pytest.mark.parametrize("choice", choices()["bearing.base"], ids=lambda choice: choice.name)
+@each("choice", choices()["bearing.base"], ids=lambda choice: choice.name)
 def test_every_bearing_can_be_picked_after_every_kind(choice):
     for before in ("6208", "7208-b", "nu-208"):
         inputs = changed(changed(EXAMPLE, {"bearing.base": before}), {"bearing.base": choice.name})
@@ -86,7 +86,7 @@ def test_own_geometry_of_another_kind(kind):
     assert case(changed(own, {"bearing.kind": kind})).bearing.kind == kind
 
 
-@pytest.mark.parametrize("name", [choice.name for choice in choices()["lubricant.base"]])
+@each("name", [choice.name for choice in choices()["lubricant.base"]])
 def test_oils_and_data_sheets_take_turns(name):
     inputs = changed(EXAMPLE, {"lubricant.base": name})
     assert inputs.value("lubricant") == {"base": name}
@@ -106,7 +106,7 @@ def test_groups_switched_on_make_a_case():
             case(EXAMPLE.changed({group.table: dict(group.start)}))
 
 
-@pytest.mark.parametrize(
+@each(
     "way",
     [way for group in BEARING_GROUPS for field in group.fields for way in field.ways],
     ids=lambda way: way.label,
@@ -135,8 +135,8 @@ def test_another_geometry_of_a_contact_drops_keys_of_this_one():
     assert not {"grid.nodes", "grid.error"} & set(flat)
 
 
-@pytest.mark.parametrize(
-    ("start", "change", "dropped"),
+@each(
+    "start, change, dropped",
     [
         ("hot_contact", {"inlet.oil_layer": "0.2 um"}, "film"),
         ("starved_contact", {"film.rheology": "newtonian"}, "inlet"),

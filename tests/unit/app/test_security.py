@@ -10,6 +10,7 @@ from starlette.exceptions import HTTPException
 from ehlectric.app.policy import with_policy
 from ehlectric.app.quotas import with_bounded_bodies, with_bounded_pages
 from ehlectric.app.security import Guard, is_any, is_loopback
+from tests.helpers.each import each
 
 LOCAL = Guard("127.0.0.1", 8080)
 OPEN = Guard("0.0.0.0", 8080, "the-token")
@@ -55,12 +56,12 @@ def ask(application, path="/", *, kind="http", method="GET", bodies=(b"",), **he
     return sent[0]["status"], found, b"".join(message.get("body", b"") for message in sent[1:])
 
 
-@pytest.mark.parametrize("host", ["127.0.0.1:8080", "localhost:8080", "[::1]:8080", "localhost"])
+@each("host", ["127.0.0.1:8080", "localhost:8080", "[::1]:8080", "localhost"])
 def test_a_local_server_answers_requests_that_name_this_machine(host):
     assert ask(LOCAL.around(page), host=host)[0] == 200
 
 
-@pytest.mark.parametrize(
+@each(
     "headers",
     [
         {},
@@ -74,7 +75,7 @@ def test_a_local_server_answers_requests_that_name_this_machine(host):
         {"host": "localhost:8080", "origin": "null"},
     ],
 )
-@pytest.mark.parametrize("kind", ["http", "websocket"])
+@each("kind", ["http", "websocket"])
 def test_other_names_and_other_sites_are_refused(headers, kind):
     found = ask(LOCAL.around(page), "/_nicegui_ws/socket.io", kind=kind, **headers)
     assert (found if kind == "websocket" else found[0]) in (403, 1008)
@@ -84,8 +85,8 @@ def test_a_page_of_this_server_may_ask():
     assert ask(LOCAL.around(page), host="localhost:8080", origin="http://localhost:8080")[0] == 200
 
 
-@pytest.mark.parametrize(
-    ("path", "headers"),
+@each(
+    "path, headers",
     [
         ("/", {}),
         ("/?token=", {}),
@@ -194,7 +195,7 @@ def test_a_page_of_another_site_loads_nothing_in_the_background(site):
     assert ask(LOCAL.around(page), method="POST", **followed)[0] == 403
 
 
-@pytest.mark.parametrize("origin", ["http://[", "http://[::1", "//", "\\"])
+@each("origin", ["http://[", "http://[::1", "//", "\\"])
 def test_an_origin_that_is_none_is_that_of_another_site(origin):
     assert ask(LOCAL.around(page), host="localhost:8080", origin=origin)[0] == 403
 

@@ -6,6 +6,7 @@ import pytest
 
 from ehlectric.app.start import listen
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 
 
 @pytest.fixture
@@ -34,7 +35,7 @@ def test_a_taken_port_is_told(taken):
     assert "free port" in caught.value.takes
 
 
-@pytest.mark.parametrize("host", ["203.0.113.7", "no such host", "1.2.3.4.5", ""])
+@each("host", ["203.0.113.7", "no such host", "1.2.3.4.5", ""])
 def test_an_address_of_another_machine_is_told(host):
     with pytest.raises(InputError) as caught:
         listen(host, 0).close()

@@ -24,6 +24,7 @@ from ehlectric.cases.roughness import GENERATORS, Roughness
 from ehlectric.commands.app import app
 from ehlectric.errors import InputError
 from ehlectric.surfaces.maps import Map
+from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, SURFACES
 
 LINE = {
@@ -165,8 +166,8 @@ def test_an_error_names_the_file_as_it_was_uploaded(tmp_path):
     assert str(tmp_path) not in str(raised.value)
 
 
-@pytest.mark.parametrize(
-    ("keys", "key"),
+@each(
+    "keys, key",
     [
         ({"cutoff_long": "5 mm", "cutoff_short": "40 um"}, "roughness.cutoff_long"),
         ({"cutoff_long": "80 um", "cutoff_short": "1 nm"}, "roughness.cutoff_short"),
@@ -248,7 +249,7 @@ def test_voids_are_left_blank():
     assert trace["z"][4][3] is None
 
 
-@pytest.mark.parametrize(
+@each(
     "given",
     ["../../etc/passwd", "..\\..\\boot.ini", "/abs/x.csv", "a\x00b.csv", "x.csv\n", "", ".", "..", "a" * 500],
 )

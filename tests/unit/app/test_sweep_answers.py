@@ -22,6 +22,7 @@ from ehlectric.runs.by_kind import read_sweep_file, run_sweep
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.plan import case_key
 from ehlectric.sweep.store import read_sweep
+from tests.helpers.each import each
 
 CASE = SWEEP.value("case")
 
@@ -191,8 +192,8 @@ def test_links_reproduce_the_results_of_the_points_exactly(folder):
         assert without_time(outcome.summary or {}) == without_time(point.summary or {})
 
 
-@pytest.mark.parametrize(
-    ("key", "ends", "count", "most"),
+@each(
+    "key, ends, count, most",
     [
         ("bearing.inner_speed", ("300 rpm", "6000 rpm"), 5, 24),
         ("bearing.radial_load", ("1 kN", "3 kN"), 5, 7),

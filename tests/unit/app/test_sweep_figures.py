@@ -2,10 +2,9 @@
 
 import json
 
-import pytest
-
 from ehlectric.app.answers.sweep import Axis, Chart, ChartPoint
 from ehlectric.app.figures.sweep import chosen_trace, figure_of, place
+from tests.helpers.each import each
 
 STATES = ("failed", "not converged", "do not use", "no value", "open")
 
@@ -30,8 +29,8 @@ def traces(chart, **wanted):
     return [trace for trace in data if all(trace.get(key) == value for key, value in wanted.items())]
 
 
-@pytest.mark.parametrize("rows", [1, 2])
-@pytest.mark.parametrize("state", STATES)
+@each("rows", [1, 2])
+@each("state", STATES)
 def test_points_without_a_number_are_marked_and_never_coloured(rows, state):
     drawn = chart([1.0, 2.0, state, 4.0], rows=rows)
     json.dumps(figure_of(drawn), allow_nan=False)

@@ -3,8 +3,6 @@
 import tomllib
 from dataclasses import replace
 
-import pytest
-
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import BEARING, SWEEP
 from ehlectric.app.ranges import (
@@ -17,6 +15,7 @@ from ehlectric.app.ranges import (
     with_ranges,
 )
 from ehlectric.sweep.inputs import Sweep
+from tests.helpers.each import each
 
 
 def test_ranges_keep_their_order_in_file_and_address():
@@ -32,7 +31,7 @@ def test_ranges_keep_their_order_in_file_and_address():
     assert file.size == 12
 
 
-@pytest.mark.parametrize(
+@each(
     "vary",
     [
         {"bearing": {"inner_speed": {"from": "1 rpm", "to": "2 rpm", "count": 2}, "elements": [8, 9]}},
@@ -40,7 +39,6 @@ def test_ranges_keep_their_order_in_file_and_address():
         {"lubricant.base": ["fva-3"], "bearing": {"radial_load": {"from": "1 N", "to": "2 N", "count": 3}}},
         {"contacts": ["formula"], "bearing": {"elements": [8]}, "motor": {"rise_time": ["1 us"]}},
     ],
-    ids=str,
 )
 def test_varied_inputs_keep_their_order_in_the_file(vary):
     """The order numbers the points: the file must have that of the page."""

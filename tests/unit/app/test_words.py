@@ -14,6 +14,7 @@ from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.cases.quantity import Quantity
 from ehlectric.errors import InputError
 from ehlectric.runs.example_files import example_text
+from tests.helpers.each import each
 
 EXAMPLE = Inputs(tomllib.loads(example_text("bearing_6208")))
 NUMBERS = [field for group in BEARING_GROUPS for field in group.fields if field.kind == "number"]
@@ -29,7 +30,7 @@ def bounds(text):
     return re.findall(r"(?:above|at least|below|at most) (\S+) (\S+?)(?=,| |$|:)", text)
 
 
-@pytest.mark.parametrize("field", WITH_UNIT, ids=by_key)
+@each("field", WITH_UNIT, ids=by_key)
 def test_bounds_of_an_error_are_in_the_unit_of_the_field(field):
     """Expected: the bounds of the checks, which are in SI units."""
     kind = number_of(input_field(field.key))
@@ -47,14 +48,14 @@ def test_bounds_of_an_error_are_in_the_unit_of_the_field(field):
     assert "string" not in in_field_unit(field, error.value.text)
 
 
-@pytest.mark.parametrize("field", WITH_UNIT, ids=by_key)
+@each("field", WITH_UNIT, ids=by_key)
 def test_a_text_in_a_box_is_written_back_as_it_was(field):
     for place in (0.0, 0.4, 1.0):
         written = field.from_slider(place)
         assert written_text(field, shown_text(field, written)) == written
 
 
-@pytest.mark.parametrize("field", WITH_UNIT, ids=by_key)
+@each("field", WITH_UNIT, ids=by_key)
 def test_units_with_signs_are_taken(field):
     kind = number_of(input_field(field.key))
     if isinstance(kind, Quantity):
@@ -62,8 +63,8 @@ def test_units_with_signs_are_taken(field):
         assert kind.parse(text.replace(field.unit, with_signs(field.unit))) == kind.parse(text)
 
 
-@pytest.mark.parametrize(
-    ("key", "written", "expected"),
+@each(
+    "key, written, expected",
     [
         ("bearing.inner_speed", "181.37993642342187 rad/s", "1732.0508 rpm"),
         ("bearing.inner_speed", "3000 rpm", "3000 rpm"),

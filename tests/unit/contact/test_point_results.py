@@ -14,6 +14,7 @@ from ehlectric.contact import memory
 from ehlectric.contact.problems import point_film_problem
 from ehlectric.contact.resolve import resolve_point
 from ehlectric.film.point import solve_point_film
+from ehlectric.formulas import film_point
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.strategies import discharges
 from tests.unit.cases.test_point_case import point
@@ -61,7 +62,8 @@ def test_summary_has_the_agreed_keys(result, rough_result):
     assert set(summary["hertz"]) == {"semi_axis_x", "semi_axis_y", "max_pressure"}
     assert set(summary["film"]) == FILM_KEYS
     assert set(summary["field"]) >= FIELD_KEYS
-    assert set(summary["film_formulas"]) == {"hamrock_dowson", "chittenden", "nijenbanning_venner_moes"}
+    assert set(summary["film_formulas"]) == set(film_point.FORMULAS)
+    assert set(summary["film_formulas"]) >= {"hamrock_dowson", "chittenden", "nijenbanning_venner_moes"}
     for formula in summary["film_formulas"].values():
         assert set(formula) == {"minimum_thickness", "central_thickness"}
     assert set(summary["seconds"]) == {"film", "field"}

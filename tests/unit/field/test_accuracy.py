@@ -11,6 +11,7 @@ from ehlectric.field.line import solve_field
 from ehlectric.field.point import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
+from tests.helpers.each import each
 from tests.reference.field import sinusoidal_crest, sinusoidal_wall
 
 
@@ -60,8 +61,8 @@ def test_the_degree_is_not_raised_beyond_its_bound():
     assert 0.005 < error <= field.strength_error < 1.5 * error
 
 
-@pytest.mark.parametrize("per_wave", [8, 16, 32])
-@pytest.mark.parametrize(
+@each("per_wave", [8, 16, 32])
+@each(
     "wave",
     [
         (20e-9, 0.7e-6, 1.0e-6),

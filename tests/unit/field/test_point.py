@@ -14,6 +14,7 @@ from ehlectric.field.point import solve_point_field
 from ehlectric.field.poisson import lobatto_nodes
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.field.zones import area_above, node_areas, zone_areas
+from tests.helpers.each import each
 from tests.reference.field import near
 
 # Uneven columns, 30 um by 20 um.
@@ -37,7 +38,7 @@ def wavy(**changes):
     return plates(**(values | {"potential_1": -1.0, "potential_2": 1.0} | changes))
 
 
-@pytest.mark.parametrize("degree", [2, 3, 5, 6, 8, 12])
+@each("degree", [2, 3, 5, 6, 8, 12])
 def test_parallel_plates(degree):
     field = solve_point_field(plates(degree=degree))
     np.testing.assert_allclose(field.strength, 3e6, rtol=1e-9)

@@ -9,6 +9,7 @@ from ehlectric.film.accuracy.between_grids import change_near
 from ehlectric.film.accuracy.max_pressure import between_nodes, max_pressure_error
 from ehlectric.film.accuracy.rough_film import change_of_minimum, roughness_between_nodes
 from ehlectric.film.mesh import Mesh, Width
+from tests.helpers.each import each
 
 
 def over(nodes, values, width=None):
@@ -22,10 +23,8 @@ def grid(film, status="converged"):
     )
 
 
-@pytest.mark.parametrize(
-    "width", [None, Width(41, 2.0, symmetric=False), Width(41, 2.0)], ids=["line", "whole", "half"]
-)
-@pytest.mark.parametrize("share", [0.01, 0.3])
+@each("width", [None, Width(41, 2.0, symmetric=False), Width(41, 2.0)])
+@each("share", [0.01, 0.3])
 def test_peaks_between_the_nodes_are_found(width, share):
     """A wave of two spacings has its peaks half-way, where no node sees it."""
     mesh = Mesh.over(41, -2.0, 2.0, width)

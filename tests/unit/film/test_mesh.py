@@ -8,17 +8,18 @@ import pytest
 from ehlectric.film.deflection import LINE, point_geometry
 from ehlectric.film.levels import COARSEST_POINT, NEARER, Transfer, hierarchy
 from ehlectric.film.mesh import Mesh, Width, at_centre
+from tests.helpers.each import each
 
 CIRCLE = point_geometry(radius_ratio=1.0, ellipse_ratio=1.0, compliance=2.0 / np.pi**2)
 INLET, OUTLET, SIDE = -4.5, 1.5, 3.0
-EITHER = pytest.mark.parametrize("symmetric", [True, False])
+EITHER = each("symmetric", [True, False])
 
 
 def mesh_of(nodes, nodes_y, *, symmetric):
     return Mesh.over(nodes, INLET, OUTLET, Width(nodes_y, SIDE, symmetric=symmetric))
 
 
-@pytest.mark.parametrize("nodes_y", [7, 8, 33, 34])
+@each("nodes_y", [7, 8, 33, 34])
 @EITHER
 def test_nodes_are_equidistant_from_side_to_side(nodes_y, symmetric):
     mesh = mesh_of(20, nodes_y, symmetric=symmetric)
@@ -30,7 +31,7 @@ def test_nodes_are_equidistant_from_side_to_side(nodes_y, symmetric):
     assert (mesh.y[0] == 0.0) == mesh.symmetric
 
 
-@pytest.mark.parametrize("nodes_y", [7, 8])
+@each("nodes_y", [7, 8])
 @EITHER
 def test_weights_integrate_what_is_linear(nodes_y, symmetric):
     """Over both halves: of 1 + 2 X + 3 abs(Y) where a node lies at the kink, else of 1 + 2 X + 3 Y + X Y."""
@@ -77,7 +78,7 @@ def test_inner_nodes():
     np.testing.assert_array_equal(whole.inner, expected)
 
 
-@pytest.mark.parametrize("nodes_y", [9, 10])
+@each("nodes_y", [9, 10])
 @EITHER
 def test_value_at_the_centre(nodes_y, symmetric):
     """By linear interpolation, which is exact for 3 + 2 X + abs(Y) where Y = 0 is a node."""
@@ -87,8 +88,8 @@ def test_value_at_the_centre(nodes_y, symmetric):
     assert at_centre(mesh, values) == pytest.approx(3.0, rel=1e-13, abs=0.0)
 
 
-@pytest.mark.parametrize("nodes", [65, 66, 100, 129])
-@pytest.mark.parametrize("nodes_y", [65, 66, 67, 68, 129, 130])
+@each("nodes", [65, 66, 100, 129])
+@each("nodes_y", [65, 66, 67, 68, 129, 130])
 @EITHER
 def test_every_grid_covers_the_same_domain(nodes, nodes_y, symmetric):
     """The same half or the whole, with half as many intervals each; interpolation moves no node."""
@@ -137,7 +138,7 @@ def transfer(nodes, nodes_y, coarse_nodes, coarse_nodes_y, *, symmetric):
     return coarse, fine, up, up.averaging(coarse, fine)
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@each("shape", SHAPES)
 def test_averaging_is_the_adjoint_of_interpolation(shape):
     """Under the integrals over the two grids, so that averages keep the integral."""
     coarse, fine, up, down = transfer(*shape, symmetric=False)
@@ -158,7 +159,7 @@ def test_averaging_on_half_of_a_contact_is_that_on_the_whole():
     )
 
 
-@pytest.mark.parametrize(("shape", "symmetric"), [*((s, False) for s in SHAPES), ((33, 17, 17, 9), True)])
+@each("shape, symmetric", [*((s, False) for s in SHAPES), ((33, 17, 17, 9), True)])
 def test_averaging_keeps_constants(shape, symmetric):
     """Exactly where every second node is a coarse one, else within the shift of the nodes."""
     _, fine, _, down = transfer(*shape, symmetric=symmetric)

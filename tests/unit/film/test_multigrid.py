@@ -18,16 +18,17 @@ from ehlectric.film.line import solve_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize(("coarse", "fine"), [(5, 9), (6, 10), (51, 100), (33, 64), (7, 7)])
+@each("coarse, fine", [(5, 9), (6, 10), (51, 100), (33, 64), (7, 7)])
 def test_interpolation_is_exact_for_straight_lines(coarse, fine):
     matrix = interpolation(coarse, fine)
     line = np.linspace(-1.0, 3.0, coarse)
     np.testing.assert_allclose(matrix @ line, np.linspace(-1.0, 3.0, fine), atol=1e-13)
 
 
-@pytest.mark.parametrize("nodes", [65, 101, 102, 1000, 3200, 3201])
+@each("nodes", [65, 101, 102, 1000, 3200, 3201])
 def test_hierarchy_halves_down_to_the_coarsest(nodes):
     levels = hierarchy(nodes, inlet=-4.0, outlet=2.0, geometry=LINE, wedge_order=2)
     sizes = [level.nodes for level in levels]
@@ -184,7 +185,7 @@ def test_dense_solve_inverts_the_operator():
     assert np.all(dp[~coarsest.full_film] == 0.0)
 
 
-@pytest.mark.parametrize("part", [slice(40, 43), slice(0, 60), slice(150, 201), slice(61, 200), None])
+@each("part", [slice(40, 43), slice(0, 60), slice(150, 201), slice(61, 200), None])
 def test_dense_solve_with_cavitated_nodes_anywhere(part):
     """Inside the full film, before it, behind it, all but a part of it, and all but one node."""
     *_, coarsest = jacobians(401)
@@ -217,7 +218,7 @@ def convergence_factor(levels):
     return factor
 
 
-@pytest.mark.parametrize("nodes", [401, 800, 1601, 6401])
+@each("nodes", [401, 800, 1601, 6401])
 def test_v_cycle_reduces_the_error_fivefold(nodes):
     assert convergence_factor(jacobians(nodes)) < 0.2
 

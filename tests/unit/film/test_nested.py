@@ -10,6 +10,7 @@ from ehlectric.film import nested, newton
 from ehlectric.film.line import solve_film
 from ehlectric.film.nested import accurate_film, nested_iteration
 from ehlectric.film.sheared.laws import Rheology
+from tests.helpers.each import each
 from tests.unit.film.sheared.contacts import line_contact
 
 
@@ -18,8 +19,8 @@ def problem_of(paper_case, **changes):
     return film_problem(case, resolve(case))
 
 
-@pytest.mark.parametrize("nodes", [3, 4, 101])
-@pytest.mark.parametrize("rising", [False, True])
+@each("nodes", [3, 4, 101])
+@each("rising", [False, True])
 def test_values_half_way_are_those_of_the_monotone_cubic(nodes, rising):
     values = np.random.default_rng(nodes).standard_normal((nodes, 20))
     if rising:

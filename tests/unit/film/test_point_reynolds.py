@@ -8,12 +8,13 @@ from ehlectric.film.flow import Fluid, evaluate, flow
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity
+from tests.helpers.each import each
 from tests.unit.film.test_reynolds import LAWS, entering_and_leaving, fluid, through_faces
 
 NODES, NODES_Y = 24, 17
 HALF, WHOLE = (Mesh.over(NODES, -2.0, 1.5, Width(NODES_Y, 2.4, symmetric=s)) for s in (True, False))
-MESHES = pytest.mark.parametrize("mesh", [HALF, WHOLE], ids=["half", "whole"])
-ORDERS = pytest.mark.parametrize("wedge_order", [1, 2, 3])
+MESHES = each("mesh", [HALF, WHOLE])
+ORDERS = each("wedge_order", [1, 2, 3])
 
 
 def state(mesh, seed=1):

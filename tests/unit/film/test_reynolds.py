@@ -8,6 +8,7 @@ from ehlectric.film.flow import MEAN_MOBILITY, Fluid, evaluate, flow
 from ehlectric.film.mesh import Mesh
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
+from tests.helpers.each import each
 
 SHAPE = (40, 3)
 DX = 0.1
@@ -47,7 +48,7 @@ def entering_and_leaving(mass, wedge_order):
     }[wedge_order]
 
 
-LAWS = pytest.mark.parametrize("law", ["newtonian", MEAN_MOBILITY])
+LAWS = each("law", ["newtonian", MEAN_MOBILITY])
 
 
 @pytest.fixture
@@ -62,7 +63,7 @@ def residual(pressure, thickness, *, wedge_order, law="newtonian"):
 
 
 @LAWS
-@pytest.mark.parametrize("wedge_order", [1, 2, 3])
+@each("wedge_order", [1, 2, 3])
 def test_linearisation_is_the_derivative(state, wedge_order, law):
     pressure, thickness, change = state
     wedge = reynolds.wedge_stencil(SHAPE, DX, order=wedge_order)
@@ -85,7 +86,7 @@ def test_stencil_matrix_is_the_operator(state):
 
 
 @LAWS
-@pytest.mark.parametrize("wedge_order", [1, 2, 3])
+@each("wedge_order", [1, 2, 3])
 def test_residual_sums_to_the_flow_through_the_ends(state, wedge_order, law):
     """Conservation: the rows are differences of one flux, so their sum is that of the two ends."""
     pressure, thickness, _ = state

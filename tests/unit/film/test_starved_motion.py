@@ -7,6 +7,7 @@ from ehlectric.film.characteristics import carried, step_levels
 from ehlectric.film.deflection import LINE
 from ehlectric.film.levels import hierarchy
 from ehlectric.film.starved.motion import Oil, sums, supplied_step_levels
+from tests.helpers.each import each
 
 NODES = 101
 
@@ -26,7 +27,7 @@ def mixed(seed=0):
     return oil(np.random.default_rng(seed).uniform(0.1, 1.0, NODES), (number > 30) & (number < 70))
 
 
-@pytest.mark.parametrize("distance", [0.0, 0.3, 1.0, 1.7, 3.0])
+@each("distance", [0.0, 0.3, 1.0, 1.7, 3.0])
 def test_where_all_is_filled_the_values_are_those_of_the_flooded_scheme(distance):
     all_filled = oil(np.cos(np.linspace(-3.0, 2.0, NODES)), np.ones(NODES, dtype=bool))
     expected = carried(all_filled.mass, distance)[:-1]

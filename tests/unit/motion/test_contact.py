@@ -11,6 +11,7 @@ from ehlectric.motion.contact import TransientContact
 from ehlectric.surfaces import made_profiles as generators
 from ehlectric.surfaces.rough_maps import rough_maps
 from ehlectric.surfaces.rough_profiles import rough_surfaces
+from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 SRR = "contact.slide_to_roll_ratio"
@@ -44,19 +45,29 @@ def of_case(case, *axes):
     )
 
 
-@pytest.mark.parametrize("ratio", SPEEDS)
-@pytest.mark.parametrize("surface", [1, 2])
-@pytest.mark.parametrize(
-    ("table", "shape"),
+@each("ratio", SPEEDS)
+@each("surface", [1, 2])
+@each(
+    "table, shape",
     [
         (LINE, WAVES),
         (LINE, RANDOM),
         (LINE, BUMP | {"position": 5e-5}),
         (POINT, PIT | {"position_y": 4e-5}),
-        pytest.param(POINT, RANDOM, marks=pytest.mark.slow),
     ],
 )
 def test_once_everything_lies_as_the_case_has_it(table, shape, surface, ratio):
+    lies_as_the_case_has_it(table, shape, surface, ratio)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", SPEEDS)
+@pytest.mark.parametrize("surface", [1, 2])
+def test_once_it_lies_a_random_map_is_that_of_the_case(surface, ratio):
+    lies_as_the_case_has_it(POINT, RANDOM, surface, ratio)
+
+
+def lies_as_the_case_has_it(table, shape, surface, ratio):
     case = moving(table, {SRR: ratio}, **rough((surface, shape)), motion={"passes": 4.0})
     motion, speed = TransientContact.of(case), SPEEDS[ratio][surface - 1]
     grid = case.grid
@@ -74,8 +85,8 @@ def test_once_everything_lies_as_the_case_has_it(table, shape, surface, ratio):
     assert not np.any(found[2 - surface])
 
 
-@pytest.mark.parametrize("ratio", SPEEDS)
-@pytest.mark.parametrize(("table", "shape"), [(LINE, WAVES), (POINT, WAVES)])
+@each("ratio", SPEEDS)
+@each("table, shape", [(LINE, WAVES), (POINT, WAVES)])
 def test_nothing_is_there_at_first(table, shape, ratio):
     case = moving(table, {SRR: ratio}, **rough((1, shape), (2, shape)), motion={"passes": 2.0})
     motion = TransientContact.of(case)
@@ -92,7 +103,7 @@ def test_nothing_is_there_at_first(table, shape, ratio):
         assert not np.any(soon[surface][~near])
 
 
-@pytest.mark.parametrize(("ratio", "time"), [(0.0, 2.6), (1.0, 1.7), (6.0, 0.55), (-6.0, 1.3)])
+@each("ratio, time", [(0.0, 2.6), (1.0, 1.7), (6.0, 0.55), (-6.0, 1.3)])
 def test_waves_behind_their_front(ratio, time):
     """Amplitude sin(2 pi (b (X - s))/wavelength + phase), s the way of what began one domain away."""
     case = moving(LINE, {SRR: ratio}, **rough((1, WAVES)), motion={"passes": 3.0})
@@ -108,9 +119,9 @@ def test_waves_behind_their_front(ratio, time):
     np.testing.assert_allclose(motion.roughness.heights(time, x)[0], waves * rise, rtol=0.0, atol=1e-18)
 
 
-@pytest.mark.parametrize("ratio", SPEEDS)
-@pytest.mark.parametrize("part", [0.4, 0.9])
-@pytest.mark.parametrize("table", [LINE, POINT])
+@each("ratio", SPEEDS)
+@each("part", [0.4, 0.9])
+@each("table", [LINE, POINT])
 def test_two_surfaces_travel_each_at_its_own_speed(table, ratio, part):
     """Their tops, one domain away from the centre at first, on the side from which the surface comes."""
     case = moving(table, {SRR: ratio}, **rough((1, BUMP), (2, BUMP)), motion={"passes": 1.0})
@@ -202,8 +213,8 @@ def test_what_moves_is_looked_at_as_finely_as_the_grid():
     assert same.travelled.grid == same.case.grid
 
 
-@pytest.mark.parametrize(
-    ("tables", "symmetric", "passes"),
+@each(
+    "tables, symmetric, passes",
     [
         ([(1, PIT)], True, 1.0),
         ([(1, PIT), (2, WAVES)], True, 40.0),

@@ -25,6 +25,7 @@ from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MOTION, MotionRun, read_motion, saved_steps
 from ehlectric.runtime import netcdf as netcdf_files
 from ehlectric.runtime.checks.sound import remember_sound
+from tests.helpers.each import each
 from tests.helpers.moving_cases import POINT, moving
 
 # Twelve steps of two grid spacings, kept are 0, 4, 8 and 12.
@@ -257,7 +258,7 @@ def set_attribute(name, value):
     return lambda file: file.attrs.__setitem__(name, value)
 
 
-@pytest.mark.parametrize(
+@each(
     "change",
     [
         set_attribute("version", "0.0.0"),
@@ -281,7 +282,7 @@ def test_what_is_not_this_run_or_damaged_is_not_gone_on_with(stopped, change):
     assert found(path, CASE) is None
 
 
-@pytest.mark.parametrize(
+@each(
     "changes",
     [{"electric.potential_2": 3.0}, {"motion.record": 5}, {"grid.field_degree": 3}, {"title": "Other"}],
 )

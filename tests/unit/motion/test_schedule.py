@@ -7,6 +7,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.contact.resolve import resolve, resolve_point
 from ehlectric.motion.schedule import schedule_of
+from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 SRR = "contact.slide_to_roll_ratio"
@@ -56,8 +57,8 @@ def test_a_duration_is_rounded_to_whole_steps_or_taken_as_it_is():
         schedule(moving(LINE, motion={"duration": 1e-3 * time}))
 
 
-@pytest.mark.parametrize(
-    ("slide", "surfaces", "parts"),
+@each(
+    "slide, surfaces, parts",
     [(0.0, (1,), 1), (0.8, (1,), 1), (2.0, (1,), 2), (4.0, (1,), 3), (4.0, (2,), 2), (-6.0, (1, 2), 4)],
 )
 def test_steps_are_shorter_for_surfaces_that_move_fast(slide, surfaces, parts):
@@ -80,8 +81,8 @@ def test_a_step_may_be_as_long_as_eight_intervals():
     assert schedule(moving(LINE, motion={"passes": 1.0, "steps": 8})).courant == 8.0
 
 
-@pytest.mark.parametrize(
-    ("motion", "ratio", "recorded"),
+@each(
+    "motion, ratio, recorded",
     [
         # D/u is step 120 of 150.
         ({"passes": 1.25, "steps": 150, "record": 4}, 0.0, [0, 50, 100, 120, 150]),
@@ -100,8 +101,8 @@ def test_which_steps_are_kept(motion, ratio, recorded):
     assert schedule(moving(LINE, {SRR: ratio}, **table, motion=motion)).recorded.tolist() == recorded
 
 
-@pytest.mark.parametrize(
-    ("tables", "ratio", "covered", "coincident"),
+@each(
+    "tables, ratio, covered, coincident",
     [
         # From the inlet over the Hertz zone, and the front behind it: 4 + 1 + 1.
         ([(1, BUMP)], 0.0, 6.0, 6.0),

@@ -16,6 +16,7 @@ from ehlectric.motion.field_history import time_above
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion
 from ehlectric.motion.summary import SCHEMA, counted, instant_beside, local_maxima, summary_of
+from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 
@@ -73,8 +74,8 @@ def made(case, *, times, x=None, y=None, frame_times=None, complete=True, statio
     return xr.Dataset(found, {name: b * axis for name, axis in axes.items()}, attributes)
 
 
-@pytest.mark.parametrize(
-    ("values", "level", "part"),
+@each(
+    "values, level, part",
     [
         # Up and down: above half of the top in the middle half.
         ([0.0, 1.0, 0.0], 0.5, 0.5),
@@ -392,8 +393,8 @@ def test_what_was_kept_near_the_time_at_which_all_lies_alike():
     assert summary_of(dataset)["beside_stationary"] is None
 
 
-@pytest.mark.parametrize("passes", [0.5, 2.0])
-@pytest.mark.parametrize("table", [LINE, POINT])
+@each("passes", [0.5, 2.0])
+@each("table", [LINE, POINT])
 def test_json_has_no_nan(table, passes):
     """Nor where times are infinite, one instant alone is there, or strengths lie outside the field range."""
     case = moving(table, motion={"passes": passes})

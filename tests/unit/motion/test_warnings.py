@@ -10,6 +10,7 @@ from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.warnings import LEAST_STEPS, motion_warnings, step_warnings
+from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 WAVE = {"surface": 1, "generator": "sinusoid", "amplitude": "50 nm", "wavelength": "25 um"}
@@ -35,9 +36,7 @@ def test_steps_over_which_waves_move_past_the_oil_are_named_with_a_number_that_i
     assert steps_text(case.replace({"motion.steps": enough})) == ""
 
 
-@pytest.mark.parametrize(
-    ("surface", "ratio", "beside_oil"), [(1, 0.0, 0.0), (1, 1.0, 0.5), (1, -1.0, 0.5), (2, 3.0, 1.5)]
-)
+@each("surface, ratio, beside_oil", [(1, 0.0, 0.0), (1, 1.0, 0.5), (1, -1.0, 0.5), (2, 3.0, 1.5)])
 def test_the_speed_that_counts_is_that_of_the_surface_against_the_oil(surface, ratio, beside_oil):
     case = moving(
         LINE,
@@ -63,8 +62,8 @@ def test_steps_that_follow_from_the_grid_resolve_each_wave_that_it_resolves():
         assert steps_text(given) == ""
 
 
-@pytest.mark.parametrize(
-    ("table", "rough", "length"),
+@each(
+    "table, rough, length",
     [
         (LINE, {"generator": "asperity", "height": "50 nm", "width": "60 um"}, 60e-6),
         (LINE, {"generator": "pit", "depth": "50 nm", "width": "60 um", "rim": "10 nm"}, 30e-6),

@@ -20,6 +20,7 @@ from ehlectric.report.limits import LIMITS, REFERENCES, limits_of, references_of
 from ehlectric.report.origins import inputs_of, material_sources
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, OIL, bearing_case, changed
+from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import ROOT
 
@@ -93,8 +94,8 @@ def test_the_light_has_the_level_of_the_verdict_and_never_hides_an_upper_bound(r
     assert "ideal film" in light.words
 
 
-@pytest.mark.parametrize(
-    ("level", "text", "words", "bound"),
+@each(
+    "level, text, words, bound",
     [
         ("green", "No breakdown expected: margin 9.", "No breakdown expected", ""),
         (

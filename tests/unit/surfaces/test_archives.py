@@ -12,6 +12,7 @@ from ehlectric.runtime import sizes
 from ehlectric.surfaces import instrument_files
 from ehlectric.surfaces.archives import member, opened
 from ehlectric.surfaces.files import read_surface
+from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, description, x3p
 
 PACKS = [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA]
@@ -30,7 +31,7 @@ def traced(call):
     return result, peak
 
 
-@pytest.mark.parametrize("pack", PACKS)
+@each("pack", PACKS)
 def test_members_are_those_of_pythons_reader(tmp_path, pack):
     path = x3p(tmp_path / "a.x3p", MAP, pack=pack)
     content = path.read_bytes()
@@ -78,7 +79,7 @@ def test_an_archive_of_too_many_members():
         opened(b"PK\x01\x02" * 10_001)
 
 
-@pytest.mark.parametrize("name", ["sparse.csv", "sparse.x3p", "sparse.al3d", "sparse.nc", "sparse.npy"])
+@each("name", ["sparse.csv", "sparse.x3p", "sparse.al3d", "sparse.nc", "sparse.npy"])
 def test_a_sparse_file_of_twenty_gigabytes(tmp_path, name):
     path = tmp_path / name
     with path.open("wb") as file:

@@ -12,6 +12,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.surfaces.files import _read_other, read_surface
 from ehlectric.surfaces.profiles import Processing, processed, statistics
+from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, SURFACES
 from tests.helpers.surface_writers import MAP, al3d, x3p
 
@@ -32,8 +33,8 @@ def test_dektak_spacing_is_that_of_the_whole_length():
 
 
 # Computed by another reader and filter, and recorded with the file: nm.
-@pytest.mark.parametrize(
-    ("steps", "rq"),
+@each(
+    "steps, rq",
     [
         ({"form": "line"}, 94.0),
         ({"form": "parabola"}, 38.0),
@@ -50,8 +51,8 @@ def rq_of_line(surface, index, along, form="parabola"):
 
 
 # Sizes, spacings and roughness recorded with the files by another reader and filter: um and nm.
-@pytest.mark.parametrize(
-    ("steps", "rq"),
+@each(
+    "steps, rq",
     [
         ({"form": "line"}, 245.0),
         ({"form": "parabola"}, 138.0),
@@ -174,7 +175,7 @@ def text_file(path, *, header="x [um];z [nm]", rows=40, separator=";", change=la
     return path
 
 
-@pytest.mark.parametrize("separator", [";", ",", "\t", " "])
+@each("separator", [";", ",", "\t", " "])
 def test_text_with_units_in_its_header(tmp_path, separator):
     header = separator.join(["x[um]", "z[nm]"])
     surface = read_surface(text_file(tmp_path / "a.txt", header=header, separator=separator))
@@ -217,7 +218,7 @@ BAD_TEXT = [
 ]
 
 
-@pytest.mark.parametrize(("made", "message"), BAD_TEXT)
+@each("made, message", BAD_TEXT)
 def test_doubtful_text_is_refused(tmp_path, made, message):
     with pytest.raises(InputError, match=message):
         read_surface(text_file(tmp_path / "a.csv", **made)).line()

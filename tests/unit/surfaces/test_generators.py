@@ -6,6 +6,7 @@ import pytest
 
 from ehlectric.cases.roughness import GENERATORS, SHAPES
 from ehlectric.surfaces import made_maps, made_profiles
+from tests.helpers.each import each
 
 # Keys of point contacts, whose functions alone know a second direction.
 ACROSS = {"orientation", "position_y"}
@@ -29,8 +30,8 @@ def test_keys_of_a_shape_are_the_keywords_of_its_functions(name):
     assert keywords(made_profiles.SHAPES[name]) == ((needed | optional) - ACROSS, needed)
 
 
-@pytest.mark.parametrize("module", [made_profiles, made_maps])
-@pytest.mark.parametrize("name", sorted(set(GENERATORS) - set(SHAPES)))
+@each("module", [made_profiles, made_maps])
+@each("name", sorted(set(GENERATORS) - set(SHAPES)))
 def test_random_surfaces_take_all_that_their_generators_need(module, name):
     needed, _ = GENERATORS[name]
     assert set(needed) <= keywords(getattr(module, name.replace("-", "_")))[0]

@@ -8,6 +8,7 @@ import pytest
 
 from ehlectric import InputError
 from ehlectric.surfaces.files import read_surface
+from tests.helpers.each import each
 from tests.helpers.surface_writers import KINDS, MAP, al3d, x3p
 
 
@@ -27,7 +28,7 @@ def test_points_that_are_not_valid_are_voids(tmp_path):
     assert np.max(np.abs(surface.line(3).heights)) < 5e-8
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each("kind", KINDS)
 def test_increment_and_offset_of_heights(tmp_path, kind):
     """Offset + Increment times what is stored, as in the schema of openGPS."""
     path = x3p(
@@ -79,7 +80,7 @@ WRONG_X3P = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("changes", "message"), WRONG_X3P)
+@each("changes, message", WRONG_X3P)
 def test_wrong_x3p_is_refused_in_words(tmp_path, changes, message):
     with pytest.raises(InputError, match=message) as caught:
         read_surface(x3p(tmp_path / "a.x3p", MAP, **changes))
@@ -116,7 +117,7 @@ WRONG_AL3D = [
 ]
 
 
-@pytest.mark.parametrize(("changes", "message"), WRONG_AL3D)
+@each("changes, message", WRONG_AL3D)
 def test_wrong_al3d_is_refused_in_words(tmp_path, changes, message):
     with pytest.raises(InputError, match=message):
         read_surface(al3d(tmp_path / "a.al3d", **changes))
@@ -147,7 +148,7 @@ PACKS = {
 }
 
 
-@pytest.mark.parametrize("kind", [*PACKS, "al3d", "text"])
+@each("kind", [*PACKS, "al3d", "text"])
 def test_any_changed_byte_is_read_or_refused(tmp_path, kind):
     """No file, whatever is in it, may end in a traceback."""
     path = tmp_path / {"al3d": "a.al3d", "text": "a.txt"}.get(kind, "a.x3p")

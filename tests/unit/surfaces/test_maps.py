@@ -11,6 +11,7 @@ from ehlectric.surfaces.maps import Map, processed_map, statistics, trimmed, wav
 from ehlectric.surfaces.profiles import Processing, Profile
 from ehlectric.surfaces.profiles import processed as of_profile
 from ehlectric.surfaces.voids import filled
+from tests.helpers.each import each
 
 CUTOFF = 20e-6
 DX, DY = 0.5e-6, 0.7e-6
@@ -26,8 +27,8 @@ def level(height):
     return lambda x, y: height + 0.0 * x * y
 
 
-@pytest.mark.parametrize("direction", [0.0, 90.0, 45.0, 160.0])
-@pytest.mark.parametrize("ratio", np.geomspace(0.3, 3.0, 9))
+@each("direction", [0.0, 90.0, 45.0, 160.0])
+@each("ratio", np.geomspace(0.3, 3.0, 9))
 def test_filter_transmits_as_the_standard_says(ratio, direction):
     """exp(-pi (alpha cutoff/wavelength)^2), one half at the cutoff, whatever the direction (ISO 16610-61)."""
     q = 2 * np.pi / (ratio * CUTOFF) * np.exp(1j * np.deg2rad(direction))
@@ -40,7 +41,7 @@ def test_filter_keeps_what_is_constant():
     np.testing.assert_allclose(waviness(mapped(level(3.0)), CUTOFF).heights, 3.0, rtol=1e-12)
 
 
-@pytest.mark.parametrize("cutoff", [4 * DX, 3.9 * DY, 126.1e-6, 1e-2])
+@each("cutoff", [4 * DX, 3.9 * DY, 126.1e-6, 1e-2])
 def test_cutoffs_that_cannot_be(cutoff):
     """Four of the wider spacings at the least, the shorter side at the most: 180 times 0.7 um."""
     with pytest.raises(InputError, match="cutoff: got"):
@@ -94,7 +95,7 @@ def test_statistics_of_crossed_waves():
     assert s.correlation_length_y == pytest.approx(np.arccos(1 / np.e) / q, rel=0.02, abs=0.0)
 
 
-@pytest.mark.parametrize("direction", [0.0, 30.0, 90.0, 135.0])
+@each("direction", [0.0, 30.0, 90.0, 135.0])
 def test_the_shortest_correlation_length_lies_across_the_ridges(direction):
     """Of a plane wave: acos(1/e)/q across its ridges, longer by the cosine along the axes."""
     q = 2 * np.pi / 12e-6

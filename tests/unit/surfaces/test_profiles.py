@@ -22,11 +22,12 @@ from ehlectric.surfaces.profiles import (
     without_form,
 )
 from ehlectric.surfaces.rough_profiles import rough_surfaces
+from tests.helpers.each import each
 
 CUTOFF = 80e-6
 
 
-@pytest.mark.parametrize("ratio", np.geomspace(0.3, 3.0, 9))
+@each("ratio", np.geomspace(0.3, 3.0, 9))
 def test_filter_transmits_as_the_standard_says(ratio):
     """exp(-pi (alpha cutoff/wavelength)^2), alpha^2 = ln 2/pi: one half at the cutoff (ISO 16610-21)."""
     wavelength = ratio * CUTOFF

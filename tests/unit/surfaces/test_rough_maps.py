@@ -14,6 +14,7 @@ from ehlectric.surfaces.rough_profiles import measured
 from ehlectric.surfaces.warnings import map_surface_warnings
 from ehlectric.surfaces.warnings import map_variance_beyond as variance_beyond
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, al3d, x3p
 from tests.unit.surfaces.test_files import DATA, DEKTAK
 
@@ -259,7 +260,7 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("table", "message"), WRONG)
+@each("table, message", WRONG)
 def test_what_does_not_fit_the_domain_is_refused(table, message):
     with pytest.raises(InputError, match=message) as caught:
         surfaces_of(table)
@@ -274,7 +275,7 @@ FOR_POINTS = [
 ]
 
 
-@pytest.mark.parametrize(("table", "key"), FOR_POINTS)
+@each("table, key", FOR_POINTS)
 def test_keys_of_point_contacts_are_refused_for_lines(table, key):
     with pytest.raises(InputError, match=f"^roughness.{key}: is not used by a line contact"):
         Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "roughness": [table]})
@@ -313,7 +314,7 @@ SHAPES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("table", "message"), SHAPES)
+@each("table, message", SHAPES)
 def test_shapes_finer_than_the_grid_are_said(table, message):
     said = texts_of(table, dx=3e-6, dy=2e-6)
     if message is None:

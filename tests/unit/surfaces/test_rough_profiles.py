@@ -11,6 +11,7 @@ from ehlectric.surfaces.rough_profiles import measured, rough_surfaces
 from ehlectric.surfaces.warnings import profile_surface_warnings
 from ehlectric.surfaces.warnings import profile_variance_beyond as variance_beyond
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, al3d
 from tests.unit.surfaces.test_files import DATA, DEKTAK
 
@@ -44,16 +45,14 @@ def texts_of(*tables, **changes):
     return list(map(str, profile_surface_warnings(case.roughness, rough, domain, spacing(case, conditions))))
 
 
-@pytest.mark.parametrize("table", [GAUSSIAN, SELF_AFFINE], ids=["gaussian", "self-affine"])
-@pytest.mark.parametrize(
-    "changes", [{"load": 4.2e5}, {"inlet": -6.0}, {"outlet": 2.3}, {"nodes": 801}], ids=str
-)
+@each("table", [GAUSSIAN, SELF_AFFINE])
+@each("changes", [{"load": 4.2e5}, {"inlet": -6.0}, {"outlet": 2.3}, {"nodes": 801}], ids=str)
 def test_a_seed_is_one_surface_whatever_the_contact(table, changes):
     (one,), (other,) = surfaces_of(table), surfaces_of(table, **changes)
     np.testing.assert_allclose(other.height(X), one.height(X), rtol=0.0, atol=1e-18)
 
 
-@pytest.mark.parametrize("steps", [{}, {"shift": "1 mm"}, {"cutoff_long": "80 um"}, {"trim": "0.1 mm"}])
+@each("steps", [{}, {"shift": "1 mm"}, {"cutoff_long": "80 um"}, {"trim": "0.1 mm"}])
 def test_made_surfaces_need_no_continuation(steps):
     assert texts_of(GAUSSIAN | steps) == []
     (plain,), (other,) = surfaces_of(GAUSSIAN), surfaces_of(GAUSSIAN | steps)
@@ -153,7 +152,7 @@ SHAPES = [
 ]
 
 
-@pytest.mark.parametrize(("table", "message"), SHAPES)
+@each("table, message", SHAPES)
 def test_shapes_finer_than_the_grid_are_said(table, message):
     said = texts_of(table, nodes=1601)
     if message is None:

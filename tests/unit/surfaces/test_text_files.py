@@ -6,6 +6,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.surfaces import text_files
 from ehlectric.surfaces.files import read_surface
+from tests.helpers.each import each
 from tests.unit.surfaces.test_files import DEKTAK
 
 K = np.arange(200)
@@ -28,7 +29,7 @@ def rows_of(separator, point=".", x_digits=2, z_scale=1.0):
     return [line.replace(".", point) for line in lines]
 
 
-@pytest.mark.parametrize("code", ["utf-8", "utf-8-sig", "cp1252", "latin-1", "utf-16"])
+@each("code", ["utf-8", "utf-8-sig", "cp1252", "latin-1", "utf-16"])
 def test_micro_sign_in_any_code(tmp_path, code):
     """In Windows' codes it is the byte 0xB5, which is no UTF-8: the column is not in metres for that."""
     path = written(tmp_path / "a.txt", ["x [µm];z [µm]"], rows_of(";", z_scale=1e-3), code)
@@ -41,8 +42,8 @@ def test_no_text_of_any_kind(tmp_path):
         read_surface(tmp_path / "a.txt")
 
 
-@pytest.mark.parametrize("separator", [";", "\t", " ", "   "])
-@pytest.mark.parametrize("point", [".", ","])
+@each("separator", [";", "\t", " ", "   "])
+@each("point", [".", ","])
 def test_decimal_mark(tmp_path, separator, point):
     path = written(tmp_path / "a.txt", [], rows_of(separator, point))
     assert_read(read_surface(path, x_unit="um", z_unit="nm"))
@@ -83,7 +84,7 @@ DOUBTFUL = [
 ]
 
 
-@pytest.mark.parametrize(("header", "rows", "message"), DOUBTFUL)
+@each("header, rows, message", DOUBTFUL)
 def test_doubtful_files_are_refused(tmp_path, header, rows, message):
     path = written(tmp_path / "a.txt", header, rows)
     with pytest.raises(InputError, match=message):
@@ -121,7 +122,7 @@ HEADS = [
 ]
 
 
-@pytest.mark.parametrize(("separator", "head", "stated"), HEADS)
+@each("separator, head, stated", HEADS)
 def test_units_are_those_of_their_own_column(tmp_path, separator, head, stated):
     """One unit for each column in their order, on the line above them, or none is believed."""
     path = written(tmp_path / "a.txt", [head], rows_of(separator))
@@ -138,7 +139,7 @@ def test_units_are_those_of_their_own_column(tmp_path, separator, head, stated):
     assert_read(read_surface(path, **given))
 
 
-@pytest.mark.parametrize("unit", ["foo", "kg", "", "um; rm", "1", "1/um"])
+@each("unit", ["foo", "kg", "", "um; rm", "1", "1/um"])
 def test_units_that_are_no_length(tmp_path, unit):
     path = written(tmp_path / "a.txt", [], rows_of(";"))
     with pytest.raises(InputError, match=r"z_unit: got .* expected a unit of length"):

@@ -4,13 +4,13 @@ import itertools
 import math
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
 from ehlectric.sweep.design import between, grid, paired, shares, sobol
 from ehlectric.sweep.results import Range
+from tests.helpers.each import each
 
 lists = st.lists(st.lists(st.integers(), min_size=1, max_size=4, unique=True), min_size=1, max_size=4)
 linear = st.tuples(st.floats(-1e6, 1e6), st.floats(1e-3, 1e6)).map(lambda ends: Range(ends[0], sum(ends)))
@@ -76,7 +76,7 @@ def test_the_seed_alone_makes_the_points():
     assert list(sobol(over, 8, 3)) != list(sobol(over, 8, 4))
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
+@each("seed", [0, 1, 2])
 def test_indices_of_a_function_that_are_known(seed):
     """Ishigami's function with a = 7, b = 0.1, whose variance is split so (Ishigami and Homma, 1990)."""
     a, b = 7.0, 0.1

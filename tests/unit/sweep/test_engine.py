@@ -20,6 +20,7 @@ from ehlectric.sweep.engine import run_points, solve_point
 from ehlectric.sweep.plan import Outcome
 from ehlectric.version import __version__
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.each import each
 from tests.helpers.sweeps import CASE, DEADLY, NODES, SLOW, SPEED, solve_or_die
 
 
@@ -107,7 +108,7 @@ def test_what_does_not_fit_into_memory_is_tried_again():
     assert "GB" in outcome.reason
 
 
-@pytest.mark.parametrize(
+@each(
     ("error", "reason", "again"),
     [
         (MemoryError("Unable to allocate 5 GiB"), "out of memory: Unable to allocate 5 GiB", True),
@@ -122,8 +123,9 @@ def test_what_goes_wrong_is_the_reason(monkeypatch, error, reason, again):
     def fails(_case):
         raise error
 
-    monkeypatch.setattr(sweep_engine, "solve", fails)
-    outcome = solve_point(table())
+    with monkeypatch.context() as patch:
+        patch.setattr(sweep_engine, "solve", fails)
+        outcome = solve_point(table())
     assert (outcome.status, outcome.reason, outcome.again, outcome.summary) == ("failed", reason, again, None)
 
 
@@ -266,9 +268,7 @@ def test_points_that_are_cancelled_are_lost_and_others_handed_on():
     assert sorted(found) == ["0", "1", "3", "4"]
 
 
-@pytest.mark.parametrize(
-    "error", [BrokenProcessPool("terminated"), ModuleNotFoundError("No module named 'ehlectric'")]
-)
+@each("error", [BrokenProcessPool("terminated"), ModuleNotFoundError("No module named 'ehlectric'")])
 def test_where_nobody_is_left_no_point_is_to_blame(error):
     """A broken pool that only its owner can make again, or workers without the package."""
 

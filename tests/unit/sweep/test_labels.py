@@ -20,6 +20,7 @@ from ehlectric.sweep.labels import label_of, result_keys, scale_for
 from ehlectric.sweep.results import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.drives import small_drive
+from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.moving_cases import TABLES, moving
 
@@ -33,7 +34,7 @@ METER = {"fill": "oil", "coating": {"thickness": "1 um", "relative_permittivity"
 KINDS = ["line", "point", "balls", "rollers", "drive", "moving line", "moving point"]
 # Keys within the table film of a summary of heat and shear; both kinds of contact have the same ones.
 HEAT = {f"film.{key}" for key in heat_keys("W")}
-DATA = Path(__file__).parent / "labels.csv"
+UNITS = Path(__file__).parent / "units.csv"
 
 
 def contact(kind):
@@ -72,43 +73,24 @@ def summary(kind, folder):
     return summary_of(read_motion(folder))
 
 
-@pytest.fixture(scope="module")
-def summaries(tmp_path_factory):
-    """Dotted keys of a summary of each kind, solved when it is first asked for."""
-    known = {}
-
-    def keys(kind):
-        if kind not in known:
-            found = flat(summary(kind, tmp_path_factory.mktemp("run")))
-            if kind in TABLES:
-                found |= flat(solve(starved(kind)).summary())
-            known[kind] = [key for key in found if key[:7] != "inputs."]
-        return known[kind]
-
-    return keys
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_key_of_a_summary_has_an_entry(summaries, kind):
-    keys = result_keys(case_of(kind))
-    assert [key for key in summaries(kind) if key_of(keys, key) is None] == []
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_entry_is_a_key_of_a_summary(summaries, kind):
+def test_every_key_of_a_summary_has_an_entry_and_every_entry_is_a_key(tmp_path, kind):
     """An entry without a number behind it says something about results that is not so.
 
     A list of the summary has an entry for the documentation. Statistics of a measured profile that is
     extended to a map, voltages of a Weibull law, heat, shear and remedies stand in other summaries.
     """
-    keys = result_keys(case_of(kind))
-    parts = {".".join(part for part in key.split(".") if not part.isdigit()) for key in summaries(kind)}
+    keys, found = result_keys(case_of(kind)), flat(summary(kind, tmp_path))
+    if kind in TABLES:
+        found |= flat(solve(starved(kind)).summary())
+    summarised = [key for key in found if key[:7] != "inputs."]
+    assert [key for key in summarised if key_of(keys, key) is None] == []
+    parts = {".".join(part for part in key.split(".") if not part.isdigit()) for key in summarised}
     lists = {"discharge", "stationary", "beside_stationary", "contacts", "rough", "inputs", "margin.effects"}
     lists |= {"drive_end.time_above", "non_drive_end.time_above"}
     lists |= {"roughness.surfaces", "roughness.surfaces.steps", "rough.steps", "discharge.sources"} | HEAT
-    missing = {key for key in keys if "*" not in key} - parts - {*summaries(kind)} - lists
+    missing = {key for key in keys if "*" not in key} - parts - {*summarised} - lists
     assert {key for key in missing if ".steps." not in key and not key.startswith("remedies.")} == set()
 
 
@@ -121,7 +103,7 @@ def test_keys_of_heat_and_shear_are_those_of_a_summary():
         assert (found["film"]["max_temperature_rise"] is None) == ("rheology" in film)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each("kind", KINDS)
 def test_units_are_those_of_si(kind):
     """Read by pint: a value of 1 in the unit of a key is 1 in SI units, kilograms and the like included."""
     units = {key.unit for key in result_keys(case_of(kind)).values()} - {"", "K"}
@@ -129,17 +111,16 @@ def test_units_are_those_of_si(kind):
 
 
 @pytest.mark.slow
-def test_labels_are_those_of_the_list():
-    """labels.csv has the label of every key of small contacts, bearings and motions, read by hand."""
-    with DATA.open(encoding="utf-8", newline="") as file:
+def test_units_are_those_of_the_list():
+    """units.csv has the unit of every key of small contacts, bearings, drives and motions, read by hand."""
+    with UNITS.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     known = {kind: case_of(kind) for kind in {row["kind"] for row in rows}}
-    for row in rows:
-        label = label_of(row["key"], known[row["kind"]])
-        assert (label.name, label.symbol, label.unit) == (row["name"], row["symbol"], row["unit"]), row["key"]
+    found = {(row["kind"], row["key"]): label_of(row["key"], known[row["kind"]]).unit for row in rows}
+    assert found == {(row["kind"], row["key"]): row["unit"] for row in rows}
 
 
-@pytest.mark.parametrize("key", INPUT_NAMES)
+@each("key", INPUT_NAMES)
 def test_inputs_with_a_name_are_keys_of_a_case(key):
     """``input_field`` refuses a key that no case has."""
     assert input_field(key) is not None
@@ -151,7 +132,7 @@ def test_lists_of_a_case_have_their_unit():
     assert label_of("inputs.grid.field_range.0", case).unit == ""
 
 
-@pytest.mark.parametrize(
+@each(
     ("value", "unit", "shown"),
     [
         (46e-6, "m**2/s", "46 mm²/s"),

@@ -24,6 +24,7 @@ from ehlectric.sweep.results import Range
 from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import take
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.each import each
 from tests.helpers.sweep_models import case, grid, points, sobol
 from tests.unit.figures.sweep.test_save import line_of_breakdown
 
@@ -75,7 +76,7 @@ def test_what_a_value_is_set_beside():
     assert breakdown_of(case()) == breakdown_of(case(), "film.minimum_thickness") == CONTACT
 
 
-@pytest.mark.parametrize(
+@each(
     ("value", "part", "text"),
     [("bearing.first_break", 1.0, "first breakdown"), ("bearing.through_breakdown", 2.0, "ring-to-ring")],
 )

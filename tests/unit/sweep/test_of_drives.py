@@ -21,6 +21,7 @@ from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.plan import case_key
 from ehlectric.sweep.results import flat
 from tests.helpers.drives import small_drive
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.sweep_models import case as contact
 from tests.helpers.sweep_models import grid
@@ -137,29 +138,31 @@ def test_a_plateau_is_of_one_colour():
     assert max(parts) <= 2
 
 
-@pytest.mark.parametrize(
-    ("key", "message"),
+@each(
+    "key, name",
     [
-        ("drive_end.inner_speed", "unknown key; the nearest known one is drive_end.bearing.inner_speed"),
-        ("bearing.radial_load", f"unknown key; the nearest known one is {LOAD}"),
-        ("bearing.temperature", f"unknown key; the nearest known one is {TEMPERATURE}"),
-        ("source.dclink", "unknown key; the nearest known one is source.dc_link"),
-        ("remedies.1.title", "unknown key; the nearest known one is "),
-        ("bearings.bearing.inner_speed", f"has no effect, as {SPEED} is given for both bearings"),
-        ("drive_end.contacts", "has no effect, as drive.contacts is given for both bearings"),
+        ("drive_end.inner_speed", "drive_end.bearing.inner_speed"),
+        ("bearing.radial_load", LOAD),
+        ("bearing.temperature", TEMPERATURE),
+        ("source.dclink", "source.dc_link"),
+        ("remedies.1.title", "unknown key"),
+        ("bearings.bearing.inner_speed", SPEED),
+        ("drive_end.contacts", "drive.contacts"),
         ("drive_end.ranges", "cannot vary"),
-        ("bearings", "is a table; expected one of its keys, as bearings.bearing.radial_load"),
-        ("circuit", "is a table; expected one of its keys, as circuit.winding_rotor_capacitance"),
+        ("bearings", "bearings.bearing.radial_load"),
+        ("circuit", "circuit.winding_rotor_capacitance"),
     ],
 )
-def test_keys_that_cannot_vary_are_refused(key, message):
+def test_keys_that_cannot_vary_are_refused(key, name):
     with pytest.raises(InputError) as raised:
         over({key: [1.0, 2.0]})
-    assert str(raised.value).startswith(f"vary.{key}: {message}")
-    assert "\n" not in str(raised.value)
+    text = str(raised.value)
+    assert text.startswith(f"vary.{key}: ")
+    assert name in text.removeprefix(f"vary.{key}: ")
+    assert "\n" not in text
 
 
-@pytest.mark.parametrize("key", [SPEED, "source.dc_link", LOAD])
+@each("key", [SPEED, "source.dc_link", LOAD])
 def test_keys_of_drives_are_none_of_contacts_and_bearings(key):
     with pytest.raises(InputError, match=rf"^vary\.{key}: unknown key"):
         over({key: [1.0, 2.0]}, case=contact())

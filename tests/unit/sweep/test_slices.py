@@ -11,6 +11,7 @@ from ehlectric.sweep.interpolation import spaced_log, surface_of
 from ehlectric.sweep.labels import label_of, scale_for
 from ehlectric.sweep.results import Range
 from ehlectric.sweep.slices import take
+from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, case, grid, paired, sobol
 
 VALUE = "discharge.breakdown_voltage"
@@ -21,7 +22,7 @@ def cube(**how):
     return grid({SPEED: SPEEDS, LOAD: LOADS, POTENTIAL: VOLTS}, **how)
 
 
-@pytest.mark.parametrize("text", ["4 V", "4", "4000 mV", "3.2 V"])
+@each("text", ["4 V", "4", "4000 mV", "3.2 V"])
 def test_the_nearest_value_is_held(text):
     taken = take(cube(), SPEED, LOAD, VALUE, {POTENTIAL: text})
     assert taken.at == {POTENTIAL: 4.0}
@@ -63,43 +64,32 @@ def test_texts_are_lines_and_no_map():
     assert held.at == {"lubricant.base": "gear"}
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@each(
+    "arguments, key, names",
     [
-        (
-            ("contact.speed", LOAD, VALUE),
-            r"x: got 'contact.speed'; expected a key that varies: .* nearest is contact",
-        ),
-        ((SPEED, SPEED, VALUE), "y: got .*, which is x"),
-        ((SPEED, LOAD, "discharge.breakdown"), f"value: got .* nearest is {VALUE}"),
-        (
-            (SPEED, LOAD, "film"),
-            r"value: got 'film'; expected a number of summary.json; nearest is film\.minimum_th",
-        ),
-        (
-            (SPEED, LOAD, VALUE),
-            f"at: missing, {POTENTIAL} varies too; expected {POTENTIAL}=VALUE, one of 1, 4 V",
-        ),
-        ((SPEED, None, VALUE), f"at: missing, {LOAD}, {POTENTIAL} vary too"),
-        (
-            (SPEED, LOAD, VALUE, {POTENTIAL: "9 V"}),
-            f"at: got {POTENTIAL}=9 V; expected a value from 1 to 4 V",
-        ),
-        ((SPEED, LOAD, VALUE, {POTENTIAL: "4 m"}), f"at: {POTENTIAL}: got '4 m' .* expected a number in V"),
-        ((SPEED, LOAD, VALUE, {"electric.potential_1": "4 V"}), f"nearest is {POTENTIAL}"),
-        ((SPEED, LOAD, VALUE, {SPEED: "1 m/s"}), f"at: got {SPEED}, which is x"),
+        (("contact.speed", LOAD, VALUE), "x", ["'contact.speed'", "contact."]),
+        ((SPEED, SPEED, VALUE), "y", [SPEED]),
+        ((SPEED, LOAD, "discharge.breakdown"), "value", [VALUE]),
+        ((SPEED, LOAD, "film"), "value", ["'film'", "film.minimum_th"]),
+        ((SPEED, LOAD, VALUE), "at", [POTENTIAL, "1, 4 V"]),
+        ((SPEED, None, VALUE), "at", [LOAD, POTENTIAL]),
+        ((SPEED, LOAD, VALUE, {POTENTIAL: "9 V"}), "at", [f"{POTENTIAL}=9 V", "1 to 4 V"]),
+        ((SPEED, LOAD, VALUE, {POTENTIAL: "4 m"}), f"at: {POTENTIAL}", ["'4 m'", "in V"]),
+        ((SPEED, LOAD, VALUE, {"electric.potential_1": "4 V"}), "at", [POTENTIAL]),
+        ((SPEED, LOAD, VALUE, {SPEED: "1 m/s"}), "at", [SPEED]),
     ],
 )
-def test_what_cannot_be_drawn_is_refused_in_one_line(arguments, message):
-    with pytest.raises(InputError, match=message) as refused:
+def test_what_cannot_be_drawn_is_refused_in_one_line(arguments, key, names):
+    with pytest.raises(InputError) as refused:
         take(cube(), *arguments)
-    assert "\n" not in str(refused.value)
+    text = str(refused.value)
+    assert text.startswith(f"{key}: ")
+    assert [name for name in names if name not in text] == []
+    assert "\n" not in text
 
 
-@pytest.mark.parametrize(
-    "text", ["9" * 5000, "9" * 299, "9" * 5000 + " m/s", "1 " + "m*" * 3000 + "m", "nan"]
-)
-@pytest.mark.parametrize("key", [SPEED, "grid.nodes"])
+@each("text", ["9" * 5000, "9" * 299, "9" * 5000 + " m/s", "1 " + "m*" * 3000 + "m", "nan"])
+@each("key", [SPEED, "grid.nodes"])
 def test_hostile_values_to_hold_are_refused_in_a_short_line(key, text):
     results = grid({SPEED: (1.0, 2.0), LOAD: (1e6, 2e6), "grid.nodes": (401, 801)})
     with pytest.raises(InputError, match=r"^at: ") as refused:
@@ -218,7 +208,7 @@ def test_points_on_a_line_have_nothing_between_them():
         assert surface_of(taken, log_x=True, log_y=True) is None
 
 
-@pytest.mark.parametrize(
+@each(
     ("values", "log"),
     [((1.0, 2.0, 4.0), True), ((1.0, 2.0, 3.0), False), ((-1.0, 2.0, 9.0), False), ((1.0, 100.0), False)],
 )
@@ -233,45 +223,46 @@ def test_ranges_say_how_their_axes_are():
     assert not spaced_log(results, LOAD, np.array([1.0, 2.0, 4.0]))
 
 
-@pytest.mark.parametrize(
+@each(
     ("key", "values", "label", "text"),
     [
-        (LOAD, [2e5, 2e6], "load per length $w$ [MN/m]", "0.2 MN/m"),
+        (LOAD, [2e5, 2e6], "$w$ [MN/m]", "0.2 MN/m"),
         ("lubricant.pressure_viscosity_coefficient", [15e-9, 22e-9], r"$\alpha$ [1/GPa]", "15 1/GPa"),
-        ("lubricant.viscosity", [0.04], r"viscosity $\eta_0$ [mPa s]", "40 mPa s"),
+        ("lubricant.viscosity", [0.04], r"$\eta_0$ [mPa s]", "40 mPa s"),
         ("lubricant.relative_permittivity", [2.4], r"$\varepsilon_\mathrm{r}$", "2.4"),
-        ("roughness.1.rescale_rq", [3e-8], "roughness.1.rescale_rq [nm]", "30 nm"),
-        ("inputs.contact.reduced_radius", [0.0141], "reduced radius $R$ [mm]", "14.1 mm"),
+        ("roughness.1.rescale_rq", [3e-8], "[nm]", "30 nm"),
+        ("inputs.contact.reduced_radius", [0.0141], "$R$ [mm]", "14.1 mm"),
         (VALUE, [0.05], r"$V_\mathrm{b}$ [mV]", "50 mV"),
         ("film.minimum_thickness", [6.4e-7], r"$h_\mathrm{min}$ [µm]", "0.64 µm"),
         ("field.max_strength", [1.6e7], r"$|E|_\mathrm{max}$ [V/µm]", "16 V/µm"),
         ("hertz.max_pressure", [2e9], r"$p_\mathrm{h}$ [GPa]", "2 GPa"),
         ("discharge.capacitance_hertz", [40e-9], r"$C_\mathrm{H}$ [nF/m]", "40 nF/m"),
-        ("discharge.capacitance_ratio", [1.4], "capacitance / parallel plates", "1.4"),
+        ("discharge.capacitance_ratio", [1.4], "", "1.4"),
         ("discharge.contact_energy", [2e-9], "[nJ]", "2 nJ"),
-        ("discharge.zone_area", [4e-12], "zone that breaks down first [µm²]", "4 µm²"),
-        ("discharge.some_area", [4e-12], "discharge.some_area", "4e-12"),  # no key of a result
+        ("discharge.zone_area", [4e-12], "[µm²]", "4 µm²"),
+        ("discharge.some_area", [4e-12], "", "4e-12"),  # no key of a result
         ("field.max_strength_position.1", [1e-4], "[mm]", "0.1 mm"),
-        ("seconds.film", [12.0], "seconds.film [s]", "12 s"),
-        ("film.nodes", [3201.0], "film.nodes", "3201"),
-        ("discharge.breakdown_energy", [2e-9], r"at breakdown $W_\mathrm{b}$ [nJ]", "2 nJ"),
-        ("discharge.pit_volume", [3e-18], "volume of the pit [µm³]", "3 µm³"),
-        ("discharge.pit_diameter", [2e-6], "diameter of the pit [µm]", "2 µm"),
-        ("discharge.zone_size", [2e-5], "zone that breaks down first [µm]", "20 µm"),
-        ("discharge.zone_position.1", [2e-5], "zone that breaks down first [µm]", "20 µm"),
-        ("discharge.zone_over_half_width", [0.04], "size of the zone / half-width", "0.04"),
-        ("discharge.capacitance", [40e-9], "capacitance of the whole film $C$ [nF/m]", "40 nF/m"),
+        ("seconds.film", [12.0], "[s]", "12 s"),
+        ("film.nodes", [3201.0], "", "3201"),
+        ("discharge.breakdown_energy", [2e-9], r"$W_\mathrm{b}$ [nJ]", "2 nJ"),
+        ("discharge.pit_volume", [3e-18], "[µm³]", "3 µm³"),
+        ("discharge.pit_diameter", [2e-6], "[µm]", "2 µm"),
+        ("discharge.zone_size", [2e-5], "[µm]", "20 µm"),
+        ("discharge.zone_position.1", [2e-5], "[µm]", "20 µm"),
+        ("discharge.zone_over_half_width", [0.04], "", "0.04"),
+        ("discharge.capacitance", [40e-9], "$C$ [nF/m]", "40 nF/m"),
         ("discharge.capacitance_plate", [30e-9], "A_\\mathrm{H}/h(0)$ [nF/m]", "30 nF/m"),
-        ("discharge.current_density", [3e5], "apparent current density $J$ [A/mm²]", "0.3 A/mm²"),
+        ("discharge.current_density", [3e5], "$J$ [A/mm²]", "0.3 A/mm²"),
         ("discharge.corner_frequency", [7.5], r"$f_\mathrm{c}$ [Hz]", "7.5 Hz"),
-        ("discharge.outlet", [], "what fills the outlet", None),
-        ("roughness.combined.ra", [3e-9], "roughness.combined.ra [nm]", "3 nm"),
+        ("discharge.outlet", [], "", None),
+        ("roughness.combined.ra", [3e-9], "[nm]", "3 nm"),
     ],
 )
 def test_labels_have_the_unit_that_suits(key, values, label, text):
     found = label_of(key, case())
     scale = found.scaled(np.array(values))
     assert found.axis(scale).endswith(label)
+    assert ("[" in found.axis(scale)) == ("[" in label)
     assert text is None or scale.text(values[0]) == text
 
 

@@ -14,6 +14,7 @@ from ehlectric.sweep.plan import Outcome, case_key, plan
 from ehlectric.sweep.results import Range
 from ehlectric.sweep.store import NAME, Store
 from ehlectric.version import __version__
+from tests.helpers.each import each
 from tests.helpers.sweeps import CASE, LOAD, NODES, PRESSURE, SPEED, TABLE, speeds, sweep_over
 
 FOUND = Outcome("solved", summary={"title": "of another", "film": {"minimum_thickness": 1e-7}}, seconds=0.5)
@@ -188,7 +189,7 @@ def refused_by_both(folder, message):
         assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("content", [b"number,status\n" * 100, b"\x00" * 4096, b"SQLite format 3\x00" * 99])
+@each("content", [b"number,status\n" * 100, b"\x00" * 4096, b"SQLite format 3\x00" * 99])
 def test_files_that_are_no_database(tmp_path, content):
     (tmp_path / NAME).write_bytes(content)
     refused_by_both(tmp_path, r"sweep\.sqlite: is not a sweep of ehlectric")
@@ -210,16 +211,15 @@ def test_sweeps_of_a_later_version(tmp_path):
     refused_by_both(tmp_path, r"sweep\.sqlite: is of a later version of ehlectric$")
 
 
-@pytest.mark.parametrize(
-    "statement", ["DELETE FROM sweep", "UPDATE points SET inputs = '{'", "DROP TABLE results"]
-)
-def test_damage_within(tmp_path, statement):
-    begun(tmp_path, speeds(2), [FOUND])
-    with sqlite3.connect(tmp_path / NAME) as file:
+@each("statement", ["DELETE FROM sweep", "UPDATE points SET inputs = '{'", "DROP TABLE results"])
+def test_damage_within(tmp_path_factory, statement):
+    folder = tmp_path_factory.mktemp("damaged")
+    begun(folder, speeds(2), [FOUND])
+    with sqlite3.connect(folder / NAME) as file:
         file.execute(statement)
     file.close()
     with pytest.raises(InputError, match=r"sweep\.sqlite: is damaged: "):
-        read_sweep(tmp_path)
+        read_sweep(folder)
 
 
 def test_damaged_pages(tmp_path):

@@ -19,6 +19,7 @@ from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.results import figure, figure_names
 from ehlectric.report.light import light_of
 from ehlectric.tables.contact import result_rows
+from tests.helpers.each import each
 from tests.unit.contact.spots.cases import LINE, POINT, solved
 
 BOTH = pytest.mark.parametrize("geometry", ["line", "point"])
@@ -144,8 +145,8 @@ def test_a_share_that_depends_on_the_grid_is_told():
         assert codes(coarser) == ["asperities-touch", "load-share-unresolved"]
 
 
-@pytest.mark.parametrize(
-    ("share", "coarser", "text"),
+@each(
+    "share, coarser, text",
     [
         (0.23691, 0.2369, "23.7"),
         (0.23691, 0.22, "24"),

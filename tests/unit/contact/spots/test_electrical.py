@@ -18,6 +18,7 @@ from ehlectric.contact.spots.electrical import (
 )
 from ehlectric.contact.spots.mechanics import spots_of
 from ehlectric.contact.spots.patches import Spots
+from tests.helpers.each import each
 from tests.unit.contact.spots.cases import POINT, solved
 
 RHO = 2.2e-7
@@ -70,8 +71,8 @@ def test_time_share_is_that_of_sites_that_touch_at_random():
     assert time_share(2, 1e-9) == pytest.approx(1.0 - np.exp(-2.0))
 
 
-@pytest.mark.parametrize(
-    ("spots", "always", "ratio", "error", "expected"),
+@each(
+    "spots, always, ratio, error, expected",
     [
         (0, 0.0, None, None, "capacitive"),
         (9, 1.0, 0.09, 0.1, "capacitive"),

@@ -4,22 +4,17 @@ import numpy as np
 import pytest
 
 from ehlectric.figures.contact.cuts import Cut, cuts, field_sections, film_cut
+from tests.helpers.each import each
 from tests.helpers.point_pages import KINDS, drawn, result_of
 
-
-@pytest.fixture(params=KINDS)
-def kind(request):
-    return request.param
-
-
-@pytest.fixture
-def result(kind):
-    return result_of(kind)
+EVERY_KIND = pytest.mark.parametrize("kind", KINDS)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("along", ["x", "y"])
-def test_cuts_are_of_the_result(result, kind, along):
+@EVERY_KIND
+def test_cuts_are_of_the_result(kind, along):
+    result = result_of(kind)
     film, field, b = result.film, result.field, result.conditions.semi_axis_x
     axis = 0 if along == "x" else 1
 
@@ -63,7 +58,9 @@ def test_smooth_films_are_dotted_beside_rough_ones():
 
 
 @pytest.mark.slow
-def test_lines_are_named_by_where_they_are(result, kind):
+@EVERY_KIND
+def test_lines_are_named_by_where_they_are(kind):
+    result = result_of(kind)
     b, (x, y) = result.conditions.semi_axis_x, result.film.minimum_position
     for ax, axis, position in zip(drawn(kind, cuts).figure.axes, "yx", (y, x), strict=False):
         _, centre, least = (text.get_text() for text in ax.get_legend().get_texts())
@@ -82,9 +79,11 @@ def test_cuts_pass_at_the_nearest_node():
         np.testing.assert_allclose(cut.of(values), line)
 
 
-@pytest.mark.parametrize("along", ["x", "y"])
-def test_sections_are_as_high_as_the_film(result, kind, along):
+@each("along", ["x", "y"])
+@each("kind", KINDS)
+def test_sections_are_as_high_as_the_film(kind, along):
     """And smooth walls lie alike above and below, however far the film of unequal bodies is bent."""
+    result = result_of(kind)
     field, b = result.field, result.conditions.semi_axis_x
     lower, upper = drawn(kind, field_sections).figure.axes["xy".index(along)].lines
     x, y = field.max_strength_position

@@ -28,6 +28,7 @@ from ehlectric.figures.contact.point import (
 )
 from ehlectric.figures.names import ALL_FIGURES, POINT_FIGURE_FILES
 from ehlectric.figures.style import OUT_OF_RANGE
+from tests.helpers.each import each
 from tests.helpers.point_pages import KINDS, PIT, drawn, on_page, pages, result_of, solved
 from tests.helpers.titles import title_of
 
@@ -36,14 +37,7 @@ UNITS = {"[nm]": 1e9, "[GPa]": 1e-9, "[V/µm]": 1e-6, "[GV/m]": 1e-9}
 MAPS = [film_map, pressure_map, field_map]
 
 
-@pytest.fixture(params=KINDS)
-def kind(request):
-    return request.param
-
-
-@pytest.fixture
-def result(kind):
-    return result_of(kind)
+EVERY_KIND = each("kind", KINDS)
 
 
 def bars(ax):
@@ -57,14 +51,15 @@ def test_the_kinds_are_what_they_are_called():
     assert ratios == pytest.approx([1.0, 9.3, 0.144, 9.3, 1.0], rel=0.01)
 
 
-@pytest.mark.parametrize(
-    ("draw", "part", "values", "label"),
+@each(
+    "draw, part, values, label",
     [
         (film_map, "film", "thickness", "film thickness $h$ [nm], thicker: grey"),
         (pressure_map, "film", "pressure", "pressure $p$ [GPa]"),
         (field_map, "field", "middle_strength", "field strength $|E|$, mid-film [V/µm]"),
     ],
 )
+@EVERY_KIND
 def test_maps_are_of_the_result_to_scale(kind, draw, part, values, label):
     result = result_of(kind)
     of = getattr(result, part)
@@ -102,6 +97,7 @@ def at_nodes(result, mesh, of):
     return np.ix_(*nodes), values[np.ix_(*places)]
 
 
+@EVERY_KIND
 def test_films_beyond_the_colours_are_grey(kind):
     """Far from the contact the film is thicker than the colours show, and no colour of the map is grey."""
     mesh = drawn(kind, film_map).collections[0]
@@ -121,8 +117,10 @@ def test_walls_have_maps_of_their_own():
     assert not np.array_equal(field.surface_1_strength, field.surface_2_strength)
 
 
-def test_colours_of_the_film_are_of_the_contact_and_not_of_the_inlet(result, kind):
+@EVERY_KIND
+def test_colours_of_the_film_are_of_the_contact_and_not_of_the_inlet(kind):
     """All but two per cent of the films in the Hertz ellipse are within them, the gap around it is not."""
+    result = result_of(kind)
     low, high = drawn(kind, film_map).collections[0].get_clim()
     x = result.film.x[:, np.newaxis] / result.conditions.semi_axis_x
     y = result.film.y / result.conditions.semi_axis_y
@@ -133,7 +131,9 @@ def test_colours_of_the_film_are_of_the_contact_and_not_of_the_inlet(result, kin
     assert high < 1.3 * np.percentile(inside, 98.0)
 
 
-def test_lines_of_equal_film_are_at_round_steps_within_the_ellipse(result, kind):
+@EVERY_KIND
+def test_lines_of_equal_film_are_at_round_steps_within_the_ellipse(kind):
+    result = result_of(kind)
     ax = drawn(kind, film_map)
     found = [lines for lines in ax.collections if hasattr(lines, "levels")]
     assert bool(found) == (not result.rough)
@@ -148,9 +148,11 @@ def test_lines_of_equal_film_are_at_round_steps_within_the_ellipse(result, kind)
         np.testing.assert_allclose(ticks, lines.levels)
 
 
-@pytest.mark.parametrize("draw", MAPS)
-def test_extremes_are_marked_where_they_are(result, kind, draw):
+@each("draw", MAPS)
+@EVERY_KIND
+def test_extremes_are_marked_where_they_are(kind, draw):
     """With their mirror image beside smooth surfaces, and their value beside them."""
+    result = result_of(kind)
     film, field = result.film, result.field
     position, value = {
         film_map: (film.minimum_position, 1e9 * film.minimum_thickness),
@@ -171,8 +173,10 @@ def test_extremes_are_marked_where_they_are(result, kind, draw):
     assert float(text[1]) * (1e3 if text[2] == "GV/m" else 1.0) == pytest.approx(value, rel=6e-3)
 
 
-@pytest.mark.parametrize("draw", [*MAPS, field_deviation])
-def test_hertz_ellipse_has_the_axes_of_the_dry_contact(result, kind, draw):
+@each("draw", [*MAPS, field_deviation])
+@EVERY_KIND
+def test_hertz_ellipse_has_the_axes_of_the_dry_contact(kind, draw):
+    result = result_of(kind)
     ax = drawn(kind, draw)
     (ellipse,) = ax.patches
     a, b = result.conditions.semi_axis_y, result.conditions.semi_axis_x
@@ -180,8 +184,10 @@ def test_hertz_ellipse_has_the_axes_of_the_dry_contact(result, kind, draw):
     assert tuple(ellipse.center) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("draw", MAPS)
-def test_both_axes_have_one_scale_or_say_so(result, kind, draw):
+@each("draw", MAPS)
+@EVERY_KIND
+def test_both_axes_have_one_scale_or_say_so(kind, draw):
+    result = result_of(kind)
     ax = drawn(kind, draw)
     scale = ax.get_aspect()
     assert ("scale" in ax.get_ylabel()) == (scale != 1.0)
@@ -194,9 +200,11 @@ def test_both_axes_have_one_scale_or_say_so(result, kind, draw):
     assert ax.get_xlabel().endswith(f"($b$ = {1e6 * result.conditions.semi_axis_x:.4g} µm)")
 
 
-@pytest.mark.parametrize("draw", MAPS)
-def test_arrow_points_along_entrainment(result, kind, draw):
+@each("draw", MAPS)
+@EVERY_KIND
+def test_arrow_points_along_entrainment(kind, draw):
     """From the inlet to the outlet, as x grows on the page."""
+    result = result_of(kind)
     ax = drawn(kind, draw)
     (arrow,) = (text for text in ax.texts if getattr(text, "arrow_patch", None))
     tail = ax.transData.inverted().transform(arrow.anncoords.transform(arrow.xyann))
@@ -250,7 +258,9 @@ def test_zone_of_high_field_is_that_of_the_summary(kind):
     assert area == pytest.approx(field.high_field_area, rel=0.1)
 
 
-def test_deviations_are_those_of_all_three_sections(result, kind):
+@EVERY_KIND
+def test_deviations_are_those_of_all_three_sections(kind):
+    result = result_of(kind)
     field, first = result.field, drawn(kind, field_deviation)
     panels = [ax for ax in first.figure.axes if ax.texts]
     names = [ax.texts[0].get_text() for ax in panels]
@@ -293,14 +303,16 @@ def test_roughness_without_the_smooth_contact():
     assert film_cut(result).get_legend() is None
 
 
-def test_figures_by_their_files(result):
+@EVERY_KIND
+def test_figures_by_their_files(kind):
+    result = result_of(kind)
     names = list(point_figures_of(result))
     assert names == [*POINT_FIGURE_FILES, *(["roughness.png"] if result.rough else [])]
     assert set(names) <= set(ALL_FIGURES)
     assert len(set(ALL_FIGURES)) == len(ALL_FIGURES)
 
 
-@pytest.mark.parametrize("draw", [*MAPS, pressure_cut, film_cut, field_cut, field_section])
+@each("draw", [*MAPS, pressure_cut, film_cut, field_cut, field_section])
 def test_figures_draw_on_given_axes(draw):
     ax = Figure().subplots()
     assert draw(result_of("circle"), ax) is ax
@@ -316,8 +328,9 @@ def test_panels_draw_on_given_axes():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["across", "along", "gaussian"])
-def test_nothing_is_cut_or_written_over(result, kind):
+def test_nothing_is_cut_or_written_over(kind):
     """All is on the page, nothing is over the title, and no legend is over its axes."""
+    result = result_of(kind)
     for name, figure in pages(kind).items():
         if kind != "gaussian" and name in ("cuts.png", "field_sections.png"):
             continue  # their page is the same for every contact

@@ -1,4 +1,4 @@
-"""Contacts and temperature profiles for the tests of sheared films."""
+"""Contacts, temperature profiles and traction for the tests of sheared films, and for a figure of the guide."""
 
 from dataclasses import dataclass, replace
 
@@ -7,9 +7,11 @@ import numpy as np
 from ehlectric.film.deflection import point_geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, Width
+from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.profile import Across, Properties, on_mesh
+from ehlectric.film.sheared.traction import filled_part, traction
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
 
@@ -101,3 +103,24 @@ class Warm:
             density * part,
             density_p * part + density * 0.005 * temperature,
         )
+
+
+def solved(problem):
+    """Solution on the grid of the problem, which must converge."""
+    solution = nested_iteration(problem, None)[-1]
+    assert solution.status == "converged"
+    return solution
+
+
+def friction(problem, solution):
+    """Traction of a solved contact, with the cavitated film behind it."""
+    law, state, level = problem.fluid.flow, solution.state, solution.level
+    columns = law.columns(problem.fluid, state.pressure, state.thickness, level.mesh)
+    return traction(
+        columns,
+        state.thickness,
+        level.mesh,
+        load=level.load,
+        stress_ratio=law.stress_scale / law.pressure_scale,
+        filled=filled_part(solution.final.full_film, columns.density.mean(axis=0) * state.thickness),
+    )

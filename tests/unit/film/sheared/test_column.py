@@ -13,6 +13,7 @@ from ehlectric.film.sheared.faces import flux_of as flux_of_faces
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.plane import middle_stresses, plane_flux
 from ehlectric.film.sheared.profile import Across, Quadrature, to_points
+from tests.helpers.each import each
 
 EYRING = Rheology("eyring", {"eyring_stress": 1.0})
 CARREAU = Rheology("carreau", {"carreau_stress": 1.0, "carreau_exponent": 0.5})
@@ -52,8 +53,8 @@ def test_couette_flow_has_the_stress_of_eyring():
     np.testing.assert_allclose(found, np.arcsinh(slip / fluidity), rtol=1e-13)
 
 
-@pytest.mark.parametrize("gradient", [1e-3, 0.2, 1.0, 10.0, 60.0, 100.0])
-@pytest.mark.parametrize("slip", [0.0, 1e-3, 1.0, 1e3])
+@each("gradient", [1e-3, 0.2, 1.0, 10.0, 60.0, 100.0])
+@each("slip", [0.0, 1e-3, 1.0, 1e3])
 def test_quadrature_gives_the_closed_form_of_eyring(gradient, slip):
     """The closed form and the Gauss points agree in the flux and its derivatives."""
     fluidity, gradient, slip = np.array([0.7]), np.array([gradient]), np.array([slip])
@@ -230,8 +231,8 @@ def test_derivatives_of_a_plane(seed, law):
     )
 
 
-@pytest.mark.parametrize("slip", [0.0, 0.1, 3.0, 300.0])
-@pytest.mark.parametrize(("law", "error"), [(EYRING, 1e-9), (CARREAU, 1e-6)], ids=["eyring", "carreau"])
+@each("slip", [0.0, 0.1, 3.0, 300.0])
+@each("law, error", [(EYRING, 1e-9), (CARREAU, 1e-6)])
 def test_few_points_suffice_for_small_gradients(law, error, slip):
     """Columns with stress differences below 2 and a hot film have the flux of many points."""
     gradient = np.array([[1.9, -1.999, 0.01], [1.0, 1.5, 0.3]])

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from ehlectric.film import reynolds
 from ehlectric.film.flow import flow, mean_fluidity
@@ -11,6 +10,7 @@ from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.laws import Rheology
 from ehlectric.film.sheared.profile import Across, on_mesh
+from tests.helpers.each import each
 from tests.unit.film.sheared.contacts import Warm, fluid_of
 
 LAWS = [
@@ -58,16 +58,16 @@ def check_jacobian(fluid, mesh, seed=3):
         np.testing.assert_allclose(stencil(change), expected, rtol=1e-6, atol=1e-6 * np.max(np.abs(expected)))
 
 
-@pytest.mark.parametrize("warm", [False, True], ids=["uniform", "warm"])
-@pytest.mark.parametrize("rheology", LAWS, ids=lambda law: law.name)
+@each("warm", [False, True])
+@each("rheology", LAWS, ids=lambda law: law.name)
 def test_derivatives_of_a_line(rheology, warm):
     """The Jacobian is the derivative of the residual, through P, H, the properties and the shear."""
     mesh = Mesh.over(20, -2.0, 1.0)
     check_jacobian(sheared(rheology, mesh, warm=warm), mesh)
 
 
-@pytest.mark.parametrize("warm", [False, True], ids=["uniform", "warm"])
-@pytest.mark.parametrize("rheology", [LAWS[0], LAWS[3]], ids=lambda law: law.name)
+@each("warm", [False, True])
+@each("rheology", [LAWS[0], LAWS[3]], ids=lambda law: law.name)
 def test_derivatives_of_a_point(rheology, warm):
     """Laws whose flux does not depend on the gradient along the other axis have the exact Jacobian."""
     mesh = Mesh.over(12, -2.0, 1.0, Width(11, 2.0))
@@ -75,8 +75,8 @@ def test_derivatives_of_a_point(rheology, warm):
     check_jacobian(sheared(rheology, mesh, warm=warm), mesh)
 
 
-@pytest.mark.parametrize("warm", [False, True], ids=["uniform", "warm"])
-@pytest.mark.parametrize("symmetric", [False, True])
+@each("warm", [False, True])
+@each("symmetric", [False, True])
 def test_derivatives_of_a_point_whose_pressure_rises_along_one_axis(symmetric, warm):
     """Without a gradient along the other axis the derivatives by it vanish, and the Jacobian is exact.
 
@@ -96,8 +96,8 @@ def test_derivatives_of_a_point_whose_pressure_rises_along_one_axis(symmetric, w
         np.testing.assert_allclose(stencil(change), expected, rtol=1e-6, atol=1e-6 * np.max(np.abs(expected)))
 
 
-@pytest.mark.parametrize("width", [None, Width(9, 2.0)], ids=["line", "point"])
-@pytest.mark.parametrize(
+@each("width", [None, Width(9, 2.0)])
+@each(
     "rheology",
     [
         Rheology(),
@@ -127,8 +127,8 @@ def test_large_stresses_give_the_newtonian_flux(rheology, width):
             np.testing.assert_allclose(sides.after, others.after, rtol=1e-9, atol=1e-10 * scale)
 
 
-@pytest.mark.parametrize("width", [None, Width(9, 2.0)], ids=["line", "point"])
-@pytest.mark.parametrize("rheology", LAWS, ids=lambda law: law.name)
+@each("width", [None, Width(9, 2.0)])
+@each("rheology", LAWS, ids=lambda law: law.name)
 def test_uniform_profile_is_no_profile(rheology, width):
     """At the reference temperature across the film the flux is that without a profile."""
     mesh = Mesh.over(15, -2.0, 1.0, width)
@@ -143,7 +143,7 @@ def test_uniform_profile_is_no_profile(rheology, width):
     np.testing.assert_allclose(with_it.along.conductance, without.along.conductance, rtol=1e-9)
 
 
-@pytest.mark.parametrize("rheology", LAWS, ids=lambda law: law.name)
+@each("rheology", LAWS, ids=lambda law: law.name)
 def test_reversed_slip_mirrors_the_stress(rheology):
     """The film of equal surfaces does not change; stress and speed are those of the other surface."""
     mesh = Mesh.over(15, -2.0, 1.0, Width(9, 2.0))
@@ -157,7 +157,7 @@ def test_reversed_slip_mirrors_the_stress(rheology):
     np.testing.assert_allclose(second.heating, first.heating[::-1], rtol=1e-9, atol=1e-15)
 
 
-@pytest.mark.parametrize("rheology", LAWS, ids=lambda law: law.name)
+@each("rheology", LAWS, ids=lambda law: law.name)
 def test_columns_carry_the_flux_between_the_surfaces(rheology):
     """Both surfaces have their speeds, and Int rho u dz is rho_e H less the flux of a uniform gradient."""
     mesh = Mesh.over(9, -2.0, 1.0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film.sheared.laws import RHEOLOGY, Rheology
+from tests.helpers.each import each
 
 CONSTANTS = {
     "newtonian": {},
@@ -13,9 +14,7 @@ CONSTANTS = {
 }
 
 
-@pytest.fixture(params=list(RHEOLOGY))
-def rheology(request):
-    return Rheology(request.param, CONSTANTS[request.param])
+LAWS = each("rheology", [Rheology(name, CONSTANTS[name]) for name in RHEOLOGY], ids=lambda law: law.name)
 
 
 def reduced_rate(rheology, r):
@@ -24,11 +23,13 @@ def reduced_rate(rheology, r):
     return r * factor
 
 
+@LAWS
 def test_small_stresses_are_newtonian(rheology):
     r = np.array([0.0, 1e-5])
     np.testing.assert_allclose(reduced_rate(rheology, r), r, rtol=1e-9)
 
 
+@LAWS
 def test_derivative_of_the_factor_by_the_square(rheology):
     """Central differences, on both sides of the change of formula at r = 0.1."""
     squared = np.array([1e-3, 0.009, 0.011, 0.3, 0.8, 4.0, 30.0])
@@ -40,11 +41,13 @@ def test_derivative_of_the_factor_by_the_square(rheology):
     np.testing.assert_allclose(slope, (upper - lower) / (2.0 * step), rtol=1e-6, atol=1e-8)
 
 
+@LAWS
 def test_rate_rises_with_stress(rheology):
     r = np.linspace(0.0, 0.99 if rheology.name == "limiting" else 3.0, 2001)
     assert np.all(np.diff(reduced_rate(rheology, r)) > 0.0)
 
 
+@LAWS
 def test_stress_of_a_rate_is_the_inverse_or_above_it(rheology):
     """The bracket of the mid-film stress relies on the bound; Carreau's law in rate is no exact inverse."""
     rate = np.geomspace(1e-6, 1e6, 200)

@@ -1,13 +1,13 @@
 """Derivative and conduction across the film against polynomials."""
 
 import numpy as np
-import pytest
 
 from ehlectric.film.sheared.profile import Across
 from ehlectric.film.thermal.across import conduction, derivative
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("degree", [2, 7, 12, 23])
+@each("degree", [2, 7, 12, 23])
 def test_derivative_of_polynomials(degree):
     zeta = Across.of(degree).zeta
     np.testing.assert_allclose(derivative(degree) @ zeta**degree, degree * zeta ** (degree - 1), atol=1e-9)

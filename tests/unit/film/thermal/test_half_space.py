@@ -5,6 +5,7 @@ import pytest
 
 from ehlectric.film.thermal.half_space import moving_surface
 from ehlectric.film.thermal.physics import Body
+from tests.helpers.each import each
 
 # Steel with a bulk temperature of zero, so that temperatures are rises.
 STEEL = Body(0.0, thermal_conductivity=46.0, heat_capacity=470.0, density=7850.0)
@@ -25,8 +26,8 @@ def band(peclet, cells=400):
     return rise * STEEL.thermal_conductivity / half_width
 
 
-@pytest.mark.parametrize(
-    ("peclet", "largest", "mean"),
+@each(
+    "peclet, largest, mean",
     [
         # Quadrature of Jaeger (1942), Proc. R. Soc. N.S.W. 76, 203, for a uniform band.
         (0.1, 2.20033, 2.06178),
