@@ -13,6 +13,7 @@ from ehlectric.discharge.assessment import assess, discharge_warnings
 from ehlectric.discharge.columns import at_columns
 from ehlectric.field.zones import areas, line_zone_areas, node_areas, part_widths, point_zone_areas
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 from tests.reference.field import near, sinusoidal_wall
 from tests.reference.gaps import line_gap, line_gap_field, point_gap, point_gap_field
 from tests.unit.cases.test_point_case import point
@@ -118,7 +119,7 @@ def test_weibull_of_plates(voltage):
     assert found.breakdown_voltage_high == near(high, 1e-10)
 
 
-@pytest.mark.parametrize("kind", ["dielectric_strength", "pressure", "temperature", "weibull"])
+@each("kind", ["dielectric_strength", "pressure", "temperature", "weibull"])
 def test_twice_the_length(kind):
     """Of a line: twice the energy of the contact, half the current density, the breakdown voltage of a
     constant strength the same, that of Weibull's law lower by 2^(1/m).

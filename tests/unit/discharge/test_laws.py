@@ -16,6 +16,7 @@ from ehlectric.discharge.laws import (
     stored_energy,
 )
 from ehlectric.field.zones import part_widths
+from tests.helpers.each import each
 from tests.reference.field import near
 
 
@@ -30,7 +31,7 @@ def test_breakdown_is_where_the_strength_is_used_most():
     assert breakdown_voltage(2.0, strength, withstood) == near(4.8, 1e-15)
 
 
-@pytest.mark.parametrize("shape", [0.5, 1.0, 5.0, 200.0])
+@each("shape", [0.5, 1.0, 5.0, 200.0])
 def test_uniform_film(shape):
     """P = 1 - exp(-(V/(h E0))^m A/A0), with plates 1 um apart, 10 V/um and three reference areas."""
     gap, scale, reference_area = 1e-6, 10e6, 2e-9

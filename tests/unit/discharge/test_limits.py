@@ -7,6 +7,7 @@ import pytest
 from ehlectric import Case, solve
 from ehlectric.cases.discharge import Discharge
 from ehlectric.discharge.limits import MOST_OF_LIQUIDS, field_warnings, strength_warnings
+from tests.helpers.each import each
 
 LINE = {
     "contact": {
@@ -40,8 +41,8 @@ def test_fields(field, count):
     assert [one.code for one in found] == count * ["field-above-insulators"]
 
 
-@pytest.mark.parametrize(
-    ("strength", "count"),
+@each(
+    "strength, count",
     [
         ({"dielectric_strength": "999 V/um"}, 0),
         ({"dielectric_strength": "1001 V/um"}, 1),

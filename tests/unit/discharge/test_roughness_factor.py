@@ -8,12 +8,18 @@ from scipy.stats import norm
 
 from ehlectric.discharge.roughness_factor import LEAST_RATIO, TOUCHING, roughness_factor, touching_share
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0, 3.0, 6.0, 12.0])
-def test_factor_is_the_mean_over_a_gaussian_gap(ratio):
-    # Heights at equal steps of probability, that is the quantiles of the distribution.
-    gap = ratio + norm.ppf((np.arange(2_000_000) + 0.5) / 2_000_000)
+@pytest.fixture(scope="module")
+def heights():
+    """Heights at equal steps of probability, that is the quantiles of the distribution."""
+    return norm.ppf((np.arange(2_000_000) + 0.5) / 2_000_000)
+
+
+@each("ratio", [0.5, 1.0, 2.0, 3.0, 6.0, 12.0])
+def test_factor_is_the_mean_over_a_gaussian_gap(heights, ratio):
+    gap = ratio + heights
     rough = np.mean(np.where(gap > TOUCHING, ratio / np.where(gap > TOUCHING, gap, 1.0), 0.0))
     assert float(roughness_factor(ratio)) == pytest.approx(rough, rel=2e-5)
     assert float(touching_share(ratio)) == pytest.approx(np.mean(gap < TOUCHING), abs=1e-6)
@@ -38,8 +44,8 @@ def test_what_counts_as_touching_matters_little_above_the_least_ratio():
     assert (low - high)[1] < 0.15
 
 
-@pytest.mark.parametrize(
-    ("ratio", "touching", "key"),
+@each(
+    "ratio, touching, key",
     [(0.0, 0.05, "film_ratio"), (np.nan, 0.05, "film_ratio"), (2.0, 0.0, "touching"), (2.0, 1.0, "touching")],
 )
 def test_ratios_without_a_meaning_are_refused(ratio, touching, key):

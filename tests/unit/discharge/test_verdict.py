@@ -10,6 +10,7 @@ from ehlectric.discharge.breakdown import Breakdown
 from ehlectric.discharge.verdict import contact_verdict, ratio_text, weibull_part
 from ehlectric.errors import ResultWarning
 from ehlectric.runtime.stored_warnings import code_of_text
+from tests.helpers.each import each
 
 CONSTANT = Discharge.from_dict({"dielectric_strength": "15 V/um"})
 WEIBULL = {"scale": "15 V/um", "shape": 10, "reference_area": "1 mm^2"}
@@ -51,8 +52,8 @@ def test_words_of_a_contact_that_holds_its_voltage():
     assert thin.endswith("(margin 1.30). Dielectric strength 15 V/µm is an assumption.")
 
 
-@pytest.mark.parametrize(
-    ("margin", "error", "level", "lead"),
+@each(
+    "margin, error, level, lead",
     [
         (1.25, 0.0, "green", "No breakdown expected"),
         (0.8, 0.0, "red", "Breakdown expected"),
@@ -113,7 +114,7 @@ def test_numbers_that_must_not_be_used_have_no_verdict(code):
         assert found.text.startswith("No verdict: the numbers must not be used.")
 
 
-@pytest.mark.parametrize(
+@each(
     "code",
     ["surfaces-touch", "tunnelling", "error-unknown", "field-range-too-narrow", "estimated-alpha"],
 )

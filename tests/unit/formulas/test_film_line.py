@@ -7,6 +7,7 @@ import pytest
 
 from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas.film_line import LineContact
+from tests.helpers.each import each
 
 PAPER = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9)
 
@@ -36,8 +37,8 @@ def contact_of(moes_m, moes_l):
 
 
 # The four limits of the formula; 3/M is exact, the film of zero pressure gradient of Martin's contact.
-@pytest.mark.parametrize(
-    ("moes_m", "moes_l", "expected", "regime"),
+@each(
+    "moes_m, moes_l, expected, regime",
     [
         (1e-3, 0.0, 3e3, "isoviscous-rigid"),
         (1e4, 0.0, 2.621 * 1e4**-0.2, "isoviscous-elastic"),

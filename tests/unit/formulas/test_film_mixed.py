@@ -14,6 +14,7 @@ from ehlectric.formulas.film_mixed import (
     masjedi_khonsari_point,
 )
 from ehlectric.formulas.film_point import PointContact, hamrock_dowson
+from tests.helpers.each import each
 
 RADIUS, MODULUS, G = 10e-3, 226e9, 4500.0
 
@@ -44,8 +45,8 @@ def share_at(formula, contact, lam, v):
     return formula(contact, bodies(float(np.exp(root)), v)).asperity_share
 
 
-@pytest.mark.parametrize("w", [1e-6, 2e-6, 5e-6])
-@pytest.mark.parametrize("u", [1e-12, 1e-11, 1e-10])
+@each("w", [1e-6, 2e-6, 5e-6])
+@each("u", [1e-12, 1e-11, 1e-10])
 def test_smooth_circle_is_that_of_hamrock_and_dowson(w, u):
     found = masjedi_khonsari_point(point(w, u), bodies(0.0))
     reference = hamrock_dowson(point(w, u)).central_thickness
@@ -69,8 +70,8 @@ def test_smooth_ellipse(ratio):
     assert found == pytest.approx(hamrock_dowson(point(2e-6, 1e-11, ratio)).central_thickness, rel=0.15)
 
 
-@pytest.mark.parametrize("w", [5e-5, 1e-4, 5e-4])
-@pytest.mark.parametrize("u", [1e-12, 1e-11, 1e-10])
+@each("w", [5e-5, 1e-4, 5e-4])
+@each("u", [1e-12, 1e-11, 1e-10])
 def test_smooth_line_is_that_of_pan_and_hamrock(w, u):
     found, reference = masjedi_khonsari_line(line(w, u), bodies(0.0)), pan_hamrock(line(w, u))
     assert found.central_thickness == pytest.approx(reference.central_thickness, rel=0.12)

@@ -10,6 +10,7 @@ from ehlectric.formulas import film_point as point_formulas
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import FORMULAS, PointContact
 from ehlectric.formulas.hertz_point import dry_contact
+from tests.helpers.each import each
 from tests.reference.rigid_point import rigid_load
 
 BALL = PointContact(10e-3, 10e-3, 226e9, 20.0, 2.0, 0.04, 22e-9)
@@ -64,7 +65,7 @@ def test_ball_on_plane():
     assert film.central_thickness == pytest.approx(0.438e-6, abs=5e-10)
 
 
-@pytest.mark.parametrize("ratio", [1.0, 3.0, 10.0, 30.0])
+@each("ratio", [1.0, 3.0, 10.0, 30.0])
 def test_fits_to_the_same_theory_agree(ratio):
     """Three groups of authors, solving the same equations: within 15 % from circle to long ellipse."""
     contact = dataclasses.replace(BALL, radius_y=10e-3 * ratio)
@@ -114,8 +115,8 @@ def test_rigid_solution_lies_above_kapitzas():
         assert kapitza < rigid_load(d) < 2.447 / 2.0 * kapitza
 
 
-@pytest.mark.parametrize(
-    ("moes_m", "moes_l", "regime"),
+@each(
+    "moes_m, moes_l, regime",
     [
         (1.0, 0.0, "isoviscous-rigid"),
         (1e5, 0.0, "isoviscous-elastic"),

@@ -16,6 +16,7 @@ from ehlectric.formulas.hertz_point import (
     point_load,
     point_pressure,
 )
+from tests.helpers.each import each
 
 E = 226e9
 ratios = st.floats(1e-3, 1e3)
@@ -33,7 +34,7 @@ def test_circle_by_hand():
     assert contact.approach == pytest.approx(a**2 / 0.01, rel=1e-13, abs=0.0)
 
 
-@pytest.mark.parametrize("radii_ratio", [1e-4, 1e-3, 0.03, 0.5, 0.999, 1.001, 2.0, 30.0, 1e3, 1e5])
+@each("radii_ratio", [1e-4, 1e-3, 0.03, 0.5, 0.999, 1.001, 2.0, 30.0, 1e3, 1e5])
 def test_johnsons_closed_forms(radii_ratio):
     """Johnson, eqs. (4.26) to (4.28): long semi-axis a, short b, E* = E'/2, e^2 = 1 - (b/a)^2."""
     contact = dry_contact(20.0, 0.01, 0.01 * radii_ratio, E)
@@ -83,7 +84,7 @@ def test_deflection_and_parabola_add_up_to_the_approach(axes):
         assert abs(gap) < 1e-6 * contact.approach
 
 
-@pytest.mark.parametrize("radii_ratio", [1.0, 3.0, 10.0, 30.0])
+@each("radii_ratio", [1.0, 3.0, 10.0, 30.0])
 def test_hamrock_and_brewes_fit(radii_ratio):
     """k = (Ry/Rx)^(2/pi), good to a few percent; J. Lubr. Technol. 105 (1983) 171-177."""
     assert axis_ratio(1.0, radii_ratio) == pytest.approx(radii_ratio ** (2 / np.pi), rel=0.05, abs=0.0)
@@ -125,7 +126,7 @@ def test_axes_may_be_swapped(ratio):
     )
 
 
-@pytest.mark.parametrize("small", [1e-16, 1e-12, 1e-9, 0.9e-6, 1.1e-6, 1e-4])
+@each("small", [1e-16, 1e-12, 1e-9, 0.9e-6, 1.1e-6, 1e-4])
 def test_no_step_at_the_circle(small):
     """Near the circle k = (Ry/Rx)^(2/3), to second order in the logarithm (Johnson, section 4.2)."""
     for sign in (-1.0, 1.0):

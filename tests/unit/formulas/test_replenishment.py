@@ -16,14 +16,15 @@ from ehlectric.formulas.replenishment import (
     replenishment_factor,
 )
 from ehlectric.lubricant.density import dowson_higginson
+from tests.helpers.each import each
 
 SIZE = {"bore": 0.04, "outer_diameter": 0.08}
 BALL = {"kind": "deep-groove ball", **SIZE}
 RPM = math.pi / 30.0
 
 
-@pytest.mark.parametrize(
-    ("viscosity", "rpm", "bath", "grease"),
+@each(
+    "viscosity, rpm, bath, grease",
     [
         (46.0, 1000.0, 0.97, 0.94),
         (46.0, 15000.0, 0.61, 0.38),
@@ -103,7 +104,7 @@ def test_decay_of_grease_between_ball_and_disc():
     assert float(decayed_thickness(90e-9, 1020.0, rate)) == pytest.approx(22.8e-9, rel=3e-3)
 
 
-@pytest.mark.parametrize(("ratio", "time"), [(1, 9.44), (2, 37.7), (10, 944.0), (50, 23591.0)])
+@each("ratio, time", [(1, 9.44), (2, 37.7), (10, 944.0), (50, 23591.0)])
 def test_decay_over_the_ratio_of_the_semi_axes(ratio, time):
     """From 310 to 125 nm at 0.22 GPa, by the same author; times go with the square of the ratio."""
     rate = grease(0.22e9, 39.2e-6, ratio, 0.045 + 0.00391)

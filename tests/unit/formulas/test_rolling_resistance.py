@@ -12,6 +12,7 @@ from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
 from ehlectric.formulas.hertz_point import axis_ratio
 from ehlectric.formulas.rolling_resistance import line_rolling_force, point_rolling_force
+from tests.helpers.each import each
 
 MODULUS, RADIUS, VISCOSITY = 226e9, 0.01, 0.02
 
@@ -31,8 +32,8 @@ def point(parameter, across):
     return PointContact(RADIUS, radius_y, MODULUS, 1.0, speed_of(parameter), VISCOSITY, 0.0)
 
 
-@pytest.mark.parametrize("parameter", [1e-12, 1e-11, 1e-10])
-@pytest.mark.parametrize("load", [1e-4, 5e-4])
+@each("parameter", [1e-12, 1e-11, 1e-10])
+@each("load", [1e-4, 5e-4])
 def test_heavy_line_contacts_have_the_printed_force(parameter, load):
     """Part 1 prints 8.26e-9 (U/1e-11)^0.75 E' R for every heavy load, and the constant 1.47 before U^0.75."""
     force = line_rolling_force(line(parameter), load * MODULUS * RADIUS) / (MODULUS * RADIUS)
@@ -55,8 +56,8 @@ def test_heavy_wide_point_contacts_have_the_printed_force(load):
     assert force == pytest.approx(10.9e-9 * (load / 1e-5) ** (1.0 / 3.0), rel=0.01, abs=0.0)
 
 
-@pytest.mark.parametrize("across", [1.0, 3.0, 10.0])
-@pytest.mark.parametrize("load", [1e-8, 1e-5])
+@each("across", [1.0, 3.0, 10.0])
+@each("load", [1e-8, 1e-5])
 def test_point_contacts_by_hand(across, load):
     """Equation (32) with the printed c = 4 E/(pi (1 + Rx/Ry)), and 2 a from the elliptic integral."""
     contact, parameter = point(1e-11, across), 1e-11

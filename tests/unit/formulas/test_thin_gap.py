@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 
 from ehlectric.formulas.thin_gap import charge_density, stretched
+from tests.helpers.each import each
 
 
 def observed_orders(errors, factor):
     return np.log(np.abs(errors[:-1]) / np.abs(errors[1:])) / np.log(factor)
 
 
-@pytest.mark.parametrize("outer", [True, False])
-@pytest.mark.parametrize("dimensions", [2, 3])
+@each("outer", [True, False])
+@each("dimensions", [2, 3])
 def test_concentric_circles_and_spheres(outer, dimensions):
     """The charge is (r/R)/(R - r) on spheres and 1/(R ln(R/r)) on cylinders: what is left is of second order.
 
@@ -27,14 +28,14 @@ def test_concentric_circles_and_spheres(outer, dimensions):
     assert observed_orders(found / exact - 1.0, 2.0) == pytest.approx(np.full(3, 2.0), abs=0.1)
 
 
-@pytest.mark.parametrize("angle", [1e-3, 0.3, 1.0, 1.5])
+@each("angle", [1e-3, 0.3, 1.0, 1.5])
 def test_wedge(angle):
     """Between two planes field lines are arcs: the charge a distance 1 from the apex is 1/angle, exactly."""
     assert charge_density(np.sin(angle), angle, 0.0, 0.0) == pytest.approx(1.0 / angle, rel=1e-14, abs=0.0)
 
 
-@pytest.mark.parametrize("scale", [1e-4, 1e-2, 1.0])
-@pytest.mark.parametrize("ends", [(0.0, 1.0), (-0.4, 1.3), (0.2, 0.9)])
+@each("scale", [1e-4, 1e-2, 1.0])
+@each("ends", [(0.0, 1.0), (-0.4, 1.3), (0.2, 0.9)])
 def test_stretched_nodes(scale, ends):
     """The integrals of 1/(s^2 + x^2) and of its root are atan(x/s)/s and asinh(x/s)."""
     x, weights = stretched(*ends, scale, 100)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from scipy import integrate, special
 
 from ehlectric.formulas.asperities.integrals import greenwood_integral, mean_gap, separation_of_gap
+from tests.helpers.each import each
 
 # Separations and values to the digits printed by an independent program.
 LEVELS = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5]
@@ -25,8 +26,8 @@ def test_printed_digits(order):
     assert sum(a == b for a, b in zip(found, PRINTED[order], strict=True)) >= 7
 
 
-@pytest.mark.parametrize("order", [0.0, 0.01, 0.3, 1.0, 1.5, 2.0, 2.5, 4.0, 7.0])
-@pytest.mark.parametrize("level", [-12.0, -3.0, 0.0, 0.5, 3.5, 8.0, 25.0])
+@each("order", [0.0, 0.01, 0.3, 1.0, 1.5, 2.0, 2.5, 4.0, 7.0])
+@each("level", [-12.0, -3.0, 0.0, 0.5, 3.5, 8.0, 25.0])
 def test_parabolic_cylinder_function(order, level):
     factor = mpmath.gamma(order + 1) / mpmath.sqrt(2 * mpmath.pi) * mpmath.exp(-(mpmath.mpf(level) ** 2) / 4)
     exact = float(factor * mpmath.pcfd(-order - 1, level))
@@ -59,7 +60,7 @@ def test_shape_and_large_arrays():
     assert greenwood_integral(2.5, []).shape == (0,)
 
 
-@pytest.mark.parametrize(("order", "level"), [(-0.1, 0.0), (1.0, -12.1), (1.0, np.nan), (np.nan, 0.0)])
+@each("order, level", [(-0.1, 0.0), (1.0, -12.1), (1.0, np.nan), (np.nan, 0.0)])
 def test_refused(order, level):
     with pytest.raises(ValueError, match="at least"):
         greenwood_integral(order, level)
@@ -84,13 +85,19 @@ def test_no_gap_is_a_thousandth_of_the_roughness():
     assert float(separation_of_gap(0.0, 1.0)) == float(separation_of_gap(1e-3, 1.0))
 
 
-@pytest.mark.parametrize("order", [0.0, 0.5, 1.0, 2.5])
+@pytest.fixture(scope="module")
+def quantiles():
+    """Heights at equal steps of their probability."""
+    return special.ndtri((np.arange(2_000_000) + 0.5) / 2_000_000)
+
+
 @pytest.mark.parametrize("highest", [-1.0, 0.5, 3.0])
-@pytest.mark.parametrize("below", [0.01, 1.0, 5.0])
-def test_worn_summits(order, highest, below):
-    """Heights that are cut to the highest one, at equal steps of their probability."""
+@each("order", [0.0, 0.5, 1.0, 2.5])
+@each("below", [0.01, 1.0, 5.0])
+def test_worn_summits(quantiles, order, highest, below):
+    """Heights that are cut to the highest one."""
     level = highest - below
-    heights = np.minimum(special.ndtri((np.arange(2_000_000) + 0.5) / 2_000_000), highest)
+    heights = np.minimum(quantiles, highest)
     sampled = np.mean(np.where(heights > level, np.maximum(heights - level, 1e-300) ** order, 0.0))
     assert float(greenwood_integral(order, level, highest)) == pytest.approx(sampled, rel=2e-4)
 

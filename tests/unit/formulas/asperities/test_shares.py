@@ -13,6 +13,7 @@ from ehlectric.formulas.asperities.shares import (
     johnson_fit,
     load_shares,
 )
+from tests.helpers.each import each
 
 LAMBDA = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0]
 PRINTED = {
@@ -23,7 +24,7 @@ PRINTED = {
 }
 
 
-@pytest.mark.parametrize("law", LOAD_SHARE)
+@each("law", LOAD_SHARE)
 def test_printed_table(law):
     found = LOAD_SHARE[law].share(LAMBDA)
     # The last printed digit is 0.001, and 0.0001 where the share is smaller.
@@ -41,8 +42,8 @@ def test_share_falls_from_one(law, films):
     assert LOAD_SHARE[law].source
 
 
-@pytest.mark.parametrize("law", LOAD_SHARE)
-@pytest.mark.parametrize("film", [-1e-3, np.nan, [1.0, -1.0]])
+@each("law", LOAD_SHARE)
+@each("film", [-1e-3, np.nan, [1.0, -1.0]])
 def test_no_share_of_a_negative_lambda(law, film):
     with pytest.raises(ValueError, match="lambda"):
         LOAD_SHARE[law].share(film)
