@@ -14,15 +14,6 @@ SOURCE = Path(ehlectric.__file__).parent
 OF_ALL = {SOURCE / "errors.py", SOURCE / "runtime" / "stored_warnings.py"}
 # Codes that only files of other versions give.
 FOREIGN = {"not-usable", "unclassified"}
-# Warnings that say not to use the numbers.
-SEVERE = {
-    "not-converged",
-    "coarser-grid-unsolved",
-    "grid-far-too-coarse",
-    "inlet-far-too-short",
-    "domain-far-too-small",
-    "not-usable",
-}
 
 
 def syntax_trees():
@@ -63,10 +54,9 @@ def test_every_generator_gives_a_known_code():
     assert len(calls) > 40
     given = [call.args[0] for call in calls]
     assert {node.value for node in given if isinstance(node, ast.Constant)} <= set(CODES)
-    # Of a warning and its severe form, of earlier files, and of those that a contact of a bearing, a speed of
-    # a netlist and an end of a drive hand on.
-    others = [ast.unparse(node) for node in given if not isinstance(node, ast.Constant)]
-    assert sorted(others) == ["code"] * 4 + ["warning.code"] * 3
+    # A warning and its severe form, and those that are handed on.
+    others = {ast.unparse(node) for node in given if not isinstance(node, ast.Constant)}
+    assert others <= {"code", "warning.code"}
 
 
 def test_every_code_has_a_sentence():
@@ -78,17 +68,13 @@ def test_every_code_has_a_sentence():
     assert len(set(meanings)) == len(meanings)
 
 
-def test_severe_are_those_that_say_not_to_use_the_numbers():
-    assert {code for code, cause in CODES.items() if cause.severity == "severe"} == SEVERE
+def test_a_warning_reads_as_its_text():
+    warning = ResultWarning("inlet-too-short", "lower grid.inlet")
+    assert (str(warning), f"warning: {warning}") == ("lower grid.inlet", "warning: lower grid.inlet")
     for code, cause in CODES.items():
         assert ResultWarning(code, "text").severity == cause.severity
 
 
-def test_a_warning_reads_as_its_text():
-    warning = ResultWarning("inlet-too-short", "lower grid.inlet")
-    assert (str(warning), f"warning: {warning}") == ("lower grid.inlet", "warning: lower grid.inlet")
-
-
 def test_unknown_codes_are_refused():
-    with pytest.raises(ValueError, match=r"^'inlet' is no code of a warning; expected one of regime, "):
+    with pytest.raises(ValueError, match=r"^'inlet' .*inlet-too-short"):
         ResultWarning("inlet", "lower grid.inlet")

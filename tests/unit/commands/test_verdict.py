@@ -1,31 +1,32 @@
 """Verdicts on the terminal: in colour there, and one plain line for everybody else."""
 
-import pytest
 from rich.console import Console
 
 from ehlectric.commands.terminal import print_verdict
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.tables.bearing import input_range
+from tests.helpers.each import each
 
 TEXT = "No breakdown expected: " + "words " * 30 + "end."
 
 
-@pytest.mark.parametrize("level", ["green", "yellow", "red", "grey"])
+@each("level", ["green", "yellow", "red", "grey"])
 def test_a_file_gets_one_line_without_colours(capsys, level):
     print_verdict(Verdict(level, TEXT))
     assert capsys.readouterr().out == TEXT + "\n"
 
 
-@pytest.mark.parametrize(("level", "code"), [("green", "32"), ("yellow", "33"), ("red", "31"), ("grey", "1")])
+@each(("level", "code"), [("green", "32"), ("yellow", "33"), ("red", "31"), ("grey", "1")])
 def test_a_terminal_gets_the_colour_of_the_level(monkeypatch, level, code):
     """What is handed to ``typer.echo``, which takes colours away where stdout is no terminal."""
     said = []
-    monkeypatch.setattr("typer.echo", lambda text, **_: said.append(text))
-    monkeypatch.setattr(
-        "rich.console.Console",
-        lambda **options: Console(**options, force_terminal=True, color_system="standard", _environ={}),
-    )
-    print_verdict(Verdict(level, TEXT))
+    with monkeypatch.context() as patch:
+        patch.setattr("typer.echo", lambda text, **_: said.append(text))
+        patch.setattr(
+            "rich.console.Console",
+            lambda **options: Console(**options, force_terminal=True, color_system="standard", _environ={}),
+        )
+        print_verdict(Verdict(level, TEXT))
     (out,) = said
     assert code in out.partition("m")[0].partition("[")[2].split(";")
     assert "end." in out
@@ -36,7 +37,7 @@ def test_nothing_is_printed_without_a_verdict(capsys):
     assert capsys.readouterr().out == ""
 
 
-@pytest.mark.parametrize(
+@each(
     ("key", "ends", "text"),
     [
         ("bearing.radial_clearance", (5e-6, 15e-6), "5 to 15 µm"),

@@ -14,6 +14,7 @@ from ehlectric.runs.solve import case_of
 from ehlectric.runtime.checks.seal import seal
 from ehlectric.sweep.store import read_sweep
 from ehlectric.version import __version__
+from tests.helpers.each import each
 from tests.helpers.places import ROOT
 
 RELEASES = ROOT / "tests" / "data" / "releases"
@@ -42,7 +43,7 @@ def numbers(value, path=()):
         yield path, value
 
 
-@pytest.mark.parametrize("file", CASES, ids=lambda path: f"{path.parents[1].name}-{path.name}")
+@each("file", CASES, ids=lambda path: f"{path.parents[1].name}-{path.name}")
 def test_a_case_file_is_taken(file):
     """Files of the examples as the release had them; their surfaces are not read here."""
     if kind_of_file(file) == "sweep":

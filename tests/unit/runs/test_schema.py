@@ -34,13 +34,13 @@ def test_schemas_are_of_draft_7(kind):
     Draft7Validator.check_schema(schema_of(kind))
 
 
-@pytest.mark.parametrize("path", FILES, ids=[path.stem for path in FILES])
+@each("path", FILES, ids=lambda path: path.stem)
 def test_files_of_the_package_are_valid(validators, path):
     table = read(path)
     assert [error.message for error in validators[kind_of(table)].iter_errors(table)] == []
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "place", "value"),
     [
         ("bearing_6208", ("bearing", "radial_lode"), "1 N"),
@@ -82,7 +82,7 @@ def test_keys_have_their_texts_units_and_examples():
     assert {"type": "string"} in load["anyOf"]
 
 
-@pytest.mark.parametrize("kind", SCHEMAS)
+@each("kind", SCHEMAS)
 def test_every_key_is_explained(kind):
     schema = schema_of(kind)
     for name, table in {kind: schema, **schema["definitions"]}.items():

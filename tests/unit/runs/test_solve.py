@@ -1,5 +1,4 @@
 """What solve takes and gives: files, tables, cases and bearings; its progress, its log and its errors."""
-# ruff: noqa: E501
 
 import inspect
 import logging
@@ -10,7 +9,6 @@ import pytest
 
 import ehlectric
 from ehlectric import (
-    BearingCase,
     BearingResult,
     Case,
     ConvergenceError,
@@ -31,6 +29,7 @@ from ehlectric.contact.solver import solve as solve_stationary
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.drives import small_drive
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 CONTACT = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}}
@@ -88,15 +87,15 @@ def test_a_point_contact():
     assert type(solve(table | {"grid": {"nodes": 65}})) is PointResult
 
 
-@pytest.mark.parametrize(
+@each(
     ("given", "text"),
     [
-        (EXAMPLES / "sweep.toml", r"sweep\.toml: is a sweep; expected run_sweep"),
-        (tomllib.loads((EXAMPLES / "sweep.toml").read_text(encoding="utf-8")), "case: is a sweep; expected run_sweep"),
-        (Sweep.from_dict({"case": CONTACT, "vary": {"grid.nodes": [201]}}), "run_sweep solves a Sweep"),
-        (MOTION, r"motion: is a table of transient contacts; expected solve_motion\(case\)"),
+        (EXAMPLES / "sweep.toml", r"sweep\.toml: .*run_sweep"),
+        (tomllib.loads((EXAMPLES / "sweep.toml").read_text(encoding="utf-8")), "case: .*run_sweep"),
+        (Sweep.from_dict({"case": CONTACT, "vary": {"grid.nodes": [201]}}), "run_sweep"),
+        (MOTION, r"motion: .*solve_motion"),
         ("nowhere.toml", "nowhere.toml: cannot be read"),
-        (5, "case: got 'int'; expected a Case, a BearingCase, a DriveCase, a dict, or the path of a TOML file"),
+        (5, "case: got 'int'; .*Case, .*BearingCase, .*DriveCase, .*dict"),
         ({"contcat": {}}, "contcat: unknown key"),
     ],
 )  # fmt: skip
@@ -216,10 +215,6 @@ def test_results_differ_where_their_numbers_do(line):
     assert line.film != other.film
     assert line.field != other.field
     assert line == solve(CONTACT)
-
-
-def test_bearing_cases_are_typed():
-    assert isinstance(BEARING, BearingCase)
 
 
 def test_a_progress_that_cannot_be_called_is_refused():

@@ -12,6 +12,7 @@ from ehlectric import Case, InputError, LostError, solve, solve_many
 from ehlectric.runs import solve_many as module
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.each import each
 
 CONTACT = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"nodes": 129}}
 CASES = [Case.from_dict(CONTACT).replace({"contact.entrainment_speed": speed}) for speed in (1.0, 2.0, 4.0)]
@@ -104,7 +105,7 @@ def test_a_process_that_dies_costs_only_its_case(monkeypatch):
     assert found[2].result == solve(CASES[1])
 
 
-@pytest.mark.parametrize("workers", [0, -1, 1.5, True, "2"])
+@each("workers", [0, -1, 1.5, True, "2"])
 def test_workers_are_a_number(workers):
     with pytest.raises(InputError, match=r"workers: got .*; expected a whole number of at least 1"):
         next(solve_many(CASES, workers=workers))
@@ -143,7 +144,7 @@ def test_tables_may_have_values_of_classes_of_the_script(tmp_path):
     assert (done.returncode, done.stderr, done.stdout) == (0, "", "True None\n" * 2)
 
 
-@pytest.mark.parametrize("one", [CASES[0], CONTACT, "case.toml", 3])
+@each("one", [CASES[0], CONTACT, "case.toml", 3])
 def test_a_single_case_is_no_list_of_cases(one):
     with pytest.raises(
         InputError, match=rf"^cases: got '{type(one).__name__}'; expected a list of cases; solve "
