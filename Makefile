@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/requirements.lock
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help install run app browser test slow thorough lint check format docs pages figures screenshots bench bench-release bench-compare bench-public lock packages wheel paper clean
+.PHONY: help install run app browser test slow thorough lint check coverage format docs pages figures screenshots bench bench-release bench-compare bench-public lock packages wheel paper clean
 
 help:
 	@echo "make run     install and solve a contact and a bearing, with figures"
@@ -22,6 +22,7 @@ help:
 	@echo "make thorough  run them with all of their random examples, and others each time; takes hours"
 	@echo "make check   format, lint, types, import contract and tests"
 	@echo "make lint    the same without the tests"
+	@echo "make coverage  run the tests and print the lines that none of them runs"
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
 	@echo "make pages   build the documentation without running its gallery"
@@ -131,7 +132,9 @@ lint: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-check: lint
+check: lint test
+
+coverage: $(VENV)/.test
 	$(BIN)/python -m pytest --cov --cov-report=term
 
 format: $(VENV)/.dev
@@ -144,7 +147,7 @@ docs: $(VENV)/.docs
 
 # The same without running the scripts of the gallery.
 pages: $(VENV)/.docs
-	$(BIN)/python -m sphinx -W --keep-going -n -q -b html -D plot_gallery=0 docs docs/_build/pages
+	EHLECTRIC_GALLERY=skip $(BIN)/python -m sphinx -W --keep-going -n -q -b html docs docs/_build/pages
 
 figures: $(VENV)/.test
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet

@@ -1,5 +1,6 @@
 """How the documentation is built: make docs."""
 
+import os
 import sys
 import warnings
 from importlib.util import find_spec
@@ -73,7 +74,7 @@ sphinx_gallery_conf = {
     "min_reported_time": 1e9,
     "write_computation_times": False,
     "download_all_examples": False,
-    "plot_gallery": True,
+    "plot_gallery": os.environ.get("EHLECTRIC_GALLERY") != "skip",  # as make pages does
 }
 
 html_theme = "pydata_sphinx_theme"
