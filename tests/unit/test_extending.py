@@ -27,6 +27,7 @@ from ehlectric.runs.meaning import check
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.labels import label_of
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.places import ROOT
 
 # A viscosity that doubles every so much pressure: Barus' law with alpha = ln 2/p_2, so that Barus' film is
 # the expected one.
@@ -279,6 +280,19 @@ def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):
     assert case.lubricant.viscosity == 0.4
     with pytest.raises(InputError, match=r", thick$"):
         Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "tar"}})
+
+
+def test_the_map_names_files_and_tests_that_are_there():
+    """The table "I want to add ..." of docs/architecture.md: every path, and the test that shows the addition."""
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    lines = [line for line in page.partition("## I want to add")[2].splitlines() if "`" in line]
+    tests = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "tests").rglob("test_*.py"))
+    package = ROOT / "src" / "ehlectric"
+    paths = [name for line in lines for name in re.findall(r"`([\w/.]+\.(?:py|toml))`", line)]
+    assert len(paths) > 10
+    assert [name for name in paths if not (package / name).is_file()] == []
+    shown = [name for line in lines for name in re.findall(r"`(test_\w+)`", line)]
+    assert [name for name in shown if f"def {name}(" not in tests] == []
 
 
 def test_a_warning_is_a_code_and_a_condition(monkeypatch):
