@@ -1,7 +1,10 @@
+import subprocess
+import sys
 from functools import partial
 
 import pytest
 
+from ehlectric.commands.app import _status
 from tests.helpers.commands import run_command
 
 CASE = """\
@@ -22,6 +25,26 @@ nodes = 801
 def ehlectric(tmp_path):
     """The command as a user types it, in an empty folder."""
     return partial(run_command, cwd=tmp_path)
+
+
+@pytest.fixture
+def typed(tmp_path, monkeypatch, capsys):
+    """The command in this process, in an empty folder: quick where it computes little."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        words = [str(word) for word in words]
+        capsys.readouterr()
+        with monkeypatch.context() as patch:
+            patch.setattr(sys, "argv", ["ehlectric", *words])
+            try:
+                status = _status()
+            except SystemExit as stopped:
+                status = stopped.code
+        output, errors = capsys.readouterr()
+        return subprocess.CompletedProcess(words, status, output, errors)
+
+    return run
 
 
 @pytest.fixture

@@ -14,6 +14,7 @@ from ehlectric import Case, load
 from ehlectric.formulas import film_line
 from tests.cli.conftest import CASE
 from tests.helpers.commands import COMMAND
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES, SURFACES
 
 FIGURES = {"film.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
@@ -21,7 +22,7 @@ DATA = {"summary.json", "result.nc", "film.csv"}
 
 
 @pytest.mark.slow
-def test_run_writes_everything(ehlectric, case_file, tmp_path):
+def test_run_writes_everything_plot_redraws_and_a_folder_holds_one_result(ehlectric, case_file, tmp_path):
     done = ehlectric("run", case_file, "-o", "out")
     assert done.returncode == 0, done.stderr
     assert {path.name for path in (tmp_path / "out").iterdir()} == FIGURES | DATA
@@ -29,44 +30,27 @@ def test_run_writes_everything(ehlectric, case_file, tmp_path):
         assert text in done.stdout
     for name in FIGURES:
         assert (tmp_path / "out" / name).read_bytes().startswith(b"\x89PNG")
-
-
-def test_summary_has_the_agreed_keys(ehlectric, case_file, tmp_path):
+    done = ehlectric("plot", "out/result.nc", "-o", "figures")
+    assert done.returncode == 0, done.stderr
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == FIGURES
     ehlectric("run", case_file, "-o", "out", "--no-plots")
     assert {path.name for path in (tmp_path / "out").iterdir()} == DATA
+
+
+def test_a_run_is_printed_written_and_read_back(ehlectric, case_file, tmp_path):
+    """With ``--json`` the summary is printed alone; the result is read back to the same."""
+    done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--json")
+    assert {path.name for path in (tmp_path / "out").iterdir()} == DATA
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(), parse_constant=pytest.fail)
+    assert json.loads(done.stdout) == summary
+    assert load(tmp_path / "out" / "result.nc").summary() == summary
     assert summary["schema"] == "ehlectric.summary/1"
     assert summary["converged"] is True
-    assert set(summary) == {
-        "schema", "version", "title", "converged", "status", "warnings", "warning_codes", "inputs",
-        "lubricant", "groups", "hertz", "film", "field", "film_formulas", "seconds",
-    }  # fmt: skip
-    assert set(summary["groups"]) == {"moes_m", "moes_l"}
-    assert set(summary["hertz"]) == {"half_width", "max_pressure"}
-    assert set(summary["film"]) == {
-        "minimum_thickness", "minimum_position", "central_thickness", "mean_thickness", "max_pressure",
-        "load_residual", "residual", "newton_iterations", "discretisation_error", "solver", "nodes",
-        "max_pressure_error", "target_error",
-    }  # fmt: skip
-    assert set(summary["field"]) == {
-        "voltage", "max_strength", "max_strength_position", "max_dimensionless", "central_dimensionless",
-        "high_field_width", "capacitance_per_length", "thin_gap_error", "columns", "max_strength_wall",
-        "solver", "max_strength_error", "degree",
-    }  # fmt: skip
     assert set(summary["film_formulas"]) == set(film_line.FORMULAS)
-    assert set(summary["film_formulas"]) >= {"dowson_higginson", "dowson_toyoda", "pan_hamrock", "moes"}
-    for formula in summary["film_formulas"].values():
-        assert set(formula) == {"minimum_thickness", "central_thickness"}
-    assert set(summary["seconds"]) == {"film", "field"}
     # Alternatives are resolved: w = 2 pi R p_h^2/E'.
     contact = summary["inputs"]["contact"]
     assert contact["load_per_length"] == pytest.approx(2 * 3.141592653589793 * 0.0141 * 1e18 / 226e9)
     assert "max_hertz_pressure" not in contact
-
-
-def test_json_is_the_summary_alone(ehlectric, case_file, tmp_path):
-    done = ehlectric("run", case_file, "-o", "out", "--no-plots", "--json")
-    assert json.loads(done.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
 
 
 @pytest.mark.slow
@@ -130,13 +114,6 @@ def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
 
 
 @pytest.mark.slow
-def test_a_folder_holds_one_result(ehlectric, case_file, tmp_path):
-    ehlectric("run", case_file, "-o", "out")
-    ehlectric("run", case_file, "-o", "out", "--no-plots")
-    assert {path.name for path in (tmp_path / "out").iterdir()} == DATA
-
-
-@pytest.mark.slow
 def test_termination_leaves_no_stray_files(case_file, tmp_path):
     process = subprocess.Popen([COMMAND, "run", case_file, "-o", tmp_path / "out"], stderr=subprocess.PIPE)
     while not (tmp_path / "out" / "summary.json").exists() and process.poll() is None:
@@ -165,14 +142,6 @@ def test_example_is_the_first_case_of_the_paper(ehlectric, tmp_path):
     # tests/published/data/line_contact_films.csv, converged.
     assert film["minimum_thickness"] == pytest.approx(0.6390e-6, rel=1e-3, abs=0.0)
     assert film["central_thickness"] == pytest.approx(0.7076e-6, rel=2e-4, abs=0.0)
-
-
-@pytest.mark.slow
-def test_plot_redraws(ehlectric, case_file, tmp_path):
-    ehlectric("run", case_file, "-o", "out", "--no-plots")
-    done = ehlectric("plot", "out/result.nc", "-o", "figures")
-    assert done.returncode == 0, done.stderr
-    assert {path.name for path in (tmp_path / "figures").iterdir()} == FIGURES
 
 
 @pytest.mark.slow
@@ -240,23 +209,6 @@ def test_figures_of_surfaces_have_the_format_of_their_names(ehlectric, tmp_path,
         assert Path(name).name in done.stdout
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (
-            ["-o", "x.tif"],
-            "--output: got 'x.tif'; expected a file ending in .png or .svg or .pdf, or a folder",
-        ),
-        (["-o", "x.png", "--format", "pdf"], "--output: got 'x.png'; expected a file ending in .pdf"),
-        (["-o", "x", "--format", "tif"], "--format: got 'tif'; expected one of png, svg, pdf"),
-        (["-o", "x", "--style", "poster"], "--style: got 'poster'; expected one of screen, journal"),
-    ],
-)
-def test_figures_of_surfaces_in_no_known_format_are_refused(ehlectric, tmp_path, words, message):
-    assert message in one_line(ehlectric("surface", EXAMPLES / "surfaces" / "dektak-1.csv", *words))
-    assert not list(tmp_path.iterdir())
-
-
 @pytest.mark.slow
 def test_surface_shows_the_whole_map(ehlectric, tmp_path):
     """Sq 290 nm after a plane is recorded with the file; without --map its first row is shown."""
@@ -273,20 +225,6 @@ def test_surface_shows_the_whole_map(ehlectric, tmp_path):
     assert "line: got 3 for a whole map" in one_line(ehlectric(*words, "--map", "--line", "3"))
     hfm = SURFACES / "hfm-1.hfm"
     assert "is a profile; expected a map" in one_line(ehlectric("surface", hfm, "--map"))
-
-
-@pytest.mark.slow
-def test_surfaces_that_cannot_be_used(ehlectric, case_file, tmp_path):
-    assert "no such file" in one_line(ehlectric("surface", "nowhere.csv"))
-    dektak = EXAMPLES / "surfaces" / "dektak-1.csv"
-    assert "form: got 'cube'" in one_line(ehlectric("surface", dektak, "--form", "cube"))
-    assert "cutoff: got 5000" in one_line(ehlectric("surface", dektak, "--cutoff-long", "5 mm"))
-    case_file.write_text(CASE + '[[roughness]]\nsurface = 1\nfile = "nowhere.csv"\n')
-    assert "no such file" in one_line(ehlectric("run", case_file))
-    pit = '[[roughness]]\nsurface = 1\ngenerator = "pit"\ndepth = "50 nm"\nwidth = "9 mm"\n'
-    case_file.write_text(CASE + pit)
-    assert "roughness.width: got 0.009 m; expected less" in one_line(ehlectric("run", case_file))
-    assert not (tmp_path / "results").exists()
 
 
 def test_check_says_what_a_case_means(ehlectric, case_file):
@@ -334,7 +272,8 @@ def test_init_writes_a_case_that_solves(ehlectric, tmp_path):
     assert Case.from_toml(tmp_path / "new.toml").contact.entrainment_speed == 2.0
     again = ehlectric("init", "new.toml")
     assert again.returncode == 2
-    assert again.stderr == "error: new.toml: already exists; use --force to overwrite\n"
+    assert again.stderr.startswith("error: new.toml: ")
+    assert "--force" in again.stderr
     assert ehlectric("init", "new.toml", "--force").returncode == 0
 
 
@@ -352,24 +291,11 @@ def test_point_contacts_are_begun_and_checked(ehlectric, tmp_path):
         ):
             assert text in done.stdout
         assert all(len(line.rstrip()) <= 80 for line in done.stdout.splitlines())
-    wrong = ehlectric("init", "other.toml", "--geometry", "ball")
-    assert wrong.returncode == 2
-    assert (
-        wrong.stderr
-        == "error: --geometry: got 'ball'; expected line or point; other kinds are written with --kind\n"
-    )
 
 
 def test_check_of_a_point_contact_as_json(ehlectric):
     summary = json.loads(ehlectric("check", EXAMPLES / "ball_bearing.toml", "--json").stdout)
-    assert set(summary["groups"]) == {"moes_m", "moes_l"}
-    assert set(summary["hertz"]) == {"semi_axis_x", "semi_axis_y", "max_pressure"}
-    assert set(summary["film_formulas"]) == {"hamrock_dowson", "chittenden", "nijenbanning_venner_moes"}
     contact = summary["inputs"]["contact"]
-    assert set(contact) == {
-        "geometry", "radius_x", "radius_y", "reduced_modulus", "load", "entrainment_speed",
-        "slide_to_roll_ratio",
-    }  # fmt: skip
     # Of the bodies: 1/Rx = 1/24 + 1/5.953 per mm.
     assert contact["radius_x"] == pytest.approx(4.7699e-3, rel=1e-4, abs=0.0)
 
@@ -382,12 +308,6 @@ def test_version(ehlectric):
     assert module.stdout == done.stdout
 
 
-def test_results_read_back(ehlectric, case_file, tmp_path):
-    ehlectric("run", case_file, "-o", "out", "--no-plots")
-    result = load(tmp_path / "out" / "result.nc")
-    assert result.summary() == json.loads((tmp_path / "out" / "summary.json").read_text())
-
-
 def one_line(done):
     """The error of a refused command."""
     assert done.returncode == 2
@@ -398,31 +318,33 @@ def one_line(done):
     return lines[0]
 
 
+PRESSURE = 'max_hertz_pressure = "1 GPa"'
 BAD_FILES = [
-    ('reduced_modulus = "226 GPa"', 'reduced_modulus = "226 kg"', "contact.reduced_modulus: got '226 kg'"),
-    ("reduced_modulus", "reduced_moduls", "the nearest known one is contact.reduced_modulus"),
-    ('max_hertz_pressure = "1 GPa"', "", "contact.load_per_length: missing"),
-    ('max_hertz_pressure = "1 GPa"', "max_hertz_pressure = 0", "got 0; expected"),
-    ('max_hertz_pressure = "1 GPa"', "max_hertz_pressure = nan", "got nan"),
-    ("nodes = 801", "nodes = 1e12", "grid.nodes: got 1000000000000.0"),
-    ("nodes = 801", "inlet = 3.0", "grid.inlet: got 3.0"),
-    ("nodes = 801", "field_range = [-9, 9]", "grid.field_range: got [-9, 9]"),
-    ("[grid]", "[electric]\npotential_1 = 1\n[grid]", "electric.potential_2"),
-    ("[lubricant]", "[lubricant", "is not TOML"),
+    ('reduced_modulus = "226 GPa"', 'reduced_modulus = "226 kg"', ["contact.reduced_modulus", "'226 kg'"]),
+    ("reduced_modulus", "reduced_moduls", ["contact.reduced_moduls", "contact.reduced_modulus"]),
+    (PRESSURE, "", ["contact.load_per_length", "missing"]),
+    (PRESSURE, "max_hertz_pressure = 0", ["contact.max_hertz_pressure", "got 0"]),
+    (PRESSURE, "max_hertz_pressure = nan", ["contact.max_hertz_pressure", "got nan"]),
+    ("nodes = 801", "nodes = 1e12", ["grid.nodes", "1000000000000.0"]),
+    ("nodes = 801", "inlet = 3.0", ["grid.inlet", "3.0"]),
+    ("nodes = 801", "field_range = [-9, 9]", ["grid.field_range", "[-9, 9]"]),
+    ("[grid]", "[electric]\npotential_1 = 1\n[grid]", ["electric.potential_2"]),
+    ("[lubricant]", "[lubricant", ["TOML"]),
     (
         'base = "paper"',
         'base = "paper"\nrelative_permittivity = 80',
-        "lubricant.permittivity_law: 'clausius-mossotti' has a pole",
+        ["lubricant.permittivity_law", "'clausius-mossotti'"],
     ),
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "message"), BAD_FILES)
-def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, case_file, tmp_path, old, new, message):
+@each("old, new, names", BAD_FILES)
+def test_bad_case_is_one_line_and_nothing_is_written(typed, case_file, tmp_path, old, new, names):
     case_file.write_text(CASE.replace(old, new))
-    (tmp_path / "out").mkdir()
+    (tmp_path / "out").mkdir(exist_ok=True)
     (tmp_path / "out" / "summary.json").write_text("kept")
-    assert message in one_line(ehlectric("run", case_file, "-o", "out"))
+    line = one_line(typed("run", case_file, "-o", "out"))
+    assert [name for name in names if name not in line] == []
     assert [path.read_text() for path in (tmp_path / "out").iterdir()] == ["kept"]
 
 
@@ -446,11 +368,6 @@ def test_files_that_cannot_be_used(ehlectric, case_file, tmp_path):
     assert "no regular file" in one_line(ehlectric("init", "/dev/null", "--force"))
 
 
-def test_words_on_the_command_line(ehlectric):
-    for words in (["frob"], ["run"], ["run", "a", "b"], ["check", "--frob"], ["run", "a", "-o"]):
-        one_line(ehlectric(*words))
-
-
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read and write everything")
 def test_permissions(ehlectric, case_file, tmp_path):
     (tmp_path / "closed").mkdir(mode=0o500)
@@ -465,19 +382,3 @@ def test_the_papers_solvers(ehlectric, case_file, tmp_path):
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["film"]["solver"] == summary["field"]["solver"] == "paper"
     assert summary["converged"]
-
-
-def test_unknown_solver_is_refused(ehlectric, case_file, tmp_path):
-    done = ehlectric("run", case_file, "-o", "out", "--solver", "comsol")
-    assert done.returncode == 2
-    assert done.stderr == "error: --solver: got 'comsol'; expected one of ehlectric, paper\n"
-    assert not (tmp_path / "out").exists()
-
-
-def test_grid_that_the_papers_multigrid_cannot_halve(ehlectric, case_file, tmp_path):
-    case_file.write_text(case_file.read_text().replace("nodes = 801", "nodes = 1000"))
-    done = ehlectric("run", case_file, "-o", "out", "--solver", "paper")
-    assert done.returncode == 2
-    assert done.stderr.startswith("error: grid.nodes: got 1000")
-    assert len(done.stderr.splitlines()) == 1
-    assert not (tmp_path / "out").exists()

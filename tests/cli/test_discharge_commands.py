@@ -40,11 +40,10 @@ def test_run_with_a_discharge(ehlectric, case_file, tmp_path):
     assert load(tmp_path / "out" / "result.nc").summary() == summary
 
 
-def test_wrong_discharge_is_one_line(ehlectric, case_file, tmp_path):
+def test_wrong_discharge_is_one_line(typed, case_file, tmp_path):
     case_file.write_text(CASE + DISCHARGE.replace('length = "10 mm"', ""))
-    done = ehlectric("run", case_file, "-o", "out")
-    assert done.returncode == 2
-    assert done.stderr.splitlines() == [
-        "error: discharge.length: missing; external_capacitance needs it: the length of the line contact"
-    ]
+    done = typed("run", case_file, "-o", "out")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert done.stderr.startswith("error: discharge.length: missing")
+    assert "external_capacitance" in done.stderr
     assert not (tmp_path / "out").exists()

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from ehlectric import Case
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 
 
@@ -30,10 +31,10 @@ def test_discharge_example(ehlectric, tmp_path):
     )
 
 
-@pytest.mark.parametrize("geometry", ["line", "point"])
-def test_templates_show_a_discharge_that_can_be_taken(ehlectric, tmp_path, geometry):
-    assert ehlectric("init", "new.toml", "--geometry", geometry).returncode == 0
-    path = tmp_path / "new.toml"
+@each("geometry", ["line", "point"])
+def test_templates_show_a_discharge_that_can_be_taken(typed, tmp_path, geometry):
+    path = tmp_path / f"{geometry}.toml"
+    assert typed("init", path, "--geometry", geometry).returncode == 0
     before, start, after = path.read_text().partition("# [discharge]")
     table, stop, rest = after.partition("\n[grid]")
     assert start

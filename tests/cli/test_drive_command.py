@@ -6,6 +6,7 @@ import json
 import pytest
 
 from ehlectric.figures.names import DRIVE_FIGURE_FILES, in_formats
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.reports import Page
 from tests.unit.cases.test_drive import FILE
@@ -100,8 +101,8 @@ def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
     assert one == two
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
+@each(
+    "old, new, message",
     [
         ('file = "bearing.toml"', 'file = "no.toml"', "drive_end.file, no.toml: cannot be read"),
         ('modulation = "sinusoidal"', 'modulation = "sine"', "source.modulation: got 'sine'"),
@@ -113,17 +114,10 @@ def test_a_seed_repeats_every_file(ehlectric, drive, tmp_path):
         ('.toml"', '.toml"\nbearing.composite_rq = "1 um"', "drive_end.bearing.contact_resistance: missing"),
     ],
 )
-def test_what_cannot_be_simulated_is_refused(ehlectric, drive, tmp_path, old, new, message):
+def test_what_cannot_be_simulated_is_refused(typed, drive, tmp_path, old, new, message):
     drive.write_text(SHORT.replace(old, new))
-    done = ehlectric("drive", "drive.toml", "-o", "out")
+    done = typed("drive", "drive.toml", "-o", "out")
     assert done.returncode == 2, done.stderr
     assert message in done.stderr
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "out" / "summary.json").exists()
-
-
-def test_a_bearing_file_is_told_its_command(ehlectric, drive):
-    done = ehlectric("drive", "bearing.toml")
-    assert (done.returncode, "ehlectric bearing bearing.toml" in done.stderr) == (2, True)
-    done = ehlectric("bearing", drive)
-    assert (done.returncode, "ehlectric drive" in done.stderr) == (2, True)

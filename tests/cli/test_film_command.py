@@ -20,25 +20,3 @@ def test_film_of_a_contact(ehlectric):
     assert numbers["ratio"] is None
     # Solved on 3201 nodes: 0.507 um.
     assert numbers["central_thickness"] == pytest.approx(0.507e-6, rel=0.01)
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (("--m", "50"), "--l: got nothing"),
-        (("--m", "1e9", "--l", "10"), "the range of the atlas"),
-        (("--oil", "fva-3", "--temperature", "70 degC", "--radius", "8 kg"), "--radius"),
-        (("--radius", "8 mm"), "--oil: got nothing"),
-        (("--m", "50", "--l", "10", "--oil", "fva-3"), "--oil: got it beside --m, --l or --k"),
-        (
-            ("--m", "1e6", "--l", "10", "--k", "1"),
-            "the range of the atlas in N, which is M times a function of k",
-        ),
-        (("--oil", "fva-3", "--temperature", "70 degC", "--radius", "8 mm"), "--modulus: got nothing"),
-    ],
-)
-def test_mistakes(ehlectric, words, said):
-    done = ehlectric("film", *words)
-    assert done.returncode == 2
-    assert said in done.stderr
-    assert done.stdout == ""

@@ -19,7 +19,9 @@ from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from tests.cli.conftest import CASE
 from tests.cli.test_moving_run import LONG, begun
 from tests.helpers.commands import Begun, run_command
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
+from tests.helpers.processes import wait_until
 
 SMALL = CASE.replace("801", "257")
 SWEEP = """\
@@ -47,7 +49,7 @@ def held(monkeypatch):
 
         threads.append(Thread(target=keep))
         threads[-1].start()
-        assert holding.wait(10.0)
+        assert holding.wait(60.0)
 
     yield hold
     ended.set()
@@ -70,8 +72,8 @@ BEARING = ("bearing", EXAMPLES / "bearing_6208.toml", "--contacts", "formula")
 SURFACE = ("surface", EXAMPLES / "surfaces" / "dektak-1.csv")
 
 
-@pytest.mark.parametrize(
-    ("lock", "words"),
+@each(
+    "lock, words",
     [
         (RESULT_LOCK, ("run", "case.toml")),
         (FIGURE_LOCK, ("run", "case.toml")),
@@ -84,9 +86,9 @@ SURFACE = ("surface", EXAMPLES / "surfaces" / "dektak-1.csv")
         (FIGURE_LOCK, SURFACE),
     ],
 )
-def test_a_command_is_refused(stored, tmp_path, monkeypatch, held, lock, words):
+def test_a_command_is_refused(stored, tmp_path_factory, monkeypatch, held, lock, words):
     monkeypatch.chdir(stored)
-    out = tmp_path / "out"
+    out = tmp_path_factory.mktemp("out")
     held(out, lock)
     before = sorted(path.name for path in out.iterdir())
     done = CliRunner().invoke(app, [*map(str, words), "-o", f"{out}/"])
@@ -181,8 +183,7 @@ def test_what_a_kill_leaves_is_gone_after_the_next_run(tmp_path, seed):
     (tmp_path / "case.toml").write_text(SMALL)
     command, out = ("run", "case.toml", "-o", "out", "-q"), tmp_path / "out"
     process = Begun(*command, cwd=tmp_path)
-    while not out.exists():
-        time.sleep(0.005)
+    assert wait_until(lambda: out.exists() or process.poll() is not None)
     time.sleep(0.4 * seed)
     process.kill()
     process.communicate()

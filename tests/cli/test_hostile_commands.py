@@ -5,6 +5,7 @@ import os
 import pytest
 
 from tests.cli.conftest import CASE
+from tests.helpers.each import each
 
 ONLY_POSIX = pytest.mark.skipif(os.name == "nt", reason="Windows has no such files and names")
 NAME = "a\x1b[31m\nb\u202e.toml"
@@ -23,9 +24,10 @@ def refusal(done):
 
 @pytest.mark.slow
 @ONLY_POSIX
-@pytest.mark.parametrize("command", ["check", "run", "bearing", "sweep", "plot", "surface"])
+@each("command", ["check", "run", "bearing", "sweep", "plot", "surface"])
 @pytest.mark.parametrize("kind", ["pipe", "zero"])
 def test_special_files_end_every_command_in_one_line(ehlectric, tmp_path, command, kind):
+    (tmp_path / "case.toml").unlink(missing_ok=True)
     if kind == "pipe":
         os.mkfifo(tmp_path / "case.toml")
     else:
@@ -58,19 +60,16 @@ def test_a_folder_with_control_characters_is_escaped(ehlectric, case_file):
     assert "\x1b" not in done.stdout + done.stderr
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("letter", ["\\u202e", "\\u2028", "\\u0085", "\\u001b", "\\u200b"])
-def test_titles_with_hidden_characters_are_refused(ehlectric, tmp_path, letter):
+@each("letter", ["\\u202e", "\\u2028", "\\u0085", "\\u001b", "\\u200b"])
+def test_titles_with_hidden_characters_are_refused(typed, tmp_path, letter):
     (tmp_path / "case.toml").write_text(CASE.replace('"Test"', f'"Te{letter}st"'))
-    assert "title: got 'Te" in refusal(ehlectric("check", "case.toml"))
+    assert "title: got 'Te" in refusal(typed("check", "case.toml"))
 
 
-@pytest.mark.parametrize(
-    "value", ["1" * 2000 + "y\\nz", "1 " + "a" * 200_000, "1 " + "m*" * 3000 + "m"], ids=["y", "a", "m"]
-)
-def test_a_hostile_quantity_ends_in_a_short_line(ehlectric, tmp_path, value):
+@each("value", ["1" * 2000 + "y\\nz", "1 " + "a" * 200_000, "1 " + "m*" * 3000 + "m"])
+def test_a_hostile_quantity_ends_in_a_short_line(typed, tmp_path, value):
     (tmp_path / "case.toml").write_text(CASE.replace('"14.1 mm"', f'"{value}"'))
-    line = refusal(ehlectric("check", "case.toml"))
+    line = refusal(typed("check", "case.toml"))
     assert "contact.reduced_radius: got '1" in line
     assert len(line) < 300
 

@@ -4,8 +4,6 @@ import json
 
 import pytest
 
-from tests.helpers.places import EXAMPLES
-
 BEARING = """\
 title = "Axial"
 contacts = "formula"
@@ -70,44 +68,3 @@ def test_a_contact_is_compared_with_a_log(ehlectric, files):
     assert printed["measured"] == json.loads((files / "out" / "measured.json").read_text())
     assert printed["measured"]["film_factor"]["basis"] == "scatter only"
     assert "from scatter only" in done.stderr
-
-
-@pytest.mark.parametrize(
-    ("arguments", "line"),
-    [
-        (("bearing", "bearing.toml", "--background", "1 pF"), "--background: is used with --measured only"),
-        (("bearing", "bearing.toml", "--measured", "none.csv"), "none.csv: cannot be read"),
-        (("bearing", "bearing.toml", "--measured", "log.csv"), "log.csv: capacitance: missing"),
-        (
-            ("bearing", "bearing.toml", "--measured", "bearing.toml"),
-            "bearing.toml: has no heads of known",
-        ),
-        (
-            ("bearing", "bearing.toml", "--measured", "data.csv", "--background", "1 nm"),
-            "--background: got '1 nm'",
-        ),
-        (
-            ("bearing", "bearing.toml", "--measured", "data.csv", "--background", ""),
-            "--background: got an empty text",
-        ),
-        (
-            ("bearing", "bearing.toml", "--measured", "data.csv", "--uncertainty", "0.02"),
-            "--uncertainty: got '0.02'; expected a part in per cent",
-        ),
-        (("run", "ball.toml", "--measured", "data.csv"), "data.csv: film: missing"),
-        (("run", "ball.toml", "--measured", "log.csv", "--uncertainty", "5"), "--uncertainty: got '5'"),
-    ],
-)
-def test_wrong_data_are_one_line_and_no_folder(ehlectric, files, arguments, line):
-    done = ehlectric(*arguments, "-o", "out")
-    assert done.returncode == 2
-    assert done.stderr.startswith(f"error: {line}")
-    assert done.stderr.count("\n") == 1
-    assert not (files / "out").exists()
-
-
-@pytest.mark.usefixtures("files")
-def test_moving_roughness_has_no_film_factor(ehlectric):
-    done = ehlectric("run", EXAMPLES / "moving_roughness.toml", "--measured", "log.csv", "-o", "out")
-    assert done.returncode == 2
-    assert "--measured: is for stationary contacts" in done.stderr

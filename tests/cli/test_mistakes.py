@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from ehlectric.commands.maps import draw_maps
 from tests.cli.conftest import CASE
+from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid
 
 BEARING = """\
@@ -45,68 +46,47 @@ def spoiled(text, changes):
 
 
 REFUSED = {
-    "E1": (
-        {'"3000 rpm"': "3000"},
-        (
-            "bearing.inner_speed: got 3000; expected a string with its unit: '3000 rpm' or "
-            "'3000 rad/s' (= 28648 rpm)"
-        ),
-    ),
-    "E3": (
-        {'base = "6208"': 'base = "6308-2Z"'},
-        ("bearing.base: got '6308-2Z'; expected a name of the library, as a string, such as '6308', "),
-    ),
+    "E1": ({'"3000 rpm"': "3000"}, ["bearing.inner_speed: ", "3000 rpm", "3000 rad/s", "28648 rpm"]),
+    "E3": ({'base = "6208"': 'base = "6308-2Z"'}, ["bearing.base: ", "'6308-2Z'", "'6308'"]),
     "E4": (
         {'base = "6208"\n': ""},
-        (
-            "bearing.kind: missing; expected one of 'deep-groove ball', "
-            "'angular-contact ball', 'cylindrical roller'; also missing: elements"
-        ),
+        [
+            "bearing.kind: missing",
+            "'deep-groove ball'",
+            "'angular-contact ball'",
+            "'cylindrical roller'",
+            "elements",
+        ],
     ),
     "E4-profile": (
         {'base = "6208"': 'base = "nu-215"'},
-        (
-            "bearing.profile: missing; a bearing of kind "
-            "'cylindrical roller' needs it: 'none' or 'logarithmic'"
-        ),
+        ["bearing.profile: missing", "'cylindrical roller'", "'none'", "'logarithmic'"],
     ),
-    "E5": ({'"10 um"': '"0,08 mm"'}, "got '0,08 mm' (decimal comma: write 0.08 mm)"),
-    "E6": (
-        {'"1800 N"': "1800 N"},
-        ("line 6 is 'radial_load = 1800 N': write a number with a unit in quotes, \"1800 N\""),
-    ),
-    "E6-comma": ({'"10 um"': "0,08"}, "line 5 is 'radial_clearance = 0,08': decimal comma, write 0.08"),
+    "E5": ({'"10 um"': '"0,08 mm"'}, ["'0,08 mm'", "0.08 mm"]),
+    "E6": ({'"1800 N"': "1800 N"}, ["line 6", "radial_load = 1800 N", '"1800 N"']),
+    "E6-comma": ({'"10 um"': "0,08"}, ["line 5", "radial_clearance = 0,08", "0.08"]),
     "E12": (
         {'base = "paper"\n': 'base = "paper"\niso_vg = 46\n'},
-        ("lubricant.iso_vg: unknown key; it belongs to the table [lubricant.temperature]"),
+        ["lubricant.iso_vg: ", "[lubricant.temperature]"],
     ),
     "E12-index": (
         {VISCOSITIES: "iso_vg = 46\n"},
-        (
-            "kinematic_viscosity_100: missing; expected either "
-            "kinematic_viscosity_100 or viscosity_index; an index of 95 to 100 is usual for mineral oils"
-        ),
+        ["kinematic_viscosity_100: missing", "viscosity_index", "95 to 100"],
     ),
     "E13": (
         {"radial_clearance": "clearance"},
-        ("bearing.clearance: unknown key; give radial_clearance, or clearance_class such as 'C3' with bore"),
+        ["bearing.clearance: ", "radial_clearance", "clearance_class", "'C3'", "bore"],
     ),
-    "E16": (
-        {'"70 degC"': "70"},
-        (
-            "bearing.temperature: got 70; expected a temperature with its unit, as '70 °C': a "
-            "bare number would be in kelvin"
-        ),
-    ),
+    "E16": ({'"70 degC"': "70"}, ["bearing.temperature: ", "got 70", "70 °C"]),
 }
 
 
-@pytest.mark.parametrize(("changes", "message"), REFUSED.values(), ids=REFUSED)
-def test_refused_bearings(ehlectric, tmp_path, changes, message):
+@each("changes, names", [pytest.param(*case, id=name) for name, case in REFUSED.items()])
+def test_refused_bearings(typed, tmp_path, changes, names):
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, changes), encoding="utf-8")
-    done = ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots")
+    done = typed("bearing", "bearing.toml", "-o", "out", "--no-plots")
     assert done.returncode == 2
-    assert message in done.stderr
+    assert [name for name in names if name not in done.stderr] == []
     assert done.stderr.count("\n") == 1
     assert not (tmp_path / "out").exists()
 
@@ -122,26 +102,14 @@ ACCEPTED = {
 }
 
 
-@pytest.fixture(scope="module")
-def inputs():
-    """Inputs of the summary of the same bearing with units that were always understood."""
-    return {"inner_speed": 314.159265358979, "temperature": 343.15}
-
-
-# Every spelling is read in the same way: one at the command line is enough for each run of the tests.
-@pytest.mark.parametrize(
-    "changes",
-    [
-        pytest.param(changes, id=name, marks=() if name in ("E2-min^-1", "E16") else pytest.mark.slow)
-        for name, changes in ACCEPTED.items()
-    ],
-)
-def test_units_that_people_print(ehlectric, tmp_path, inputs, changes):
+@each("changes", [pytest.param(changes, id=name) for name, changes in ACCEPTED.items()])
+def test_units_that_people_print(typed, tmp_path, changes):
+    """The speed and the temperature are those of the units that were always understood."""
     (tmp_path / "bearing.toml").write_text(spoiled(BEARING, changes), encoding="utf-8")
-    done = ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots")
+    done = typed("check", "bearing.toml", "--json")
     assert done.returncode == 0, done.stderr
-    found = json.loads((tmp_path / "out" / "summary.json").read_text())["inputs"]["bearing"]
-    assert {key: found[key] for key in inputs} == inputs
+    found = json.loads(done.stdout)["inputs"]["bearing"]
+    assert (found["inner_speed"], found["temperature"]) == (314.159265358979, 343.15)
 
 
 @pytest.mark.slow
@@ -176,51 +144,42 @@ def test_what_catalogues_say(ehlectric, tmp_path, changes, viscosity, clearance,
     assert summary["inputs"]["bearing"]["radial_clearance"] == pytest.approx(clearance, rel=1e-12)
 
 
-@pytest.mark.slow
-def test_a_bearing_that_is_too_fast(ehlectric, tmp_path):
-    """E1 and E20: 3000 rad/s as a string is accepted, and doubted."""
-    (tmp_path / "bearing.toml").write_text(spoiled(BEARING, {"3000 rpm": "3000 rad/s"}))
-    done = ehlectric("bearing", "bearing.toml", "-o", "out", "--no-plots")
-    assert done.returncode == 0, done.stderr
-    assert "2.865e+04 rpm and a pitch diameter of 60 mm: n d_m is 1.72e+06 mm/min" in " ".join(
-        done.stderr.split()
-    )
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("changes", "message"),
+@each(
+    "changes, names",
     [
-        pytest.param({'"14.1 mm"': '"14,1 mm"'}, "(decimal comma: write 14.1 mm)", id="E5"),
-        pytest.param({'"226 GPa"': "226 GPa"}, 'in quotes, "226 GPa"', id="E6"),
-        pytest.param({'"14.1 mm"': "14,1 mm"}, 'decimal comma, write "14.1 mm"', id="E6-comma"),
+        pytest.param({'"14.1 mm"': '"14,1 mm"'}, ["14.1 mm"], id="E5"),
+        pytest.param({'"226 GPa"': "226 GPa"}, ['"226 GPa"'], id="E6"),
+        pytest.param({'"14.1 mm"': "14,1 mm"}, ['"14.1 mm"'], id="E6-comma"),
         pytest.param(
             {'base = "paper"': 'base = "paper"\ntemperature = "70 °C"'},
-            "lubricant.temperature: got '70 °C'; expected a table, the data sheet of the oil",
+            ["lubricant.temperature: ", "'70 °C'", "table"],
             id="E11",
         ),
         pytest.param(
             {'base = "paper"': 'base = "paper"\niso_vg = 46'},
-            "lubricant.iso_vg: unknown key; it belongs to the table [lubricant.temperature]",
+            ["lubricant.iso_vg: ", "[lubricant.temperature]"],
             id="E12",
         ),
     ],
 )
-def test_refused_contacts(ehlectric, tmp_path, changes, message):
+def test_refused_contacts(typed, tmp_path, changes, names):
     (tmp_path / "case.toml").write_text(spoiled(CASE, changes), encoding="utf-8")
-    done = ehlectric("check", "case.toml")
+    done = typed("check", "case.toml")
     assert done.returncode == 2
-    assert message in done.stderr
+    assert [name for name in names if name not in done.stderr] == []
     assert done.stderr.count("\n") == 1
 
 
-@pytest.mark.slow
-def test_a_radius_in_metres(ehlectric, tmp_path):
-    """E20: a radius meant in millimetres."""
-    (tmp_path / "case.toml").write_text(spoiled(CASE, {'"14.1 mm"': "14.1"}))
-    done = ehlectric("check", "case.toml")
-    assert done.returncode == 0, done.stderr
-    assert "reduced_radius is 14.1 m, more than machine parts have" in " ".join(done.stderr.split())
+def test_radii_and_speeds_that_no_machine_has_are_doubted(typed, tmp_path):
+    """E20: a radius meant in millimetres, and 3000 rad/s as a string, are accepted with a warning."""
+    for text, command, name in (
+        (spoiled(CASE, {'"14.1 mm"': "14.1"}), "case", "reduced_radius is 14.1 m"),
+        (spoiled(BEARING, {"3000 rpm": "3000 rad/s"}), "bearing", "n d_m is 1.72e+06 mm/min"),
+    ):
+        (tmp_path / f"{command}.toml").write_text(text)
+        done = typed("check", f"{command}.toml")
+        assert done.returncode == 0, done.stderr
+        assert name in " ".join(done.stderr.split())
 
 
 def workbook():
@@ -232,45 +191,25 @@ def workbook():
     return content.getvalue()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "content", "message"),
-    [
-        pytest.param(
-            "prof.xlsx",
-            workbook(),
-            "prof.xlsx: is a workbook of a spreadsheet program; save the sheet as CSV",
-            id="E14",
-        ),
-        pytest.param(
-            "heights.csv",
-            b"height um\n" + b"".join(b"%d.5\n" % k for k in range(50)),
-            "heights.csv: contains one column of numbers; expected two, position and height",
-            id="E15",
-        ),
-    ],
-)
-def test_files_that_are_no_profile(ehlectric, tmp_path, name, content, message):
-    (tmp_path / name).write_bytes(content)
-    done = ehlectric("surface", name)
+def test_a_workbook_is_no_profile(typed, tmp_path):
+    """E14."""
+    (tmp_path / "prof.xlsx").write_bytes(workbook())
+    done = typed("surface", "prof.xlsx")
     assert done.returncode == 2
-    assert message in done.stderr
+    for part in ("prof.xlsx: ", "workbook", "CSV"):
+        assert part in done.stderr
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("at", "message"),
+@each(
+    "at, status, name",
     [
-        pytest.param("bearing.temperature=70 C", None, id="E16"),
-        pytest.param("bearing.temperature=70 °C", None, id="E21-unit"),
-        pytest.param(
-            "bearing.temperature=70",
-            "at: bearing.temperature: got 70; expected a temperature with its unit, as '70 °C'",
-            id="E21",
-        ),
+        pytest.param("bearing.temperature=70 C", 0, "70 °C", id="E16"),
+        pytest.param("bearing.temperature=70 °C", 0, "70 °C", id="E21-unit"),
+        pytest.param("bearing.temperature=70", 2, "bearing.temperature: got 70", id="E21"),
     ],
 )
-def test_temperatures_of_a_cut(monkeypatch, tmp_path, at, message):
+def test_temperatures_of_a_cut(monkeypatch, tmp_path, at, status, name):
     axes = {SPEED: (1.0, 2.0), LOAD: (5e5, 1e6), "bearing.temperature": (313.15, 343.15)}
     store = types.ModuleType("ehlectric.sweep.store")
     store.read_sweep = lambda _: grid(axes, breakdown)
@@ -280,5 +219,5 @@ def test_temperatures_of_a_cut(monkeypatch, tmp_path, at, message):
     app.command("map")(draw_maps)
     words = ["grid", "--x", SPEED, "--y", LOAD, "--value", "discharge.breakdown_voltage", "--at", at]
     done = CliRunner().invoke(app, words, env={"COLUMNS": "200"})
-    assert done.exit_code == (2 if message else 0), done.output
-    assert (message or "temperature = 70 °C") in done.output
+    assert done.exit_code == status, done.output
+    assert name in done.output

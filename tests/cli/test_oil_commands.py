@@ -114,25 +114,3 @@ def test_the_oil_of_a_file_is_shown_at_its_temperature(ehlectric, tmp_path):
     lacking = json.loads(ehlectric("oil", "drive.toml", "--json").stdout)
     assert lacking["needs"] == ["relative_permittivity"]
     assert lacking["properties"][0]["values"][0] > 0.0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (("fva3",), "oil: got 'fva3'; expected a .toml file, or a name of the library: "),
-        (("fva-3", "--temperature", "200 degC"), "--temperature: got 200 degC; expected 20 to 110 degC"),
-        (("fva-3", "--temperature", "40"), "--temperature: got '40' (it has no unit)"),
-        (("fva-3", "--pressure", "-1 GPa"), "--pressure: got '-1 GPa'"),
-        (("fva-3", "--format", "bmp"), "--format: got 'bmp'"),
-        (("none.toml",), "none.toml: cannot be read"),
-        (("empty.toml",), "empty.toml: has no table [lubricant]"),
-    ],
-)
-def test_mistakes_end_with_one_line(ehlectric, tmp_path, words, message):
-    (tmp_path / "empty.toml").write_text('title = "nothing"\n')
-    done = ehlectric("oil", *words, "-o", "out")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f"error: {message}")
-    assert done.stderr.count("\n") == 1
-    assert not (tmp_path / "out").exists()

@@ -8,6 +8,7 @@ import pytest
 from ehlectric import load
 from ehlectric.figures.names import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
 from tests.cli.test_commands import DATA, one_line
+from tests.helpers.each import each
 
 POINT = """\
 title = "A ball"
@@ -58,18 +59,13 @@ def test_run_writes_everything(ehlectric, point_file, tmp_path):
 
 
 @pytest.mark.slow
-def test_plot_redraws(ehlectric, point_file, tmp_path):
-    assert ehlectric("run", point_file, "-o", "out", "--no-plots", "-q").returncode == 0
+def test_json_is_the_summary_alone_and_plot_redraws(ehlectric, point_file, tmp_path):
+    done = ehlectric("run", point_file, "-o", "out", "--no-plots", "--json")
     assert names_in(tmp_path / "out") == DATA
+    assert json.loads(done.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
     done = ehlectric("plot", "out/result.nc", "-o", "figures")
     assert done.returncode == 0, done.stderr
     assert names_in(tmp_path / "figures") <= FIGURES
-
-
-@pytest.mark.slow
-def test_json_is_the_summary_alone(ehlectric, point_file, tmp_path):
-    done = ehlectric("run", point_file, "-o", "out", "--no-plots", "--json")
-    assert json.loads(done.stdout) == json.loads((tmp_path / "out" / "summary.json").read_text())
 
 
 @pytest.mark.slow
@@ -115,14 +111,8 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "message"), BAD)
-def test_bad_case_is_one_line_and_nothing_is_written(ehlectric, point_file, tmp_path, old, new, message):
+@each("old, new, message", BAD)
+def test_bad_case_is_one_line_and_nothing_is_written(typed, point_file, tmp_path, old, new, message):
     point_file.write_text(POINT.replace(old, new))
-    assert message in one_line(ehlectric("run", point_file, "-o", "out"))
-    assert not (tmp_path / "out").exists()
-
-
-def test_the_papers_solver_is_for_line_contacts(ehlectric, point_file, tmp_path):
-    said = one_line(ehlectric("run", point_file, "-o", "out", "--solver", "paper"))
-    assert "contact.geometry: got 'point'; the solver 'paper' needs 'line'" in said
+    assert message in one_line(typed("run", point_file, "-o", "out"))
     assert not (tmp_path / "out").exists()

@@ -1,4 +1,4 @@
-"""README: its answer is the one the command prints, its Python runs, its files exist, and it is short."""
+"""README: its answer is the one the command prints, its Python runs, and its files exist."""
 
 import re
 import shlex
@@ -16,8 +16,7 @@ def blocks(language):
     return re.findall(rf"^```{language}\n(.*?)^```", README, flags=re.S | re.M)
 
 
-def test_the_readme_is_short_and_its_links_lead_somewhere():
-    assert README.count("\n") < 120
+def test_the_links_of_the_readme_lead_somewhere():
     links = re.findall(r"\]\(([\w/.-]+)\)|src=\"([^\"]+)\"", README)
     assert len(links) > 10
     for link in links:

@@ -12,7 +12,6 @@ from tests.helpers.moving_cases import LINE
 from tests.helpers.places import EXAMPLES
 from tests.helpers.reports import HOSTILE, Page, text_of_pdf
 
-RESULTS = "result.nc, bearing.nc, drive.nc, motion.nc, sweep.sqlite"
 SWEEP = f"""\
 title = "Speeds"
 [vary]
@@ -120,25 +119,3 @@ def test_one_format_elsewhere(ehlectric, tmp_path):
     done = ehlectric("report", "out/result.nc", "-o", "film.pdf")
     assert (done.returncode, done.stdout) == (0, "written: film.pdf\n")
     assert (tmp_path / "film.pdf").read_bytes().startswith(b"%PDF")
-
-
-@pytest.mark.parametrize(
-    ("words", "line"),
-    [
-        (("empty",), f"empty: has no result; expected a folder with one of {RESULTS}"),
-        (("none",), "none: cannot be read, no such file or directory"),
-        (("case.toml",),
-         "case.toml: is a case of a contact; expected a result; solve it with: ehlectric run case.toml"),
-        (("empty", "--format", "doc"), "--format: got 'doc'; expected one of html, pdf"),
-        (("empty", "-o", "film.doc"), "film.doc: ends in '.doc'; expected a file that ends in .html or .pdf"),
-        (("empty", "-o", "none/film.pdf"), "none/film.pdf: cannot be written to, its folder does not exist"),
-        (("empty", "-o", "film.pdf", "--format", "pdf"),
-         "--format: cannot be combined with --output; expected one of them: the file ends in .html or .pdf"),
-    ],
-)  # fmt: skip
-@pytest.mark.usefixtures("case_file")
-def test_what_is_refused(words, line, ehlectric, tmp_path):
-    (tmp_path / "empty").mkdir()
-    done = ehlectric("report", *words)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"error: {line}\n")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "empty"]

@@ -57,60 +57,6 @@ def test_nothing_is_said_when_quiet_and_files_are_replaced(ehlectric, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bearing.lib", "bearing.toml"]
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (("-o", "bearing.toml"), "bearing.toml: already exists and is no netlist of ehlectric"),
-        (("-o", "none/bearing.lib"), "none/bearing.lib: cannot be written to, its folder does not exist"),
-        (("--arc-resistance", "1 ohm"), "--extinction-voltage: missing; expected a value"),
-        (
-            ("--arc-resistance", "1", "--extinction-voltage", "1 V"),
-            "--arc-resistance: got '1' (it has no unit)",
-        ),
-        ((*ARC[:3], "100 V"), "--extinction-voltage: got 100 V; expected less than"),
-        (("--speeds", "500"), "--speeds: got '500' (it has no unit); expected speeds with units"),
-        (
-            ("--speeds", "50 rpm"),
-            "bearing.inner_speed: got 50 rpm, where surfaces touch (lambda ratio below 1)",
-        ),
-        (("--contacts", "guess"), "contacts: "),
-        (("--bench", "bearing.lib"), "bearing.lib: is the file of the subcircuit"),
-    ],
-)
-def test_mistakes_are_told_in_one_line(ehlectric, bearing, tmp_path, words, message):
-    before = bearing.read_text()
-    done = ehlectric("spice", "bearing.toml", *words)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert done.stderr.count("\n") == 1
-    assert done.stderr.startswith(f"error: {message}")
-    assert [path.name for path in tmp_path.iterdir()] == ["bearing.toml"]
-    assert bearing.read_text() == before
-
-
-@pytest.mark.slow
-def test_a_bench_needs_the_drive(ehlectric, bearing, tmp_path):
-    """By the key that is missing, before anything is solved."""
-    for text, key in (
-        (BEARING, "motor.switching_frequency"),
-        (BEARING + DRIVE.partition("\n")[0], "motor.rise_time"),
-        (BEARING.partition("[motor]")[0], "motor"),
-    ):
-        bearing.write_text(text.replace('contacts = "formula"', 'contacts = "solved"'))
-        done = ehlectric("spice", "bearing.toml", "--bench", "bench.cir")
-        assert done.returncode == 2
-        assert done.stderr.startswith(f"error: {key}: missing")
-    assert [path.name for path in tmp_path.iterdir()] == ["bearing.toml"]
-
-
-@pytest.mark.slow
-def test_a_sweep_is_told_its_command(ehlectric, tmp_path):
-    (tmp_path / "sweep.toml").write_text('case = "bearing.toml"\n[vary]\nbearing.fill = ["oil", "air"]\n')
-    done = ehlectric("spice", "sweep.toml")
-    assert done.returncode == 2
-    assert "sweep.toml: is a sweep file; expected a bearing file" in done.stderr
-
-
 @pytest.mark.slow
 def test_the_guide_has_the_lines_of_its_command(ehlectric, tmp_path):
     """The parameters that docs/guide/spice.md prints."""

@@ -5,16 +5,17 @@ import json
 import os
 import subprocess
 import sys
-import tomllib
 
 import pytest
 
+from ehlectric.commands.app import app
 from ehlectric.commands.options import files_ending
 from ehlectric.commands.start import TEMPLATES
 from ehlectric.runs.by_kind import RUNS
 from ehlectric.runs.kinds import kind_of_file
 from ehlectric.runs.meaning import check
 from tests.cli.conftest import CASE
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES, ROOT
 
 KINDS = {"moving": "motion", "bearing": "bearing", "drive": "drive", "sweep": "sweep", "uncertainty": "sweep"}
@@ -23,54 +24,26 @@ COMMANDS = {"bearing": "bearing", "drive": "drive", "sweep": "sweep"}
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", TEMPLATES)
-def test_a_template_of_each_kind_is_written_and_means_something(ehlectric, tmp_path, kind):
+def test_a_template_of_each_kind_is_written_checked_and_solved_as_it_is(ehlectric, tmp_path, kind):
     """In a folder of its own: it needs no other file."""
     done = ehlectric("init", "new.toml", "--kind", kind)
     assert done.returncode == 0, done.stderr
     found = kind_of_file(tmp_path / "new.toml")
     assert found == KINDS.get(kind, "contact")
     command = COMMANDS.get(found, "run")
-    name = f"ehlectric-{found.replace('motion', 'contact')}.schema.json"
-    assert done.stdout == (
-        f"written: new.toml\n  editors complete its keys by: {name}\n"
-        f"  check it with: ehlectric check new.toml\n  solve it with: ehlectric {command} new.toml\n"
-    )
-    meaning = check(RUNS[found].read(tmp_path / "new.toml"))
-    assert meaning.rows
+    schema = f"ehlectric-{found.replace('motion', 'contact')}.schema.json"
+    for part in ("new.toml", schema, "ehlectric check new.toml", f"ehlectric {command} new.toml"):
+        assert part in done.stdout
+    assert check(RUNS[found].read(tmp_path / "new.toml")).rows
     text = (tmp_path / "new.toml").read_text(encoding="utf-8")
-    assert text.startswith(f"#:schema ./{name}\n# ")
+    assert text.startswith(f"#:schema ./{schema}\n# ")
     # What is not published is marked; a line and a point have assumptions in their alternatives.
     assert "assumption" in text
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", TEMPLATES)
-def test_a_template_of_each_kind_is_solved_as_it_is(ehlectric, tmp_path, kind):
-    assert ehlectric("init", "new.toml", "--kind", kind, "-q").returncode == 0
-    found = kind_of_file(tmp_path / "new.toml")
-    command = COMMANDS.get(found, "run")
     options = ["--no-plots"] if command in ("run", "bearing") else []
     # The contacts of the bearing take a minute: they are solved in a test of the example.
     options += ["--contacts", "formula"] if command == "bearing" else []
     done = ehlectric(command, "new.toml", "-o", "out", *options)
     assert done.returncode == 0, done.stderr
-
-
-def test_templates_that_are_examples_are_these():
-    """One source: a kind that an example shows in full has no second file."""
-    for kind, file in TEMPLATES.items():
-        folder, _, name = file.partition("/")
-        places = {"examples": ROOT / "examples", "templates": ROOT / "src/ehlectric/commands/templates"}
-        assert (places[folder] / name).is_file(), kind
-    own = {path.name for path in (ROOT / "src/ehlectric/commands/templates").iterdir()}
-    assert own == {file.partition("/")[2] for file in TEMPLATES.values() if file.startswith("templates/")}
-
-
-def test_the_examples_are_in_the_wheel():
-    """Where the command looks for them in an installed package."""
-    table = tomllib.loads((ROOT / "pyproject.toml").read_text())
-    included = table["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
-    assert included == {"examples": "ehlectric/runs/examples"}
 
 
 @pytest.mark.slow
@@ -86,30 +59,22 @@ def test_examples_are_listed_and_copied_with_what_they_need(ehlectric, tmp_path)
     assert (tmp_path / "surfaces" / "dektak-1.csv").is_file()
     assert ehlectric("check", "rough_contact.toml").returncode == 0
     again = ehlectric("examples", "rough_contact")
-    assert again.stderr == "error: rough_contact.toml: already exists; use --force to overwrite\n"
+    assert again.stderr.startswith("error: rough_contact.toml: ")
+    assert "--force" in again.stderr
     assert ehlectric("examples", "-o", "all", "-q").returncode == 0
     for path in EXAMPLES.glob("*.toml"):
         assert (tmp_path / "all" / path.name).read_bytes() == path.read_bytes()
 
 
-ORDER = [
-    "init", "examples", "check", "schema", "run", "bearing", "drive", "spice", "bearings", "film", "oils",
-    "oil", "sweep", "map", "sensitivity", "plot", "report", "export", "animate", "surface", "app",
-    "reproduce",
-]  # fmt: skip
-
-
-def test_help_is_in_the_order_of_use(ehlectric):
-    done = ehlectric()
+def test_help_is_the_answer_to_no_words(typed):
+    done = typed()
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == ehlectric("--help").stdout
-    commands = done.stdout.partition("Commands:\n")[2].partition("\n\n")[0]
-    assert [text.split()[0] for text in commands.splitlines()] == ORDER
+    assert done.stdout == typed("--help").stdout
 
 
-@pytest.mark.parametrize("command", ORDER)
-def test_help_has_what_it_says_and_no_types_of_python(ehlectric, command):
-    text = ehlectric(command, "--help").stdout
+@each("command", [one.name for one in app.registered_commands])
+def test_help_has_what_it_says_and_no_types_of_python(typed, command):
+    text = typed(command, "--help").stdout
     assert "<bool>" not in text
     assert f"ehlectric {command} " in text
     assert "Examples:\n    ehlectric " in text
@@ -119,9 +84,9 @@ def test_help_has_what_it_says_and_no_types_of_python(ehlectric, command):
         assert words[-1].endswith((".", "]")), option
 
 
-@pytest.mark.parametrize(("command", "word"), [("run", "[motion]"), ("check", "[discharge]")])
-def test_tables_in_brackets_stand_in_the_help(ehlectric, command, word):
-    assert word in ehlectric(command, "--help").stdout
+@each("command, word", [("run", "[motion]"), ("check", "[discharge]")])
+def test_tables_in_brackets_stand_in_the_help(typed, command, word):
+    assert word in typed(command, "--help").stdout
 
 
 @pytest.mark.slow

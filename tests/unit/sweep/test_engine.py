@@ -219,12 +219,13 @@ def test_processes_end_at_once_where_the_run_is_stopped():
     def stopped():
         with processes(1) as crew:
             pids.append(crew.submit(os.getpid).result())
-            crew.submit(time.sleep, 60.0)
+            crew.submit(time.sleep, 600.0)
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         stopped()
-    assert time.monotonic() - started < 30.0
+    # Far from the end of the task, however busy the machine is.
+    assert time.monotonic() - started < 300.0
     assert not _alive(pids[0])
 
 

@@ -1,6 +1,7 @@
 """run_sweep: what is solved and saved, in which order, and what goes on where a run has stopped."""
 
 import math
+import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
 
@@ -149,7 +150,7 @@ def test_progress_while_nothing_finishes(tmp_path, monkeypatch):
 
     def slowly(call, *values):
         while len(told) < 5:
-            pass
+            time.sleep(0.001)
         return call(*values)
 
     with ThreadPoolExecutor(1) as threads:
