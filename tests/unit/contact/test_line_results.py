@@ -13,6 +13,7 @@ from ehlectric import Case, ConvergenceError, InputError, load, save, solve
 from ehlectric.contact.solver import solve as solve_case
 from ehlectric.runtime.files import whole
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 
 
 def test_dataset_has_units_and_provenance(paper_result):
@@ -238,7 +239,7 @@ WARNINGS = [
 ]
 
 
-@pytest.mark.parametrize(("keys", "message", "code"), WARNINGS)
+@each("keys, message, code", WARNINGS)
 def test_warnings(paper_case, keys, message, code):
     case = paper_case.replace({"grid.nodes": 801} | keys)
     result = solve(case)

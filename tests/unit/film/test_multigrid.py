@@ -218,7 +218,7 @@ def convergence_factor(levels):
     return factor
 
 
-@each("nodes", [401, 800, 1601, 6401])
+@pytest.mark.parametrize("nodes", [401, 800, 1601, 6401])
 def test_v_cycle_reduces_the_error_fivefold(nodes):
     assert convergence_factor(jacobians(nodes)) < 0.2
 

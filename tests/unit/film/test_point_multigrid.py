@@ -16,6 +16,7 @@ from ehlectric.film.mesh import Width
 from ehlectric.film.nested import levels_of, nested_iteration
 from ehlectric.film.state import State
 from ehlectric.runtime.parallel.threads import quiet_solution
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share
 from tests.unit.cases.test_point_case import point
@@ -133,7 +134,7 @@ def test_a_cycle_reduces_the_residual(name):
     assert np.linalg.norm(left) < 0.25 * np.linalg.norm(image)
 
 
-@pytest.mark.parametrize("nodes", [15, 17, 18, 19])
+@each("nodes", [15, 17, 18, 19])
 def test_a_cycle_on_a_grid_with_hardly_more_nodes_than_the_band(nodes):
     """The coarsest film of an error estimate may have 17 nodes along x; a band has 14 on each side."""
     case = CASES["circle"].replace({"contact.radius_y": 0.1, "grid.nodes": 65, "grid.nodes_y": 73})

@@ -258,7 +258,7 @@ def set_attribute(name, value):
     return lambda file: file.attrs.__setitem__(name, value)
 
 
-@each(
+@pytest.mark.parametrize(
     "change",
     [
         set_attribute("version", "0.0.0"),

@@ -148,7 +148,7 @@ PACKS = {
 }
 
 
-@each("kind", [*PACKS, "al3d", "text"])
+@pytest.mark.parametrize("kind", [*PACKS, "al3d", "text"])
 def test_any_changed_byte_is_read_or_refused(tmp_path, kind):
     """No file, whatever is in it, may end in a traceback."""
     path = tmp_path / {"al3d": "a.al3d", "text": "a.txt"}.get(kind, "a.x3p")

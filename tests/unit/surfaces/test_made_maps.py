@@ -10,7 +10,6 @@ from ehlectric import InputError
 from ehlectric.surfaces import made_maps as map_generators
 from ehlectric.surfaces import made_profiles as generators
 from ehlectric.surfaces.maps import statistics
-from tests.helpers.each import each
 
 X = np.linspace(-4e-5, 3e-5, 71)
 
@@ -68,8 +67,8 @@ def test_self_affine_spectrum_has_its_slope(hurst):
     assert np.max(power[q > 1.1 / 2e-6]) < 1e-4 * mean[-1]
 
 
-@each("make", [GAUSSIAN, RIDGES, SELF_AFFINE])
-@each("reach", [(3e-4, 1.1e-4), (1.5e-4, 3.3e-4)])
+@pytest.mark.parametrize("make", [GAUSSIAN, RIDGES, SELF_AFFINE], ids=["round", "ridges", "self-affine"])
+@pytest.mark.parametrize("reach", [(3e-4, 1.1e-4), (1.5e-4, 3.3e-4)])
 def test_larger_maps_are_the_same_in_their_middle(make, reach):
     small, large = make(reach_x=1e-4, reach_y=8e-5, seed=7), make(reach_x=reach[0], reach_y=reach[1], seed=7)
     first = [(m - n) // 2 for n, m in zip(small.heights.shape, large.heights.shape, strict=True)]

@@ -36,6 +36,7 @@ from ehlectric.figures.bearing.save import (
 from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 from ehlectric.figures.style import BLUE
 from tests.helpers.bearings import BALLS, bearing_case, contact_solution
+from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.titles import title_of
 
@@ -175,7 +176,7 @@ def line(ax, start):
     return found
 
 
-@pytest.mark.parametrize("draw", OF_BEARING)
+@each("draw", OF_BEARING)
 def test_panels_say_their_unit_and_take_the_axes_given(result, draw):
     polar = draw in OF_BEARING[:2]
     ax = Figure().add_subplot(projection="polar" if polar else None)
@@ -184,7 +185,7 @@ def test_panels_say_their_unit_and_take_the_axes_given(result, draw):
     assert text.split()[-1] in {"[N]", "[µm]", "[pF]", "[V]", "[%]", "[Ω]", "[°]"}
 
 
-@pytest.mark.parametrize("draw", OF_BEARING)
+@each("draw", OF_BEARING)
 def test_panels_make_axes_of_their_own(result, draw):
     assert draw(result).has_data()
 
@@ -305,8 +306,8 @@ def test_a_panel_over_a_pitch_is_drawn_where_its_quantity_varies(monkeypatch):
     assert PITCH not in bearing_figures_of(by_hand(positions=1))
 
 
-@pytest.mark.parametrize(
-    ("changes", "figures", "panels"),
+@each(
+    "changes, figures, panels",
     [
         ({}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 1)),
         ({"motor": None}, (LOADS, CIRCUIT, IMPEDANCE), (2, 2, 1)),
@@ -579,8 +580,8 @@ def test_title_and_verdict_name_one_range_of_speeds():
     assert said(figure(result, SPEED_FIGURE_FILES[1])).startswith(text)
 
 
-@pytest.mark.parametrize(
-    ("voltages", "text"),
+@each(
+    "voltages, text",
     [
         ([(2.0, 1.0), (4.0, 1.0)], "No breakdown expected from 1000 rpm to 2000 rpm"),
         ([(2.0, 5.0), (4.0, 5.0)], "Breakdown expected at all speeds from 1000 rpm to 2000 rpm"),

@@ -17,6 +17,7 @@ from ehlectric.figures.contact.save import drawings_of, figure
 from ehlectric.figures.lengths import length_axis
 from ehlectric.figures.style import OUT_OF_RANGE, axes_or_new
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 from tests.helpers.point_pages import result_of, solved
 
 OIL = {"base": "paper"}
@@ -82,7 +83,7 @@ def test_the_field_is_that_of_the_summary(below):
     assert apart == pytest.approx((1e3 if spread < 1e-3 else 1e2) * spread, rel=0.06)
 
 
-@pytest.mark.parametrize("volts", [7.0, 8.0, 9.55, 10.0, 20.0])
+@each("volts", [7.0, 8.0, 9.55, 10.0, 20.0])
 def test_breakdown_is_said_as_by_the_verdict(volts):
     """At 9.55 V the margin is hardly above 1: the title must not read as safer than the verdict."""
     result = line_case(volts, discharge=STRENGTH)

@@ -4,16 +4,17 @@ import pytest
 from matplotlib.figure import Figure
 
 from ehlectric.figures.contact import line as plot
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("name", plot.FIGURES)
+@each("name", plot.FIGURES)
 def test_figures_have_labels_with_units(paper_result, name):
     ax = plot.FIGURES[name](paper_result)
     assert ax.get_xlabel() == "$x/b$   ($b$ = 499.4 µm)"
     assert any(unit in ax.get_ylabel() for unit in ("[GPa]", "[µm]", "[V/µm]", "[‰]"))
 
 
-@pytest.mark.parametrize("name", plot.FIGURES)
+@each("name", plot.FIGURES)
 def test_figures_draw_on_given_axes(paper_result, name):
     ax = Figure().subplots()
     assert plot.FIGURES[name](paper_result, ax) is ax

@@ -25,6 +25,7 @@ from ehlectric.figures.motion.save import beside_stationary, history, maps, save
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.motion.field_history import intervals_above
 from ehlectric.motion.stored_run import MotionRun
+from tests.helpers.each import each
 from tests.helpers.titles import title_of
 
 HISTORY, MAPS, BESIDE = MOTION_FIGURE_FILES
@@ -453,8 +454,8 @@ def test_an_animation_stopped_on_its_way_leaves_what_was_there(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize(
-    ("name", "fps", "said"),
+@each(
+    "name, fps, said",
     [
         ("run.avi", 25.0, "animation: got 'run.avi'; expected a name that ends in .gif or .mp4"),
         ("run.mp4", 25.0, "animation: got 'run.mp4' and no ffmpeg is found; expected a name in .gif"),
@@ -500,8 +501,8 @@ def test_ffmpeg_that_fails_is_said_in_one_line(tmp_path, monkeypatch):
     assert [file.name for file in tmp_path.iterdir()] == ["bin"]
 
 
-@pytest.mark.parametrize(
-    ("draw", "unit"),
+@each(
+    "draw, unit",
     [
         (motion_history.least_film, "[µm]"),
         (motion_history.largest_field, "[V/µm]"),

@@ -22,6 +22,7 @@ from ehlectric.figures.sweep.sensitivity import distribution, parts, save_sensit
 from ehlectric.runtime.stored_warnings import texts_and_codes
 from ehlectric.sweep.results import Range
 from ehlectric.sweep.sensitivity import sensitivity
+from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, doubtful_where, grid, paired, sobol
 from tests.helpers.titles import title_of
 
@@ -285,7 +286,7 @@ def test_lines_are_named_or_have_a_colour_bar():
     assert [text.get_text() for text in named.get_texts()] == ["b", "a"]
 
 
-@pytest.mark.parametrize(("low", "high"), [(0.2, 2.0), (1.0, 8.0), (0.3, 1.85), (1e-3, 1e4), (0.20, 0.26)])
+@each("low, high", [(0.2, 2.0), (1.0, 8.0), (0.3, 1.85), (1e-3, 1e4), (0.20, 0.26)])
 def test_ticks_are_round_and_enough(low, high):
     ticks = round_numbers(low, high)
     inside = ticks[(ticks >= low) & (ticks <= high)]
@@ -293,7 +294,7 @@ def test_ticks_are_round_and_enough(low, high):
     assert all(len(f"{tick:g}".replace("0.", "").strip("0")) <= 3 for tick in ticks)
 
 
-@pytest.mark.parametrize("values", [[3.0, 9.5], [-2e-9, 7e-9], [5.0, 5.0], [0.0, 0.0], [1e-3, 40.0]])
+@each("values", [[3.0, 9.5], [-2e-9, 7e-9], [5.0, 5.0], [0.0, 0.0], [1e-3, 40.0]])
 def test_levels_hold_all_values(values):
     log = values[0] > 0.0 and values[1] > 20.0 * values[0]
     levels = levels_of(np.array([*values, np.nan]), log=log)

@@ -86,8 +86,8 @@ def test_flux_stays_finite_at_any_gradient():
     assert np.all(np.isfinite([summed.flux, summed.by_gradient[0]]))
 
 
-@pytest.mark.parametrize("rheology", [Rheology(), EYRING, CARREAU], ids=lambda law: law.name)
-@pytest.mark.parametrize(("gradient", "slip"), [(0.4, 0.0), (0.8, 0.9), (-1.2, 0.5)])
+@each("rheology", [Rheology(), EYRING, CARREAU], ids=lambda law: law.name)
+@each("gradient, slip", [(0.4, 0.0), (0.8, 0.9), (-1.2, 0.5)])
 def test_generalised_reynolds_equation(rheology, gradient, slip):
     """The integrals of Yang and Wen (1990), with effective viscosities, by adaptive quadrature.
 
