@@ -142,7 +142,7 @@ def test_text_matrix_goes_to_the_other_reader(tmp_path, monkeypatch):
     np.testing.assert_allclose(surface.heights, heights, atol=1e-14)
     assert (surface.spacing_x, surface.spacing_y) == (1e-6, 1e-6)
     assert surface.map().heights.shape == (40, 24)
-    with pytest.raises(InputError, match=r"z_unit: got 'nm', but .* has its own unit"):
+    with pytest.raises(InputError, match=r"z_unit: .*'nm'"):
         read_surface(path, z_unit="nm")
 
 
@@ -157,14 +157,12 @@ def test_text_matrix_by_surface_topography(tmp_path):
 def test_text_matrix_without_the_package_says_what_reads_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)  # an import of it fails
     path, _ = matrix_file(tmp_path / "matrix.txt")
-    with pytest.raises(
-        InputError, match=r"has 40 columns; expected two, .*; other formats take the extra ehlectric\[ins"
-    ):
+    with pytest.raises(InputError, match=r" 40 columns.*ehlectric\[ins"):
         read_surface(path)
     path.write_text(path.read_text().replace("1.000000e+00", "BAD"))
     with pytest.raises(
         InputError,
-        match=r"line 6 is not of numbers only; expected two columns; .* take the extra ehlectric\[ins",
+        match=r"line 6 .*ehlectric\[ins",
     ):
         read_surface(path)
 
@@ -185,10 +183,10 @@ def test_text_with_units_in_its_header(tmp_path, separator):
 
 def test_units_may_be_given_and_must_not_contradict(tmp_path):
     bare = text_file(tmp_path / "bare.txt", header="position;height")
-    with pytest.raises(InputError, match="x_unit: missing"):
+    with pytest.raises(InputError, match=r"^x_unit: "):
         read_surface(bare)
     assert read_surface(bare, x_unit="um", z_unit="nm").spacing_x == pytest.approx(0.5e-6)
-    with pytest.raises(InputError, match=r"x_unit: got 'mm', but .* states 'um'"):
+    with pytest.raises(InputError, match=r"x_unit: .*'mm'.*'um'"):
         read_surface(text_file(tmp_path / "a.txt"), x_unit="mm")
 
 
@@ -205,16 +203,16 @@ def test_column_of_validity(tmp_path):
 
 
 BAD_TEXT = [
-    ({"rows": 3}, "has 3 points"),
-    ({"change": lambda lines: [*lines[:20], "here; text", *lines[20:]]}, "line 22 is 'here; text'"),
+    ({"rows": 3}, " 3 points"),
+    ({"change": lambda lines: [*lines[:20], "here; text", *lines[20:]]}, "line 22 .*'here; text'"),
     ({"change": lambda lines: [*lines[:20], "30;0", *lines[21:]]}, "do not increase"),
-    ({"change": lambda lines: [*lines[:20], *lines[25:]]}, "spacing is not uniform"),
+    ({"change": lambda lines: [*lines[:20], *lines[25:]]}, "not uniform"),
     ({"header": "x [nm];z [mm]"}, "largest slope"),
     (
         {"change": lambda lines: [f"{k};{3 * k}" for k in range(len(lines))], "header": "x [um];z [um]"},
         "heights range",
     ),
-    ({"change": lambda lines: [*lines[:20], "10.0;nan", *lines[21:]]}, "line 22 is '10.0;nan'"),
+    ({"change": lambda lines: [*lines[:20], "10.0;nan", *lines[21:]]}, "line 22 .*'10.0;nan'"),
 ]
 
 
@@ -253,11 +251,11 @@ def test_files_that_are_cut_or_wrong(tmp_path):
     (tmp_path / "words.csv").write_text("nothing but words\n" * 20)
     al3d(tmp_path / "short.al3d", MAP, Rows="4000")
     for name, message in (
-        ("cut.x3p", "not a complete X3P"),
-        ("no.x3p", "not a complete X3P"),
-        ("binary.opd", "no text profile, X3P or AL3D; other formats|cannot be read by SurfaceTopography"),
-        ("words.csv", "two columns of numbers"),
-        ("short.al3d", "bytes long; expected 513000"),
+        ("cut.x3p", " X3P"),
+        ("no.x3p", " X3P"),
+        ("binary.opd", "X3P or AL3D|SurfaceTopography"),
+        ("words.csv", "two columns"),
+        ("short.al3d", " 513000\\b"),
         ("nowhere.csv", "no such file"),
     ):
         with pytest.raises(InputError, match=message):
@@ -268,7 +266,7 @@ def test_files_that_are_cut_or_wrong(tmp_path):
 def test_al3d_without_a_tag(tmp_path, tag):
     path = al3d(tmp_path / "a.al3d", MAP)
     path.write_bytes(path.read_bytes().replace(tag, b"x" * len(tag)))
-    with pytest.raises(InputError, match="its header lacks a size, a spacing or an offset"):
+    with pytest.raises(InputError, match="header"):
         read_surface(path)
 
 
@@ -276,9 +274,9 @@ def test_lines_that_are_not_there(tmp_path):
     heights = MAP.copy()
     heights[4] = 1e30
     surface = read_surface(al3d(tmp_path / "a.al3d", heights))
-    with pytest.raises(InputError, match="got 20; expected a row from 0 to 19"):
+    with pytest.raises(InputError, match=r"20.* 0 to 19"):
         surface.line(20)
-    with pytest.raises(InputError, match="row 4 has data at 0 of 31"):
+    with pytest.raises(InputError, match=r"row 4 .* 0 of 31"):
         surface.line(4)
-    with pytest.raises(InputError, match="is a profile and has no columns"):
+    with pytest.raises(InputError, match="column"):
         read_surface(DEKTAK).line(0, along="column")

@@ -46,37 +46,37 @@ def test_a_profile_has_no_second_spacing(tmp_path, increment):
 
 
 WRONG_X3P = [
-    ({"SizeZ": 2}, "has 2 heights at each point"),
-    ({"CX_AxisType": "A"}, "axis CX is of type 'A'; expected 'I'"),
-    ({"CY_AxisType": "A"}, "axis CY is of type 'A'; expected 'I'"),
-    ({"CZ_AxisType": "I"}, "axis CZ is of type 'I'; expected 'A'"),
-    ({"CX_AxisType": None}, "axis CX is of type ''"),
-    ({"FeatureType": "PCL"}, "is of the type 'PCL'"),
-    ({"CZ_DataType": "X"}, "heights are of type 'X'; expected one of D, F, L, I"),
-    ({"CZ_DataType": "I"}, "CZ/Increment is ''; expected a number"),
-    ({"CZ_Increment": "0"}, "increment of its heights is 0; expected a positive one"),
-    ({"CZ_Increment": "nan"}, "CZ/Increment is 'nan'"),
-    ({"CZ_Increment": "1e300"}, "expected up to 10 m"),
-    ({"CX_Increment": None}, "CX/Increment is ''; expected a number"),
-    ({"CX_Increment": "inf"}, "CX/Increment is 'inf'"),
-    ({"CX_Increment": "0"}, "its points are 0 m apart along x"),
-    ({"CY_Increment": "0"}, "its points are 0 m apart along y"),
-    ({"CX_Increment": "-1e-7"}, "its points are -1e-07 m apart along x"),
-    ({"CX_Increment": "1,5e-7"}, "CX/Increment is '1,5e-7'"),
-    ({"SizeX": -31, "SizeY": -20}, "SizeX is '-31'; expected a whole number from 1"),
-    ({"SizeX": 0}, "SizeX is '0'"),
-    ({"SizeX": None}, "SizeX is ''; expected a whole number"),
-    ({"SizeY": "1e1"}, "SizeY is '1e1'"),
-    ({"SizeX": 10**12}, "SizeX is '1000000000000'"),
-    ({"SizeX": 10**5, "SizeY": 10**5}, "expected at most 100000000"),
-    ({"SizeX": 32}, "has 4960 bytes; expected 5120"),
-    ({"data": b"\0" * 100_000, "pack": zipfile.ZIP_DEFLATED}, "has 100000 bytes; expected 4960"),
-    ({"mask": b"\xff"}, "'bindata/valid.bin' has 1 bytes; expected 78"),
-    ({"ValidPointsLink": "no.bin"}, "ValidPointsLink is 'no.bin', which cannot be read"),
-    ({"PointDataLink": "no.bin"}, "PointDataLink is 'no.bin', which cannot be read"),
-    ({"encoding": "foo"}, "is not a complete X3P"),
-    ({"encoding": "gbk"}, "is not a complete X3P"),
-    ({"FeatureType": "S" * 11_000_000, "pack": zipfile.ZIP_DEFLATED}, "is not a complete X3P"),
+    ({"SizeZ": 2}, " 2 heights"),
+    ({"CX_AxisType": "A"}, "CX .*'A'.*'I'"),
+    ({"CY_AxisType": "A"}, "CY .*'A'.*'I'"),
+    ({"CZ_AxisType": "I"}, "CZ .*'I'.*'A'"),
+    ({"CX_AxisType": None}, "CX .*''"),
+    ({"FeatureType": "PCL"}, "'PCL'"),
+    ({"CZ_DataType": "X"}, "'X'.*D, F, L, I"),
+    ({"CZ_DataType": "I"}, "CZ/Increment .*''"),
+    ({"CZ_Increment": "0"}, "increment .* 0;.*positive"),
+    ({"CZ_Increment": "nan"}, "CZ/Increment .*'nan'"),
+    ({"CZ_Increment": "1e300"}, " 10 m"),
+    ({"CX_Increment": None}, "CX/Increment .*''"),
+    ({"CX_Increment": "inf"}, "CX/Increment .*'inf'"),
+    ({"CX_Increment": "0"}, " 0 m .* x"),
+    ({"CY_Increment": "0"}, " 0 m .* y"),
+    ({"CX_Increment": "-1e-7"}, " -1e-07 m .* x"),
+    ({"CX_Increment": "1,5e-7"}, "CX/Increment .*'1,5e-7'"),
+    ({"SizeX": -31, "SizeY": -20}, "SizeX .*'-31'.* 1"),
+    ({"SizeX": 0}, "SizeX .*'0'"),
+    ({"SizeX": None}, "SizeX .*''"),
+    ({"SizeY": "1e1"}, "SizeY .*'1e1'"),
+    ({"SizeX": 10**12}, "SizeX .*'1000000000000'"),
+    ({"SizeX": 10**5, "SizeY": 10**5}, " 100000000\\b"),
+    ({"SizeX": 32}, " 4960 .* 5120"),
+    ({"data": b"\0" * 100_000, "pack": zipfile.ZIP_DEFLATED}, " 100000 .* 4960"),
+    ({"mask": b"\xff"}, "'bindata/valid.bin' .*1 .* 78"),
+    ({"ValidPointsLink": "no.bin"}, "ValidPointsLink .*'no.bin'"),
+    ({"PointDataLink": "no.bin"}, "PointDataLink .*'no.bin'"),
+    ({"encoding": "foo"}, " X3P"),
+    ({"encoding": "gbk"}, " X3P"),
+    ({"FeatureType": "S" * 11_000_000, "pack": zipfile.ZIP_DEFLATED}, " X3P"),
 ]  # fmt: skip
 
 
@@ -92,7 +92,7 @@ def test_encrypted_and_text_that_begins_alike(tmp_path):
     content[content.find(b"PK\x03\x04") + 6] |= 1
     content[content.find(b"PK\x01\x02") + 8] |= 1
     (tmp_path / "a.x3p").write_bytes(content)
-    with pytest.raises(InputError, match="not a complete X3P"):
+    with pytest.raises(InputError, match=" X3P"):
         read_surface(tmp_path / "a.x3p")
     (tmp_path / "a.txt").write_text("PK 12\n" + "\n".join(f"{k};0" for k in range(20)))
     assert read_surface(tmp_path / "a.txt", x_unit="um", z_unit="nm").heights.shape == (1, 20)
@@ -107,13 +107,13 @@ def test_void_that_is_zero(tmp_path):
 
 
 WRONG_AL3D = [
-    ({"PixelSizeXMeter": "0"}, "points are 0 m apart along x"),
-    ({"PixelSizeXMeter": "nan"}, "points are nan m apart along x"),
-    ({"PixelSizeYMeter": "inf"}, "points are inf m apart along y"),
-    ({"DepthImageOffset": "-50"}, "at the byte -50; expected positive"),
+    ({"PixelSizeXMeter": "0"}, " 0 m .* x"),
+    ({"PixelSizeXMeter": "nan"}, " nan m .* x"),
+    ({"PixelSizeYMeter": "inf"}, " inf m .* y"),
+    ({"DepthImageOffset": "-50"}, " -50\\b"),
     ({"Cols": "0"}, "20 x 0 points"),
     ({"Rows": "-1"}, "-1 x 31 points"),
-    ({"Rows": "x"}, "its header lacks"),
+    ({"Rows": "x"}, "header"),
 ]
 
 
@@ -126,15 +126,15 @@ def test_wrong_al3d_is_refused_in_words(tmp_path, changes, message):
 @pytest.mark.parametrize("name", ["x_unit", "z_unit"])
 def test_units_of_files_that_have_their_own(tmp_path, name):
     for path in (x3p(tmp_path / "a.x3p", MAP), al3d(tmp_path / "a.al3d")):
-        with pytest.raises(InputError, match=f"{name}: got 'um', but .* has its own unit"):
+        with pytest.raises(InputError, match=f"{name}: .*'um'"):
             read_surface(path, **{name: "um"})
 
 
 def test_pipes_are_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.csv")
-    with pytest.raises(InputError, match="it is a pipe, not a regular file"):
+    with pytest.raises(InputError, match=" pipe"):
         read_surface(tmp_path / "pipe.csv")
-    with pytest.raises(InputError, match="is a directory"):
+    with pytest.raises(InputError, match="directory"):
         read_surface(tmp_path)
     with pytest.raises(InputError, match="is not a path"):
         read_surface("a\0b")

@@ -110,9 +110,9 @@ def test_a_sinusoid_runs_along_its_orientation():
 
 
 def test_too_many_points_are_refused_before_they_are_made():
-    with pytest.raises(InputError, match=r"correlation_length: asks for 1606\d x 1606\d points"):
+    with pytest.raises(InputError, match=r"correlation_length: .* 1606\d x 1606\d "):
         GAUSSIAN(correlation_length=1e-6, reach_x=1e-3, reach_y=1e-3, seed=1)
     for shortest, reach in ((1e-8, 1e-4), (1e-6, 1e-3)):
-        with pytest.raises(InputError, match="shortest_wavelength: asks for") as caught:
+        with pytest.raises(InputError, match="shortest_wavelength: ") as caught:
             SELF_AFFINE(shortest=shortest, reach_x=reach, reach_y=reach, seed=1)
         assert "\n" not in str(caught.value)

@@ -114,7 +114,7 @@ def test_a_flat_map_has_no_roughness():
     assert max(s.sq, s.sa) < 1e-15
     s = statistics(Map(DX, DY, np.zeros((40, 30))))
     assert (s.sq, s.ssk, s.sku, s.correlation_length_x) == (0.0, 0.0, 0.0, 39 * DX)
-    with pytest.raises(InputError, match="rescale_rq: got a flat surface"):
+    with pytest.raises(InputError, match=r"rescale_rq: .*flat"):
         processed_map(flat, Processing("mean", rescale_rq=1e-8))
 
 
@@ -138,7 +138,7 @@ def test_steps_are_those_of_a_profile():
 
 
 def test_trim_that_leaves_nothing():
-    with pytest.raises(InputError, match="leaves 1 x 9 points of 241 x 181"):
+    with pytest.raises(InputError, match=r" 1 x 9 .* 241 x 181"):
         trimmed(mapped(level(0.0)), 60.2e-6)
 
 

@@ -197,9 +197,7 @@ def holed(path, share, **kind):
 
 def test_too_many_voids_are_refused(tmp_path):
     measured_map(Roughness(surface=1, file=holed(tmp_path, 0.2)))
-    with pytest.raises(
-        InputError, match="has data at 1580 of 40 x 50 points; expected a map with at least 16"
-    ):
+    with pytest.raises(InputError, match=r" 1580 of 40 x 50 points.* 16"):
         measured_map(Roughness(surface=1, file=holed(tmp_path, 0.21)))
 
 
@@ -208,24 +206,24 @@ def test_maps_that_cannot_be_used(tmp_path, monkeypatch):
     steep = str(x3p(tmp_path / "steep.x3p", 1e4 * MAP, CX_Increment="1e-6", CY_Increment="1e-6"))
     high = str(x3p(tmp_path / "high.x3p", np.outer(np.ones(20), 5e-7 * np.arange(20)), CY_Increment="1e-7"))
     for table, message in (
-        ({"file": few}, "has data at 465 of 15 x 31 points; expected a map with at least 16 each way"),
-        ({"file": steep}, "of the slopes between neighbours are above 5; expected"),
-        ({"file": high}, "the heights range over 9.5e-06 m, the map over 2.85e-06 m"),
-        ({"file": AL3D, "direction": "y"}, "direction: got 'y' for a whole map; expected along = 'column'"),
-        ({"file": AL3D, "cutoff_long": "0.1 mm"}, "cutoff: got 100 µm"),
-        ({"file": AL3D, "trim": "41 um"}, "trim: got 41 µm, which leaves 12 x 108 points of 200 x 296"),
+        ({"file": few}, " 465 of 15 x 31 points.* 16"),
+        ({"file": steep}, "slopes .* 5;"),
+        ({"file": high}, " 9.5e-06 m.* 2.85e-06 m"),
+        ({"file": AL3D, "direction": "y"}, "direction: .*'y'.*along = 'column'"),
+        ({"file": AL3D, "cutoff_long": "0.1 mm"}, "cutoff: .*100 µm"),
+        ({"file": AL3D, "trim": "41 um"}, "trim: .*41 µm.* 12 x 108 .* 200 x 296"),
     ):
         with pytest.raises(InputError, match=message) as caught:
             surfaces_of({"surface": 1} | table)
         assert "\n" not in str(caught.value)
     for table, message in (
-        ({"line": 3}, "line: got 3 for a whole map"),
-        ({}, "is a profile; expected a map"),
+        ({"line": 3}, "line: .* 3 "),
+        ({}, "profile.* map"),
     ):
         with pytest.raises(InputError, match=message):
             whole_map(Roughness(surface=1, file=str(DEKTAK), **table))
     monkeypatch.setattr("ehlectric.surfaces.files.MOST_MAP_POINTS", 50_000)
-    with pytest.raises(InputError, match=r"has 5.92e\+04 points; expected a map of at most"):
+    with pytest.raises(InputError, match=r" 5.92e\+04 points"):
         surfaces_of({"surface": 1, "file": AL3D})
 
 
@@ -247,16 +245,16 @@ def test_made_shapes_are_those_of_the_line_contact_along_x():
 WRONG = [
     (
         GAUSSIAN | {"correlation_length": "61 um"},
-        "roughness.correlation_length: got 6.1e-05 m; expected at most",
+        "^roughness.correlation_length: .*6.1e-05 m",
     ),
     (
         SELF_AFFINE | {"rolloff_wavelength": "1 m"},
-        "roughness.rolloff_wavelength: got 1 m; expected at most 6e-05",
+        "^roughness.rolloff_wavelength: .* 1 m.* 6e-05",
     ),
-    (GAUSSIAN | {"correlation_length": "0.1 um"}, "roughness.correlation_length: asks for"),
-    (SELF_AFFINE | {"shortest_wavelength": "0.1 um"}, "roughness.shortest_wavelength: asks for"),
-    (PIT | {"width": "0.7 mm"}, "roughness.width: got 0.0007 m; expected less than the shorter side"),
-    ({"surface": 1, "file": "nowhere.x3p"}, "nowhere.x3p: cannot be read"),
+    (GAUSSIAN | {"correlation_length": "0.1 um"}, "^roughness.correlation_length: "),
+    (SELF_AFFINE | {"shortest_wavelength": "0.1 um"}, "^roughness.shortest_wavelength: "),
+    (PIT | {"width": "0.7 mm"}, "^roughness.width: .* 0.0007 m"),
+    ({"surface": 1, "file": "nowhere.x3p"}, "nowhere.x3p: "),
 ]
 
 
@@ -277,7 +275,7 @@ FOR_POINTS = [
 
 @each("table, key", FOR_POINTS)
 def test_keys_of_point_contacts_are_refused_for_lines(table, key):
-    with pytest.raises(InputError, match=f"^roughness.{key}: is not used by a line contact"):
+    with pytest.raises(InputError, match=f"^roughness.{key}: .*line contact"):
         Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "roughness": [table]})
     check_geometry([Roughness.from_dict(table)], "point")
 
@@ -285,11 +283,11 @@ def test_keys_of_point_contacts_are_refused_for_lines(table, key):
 def test_keys_of_line_contacts_are_refused_for_points():
     across = {"surface": 1, "file": "a", "direction": "y"}
     check_geometry([Roughness.from_dict(across)], "point")
-    with pytest.raises(ValueError, match=r"roughness\.assume_transverse: is not used by a point contact"):
+    with pytest.raises(ValueError, match=r"roughness\.assume_transverse: .*point contact"):
         check_geometry([Roughness.from_dict(across | {"assume_transverse": True})], "point")
-    with pytest.raises(InputError, match="orientation: got 30 deg for an isotropic surface"):
+    with pytest.raises(InputError, match=r"orientation: .*30 deg"):
         Roughness.from_dict(GAUSSIAN | {"orientation": "30 deg"})
-    with pytest.raises(InputError, match="orientation: got '200 deg'; expected a number in deg"):
+    with pytest.raises(InputError, match=r"orientation: .*'200 deg'"):
         Roughness.from_dict(RIDGES | {"orientation": "200 deg"})
 
 

@@ -65,14 +65,14 @@ def test_made_surfaces_need_no_continuation(steps):
 LONG_WAVES = [
     (
         GAUSSIAN | {"correlation_length": "0.16 mm"},
-        "roughness.correlation_length: got 0.00016 m; expected at most",
+        "^roughness.correlation_length: .*0.00016 m",
     ),
     (
         SELF_AFFINE | {"rolloff_wavelength": "1 m"},
-        "roughness.rolloff_wavelength: got 1 m; expected at most 0.00015",
+        "^roughness.rolloff_wavelength: .* 1 m.* 0.00015",
     ),
-    (GAUSSIAN | {"correlation_length": "1 nm"}, "roughness.correlation_length: asks for 3.2"),
-    (SELF_AFFINE | {"shortest_wavelength": "1 nm"}, "roughness.shortest_wavelength: asks for"),
+    (GAUSSIAN | {"correlation_length": "1 nm"}, "^roughness.correlation_length: .* 3.2"),
+    (SELF_AFFINE | {"shortest_wavelength": "1 nm"}, "^roughness.shortest_wavelength: "),
 ]
 
 

@@ -38,7 +38,7 @@ def test_micro_sign_in_any_code(tmp_path, code):
 
 def test_no_text_of_any_kind(tmp_path):
     (tmp_path / "a.txt").write_bytes(b"\x81\x8d;\x90" * 100)
-    with pytest.raises(InputError, match="is not text in UTF-8, UTF-16 or Windows-1252"):
+    with pytest.raises(InputError, match="UTF-8, UTF-16 or Windows-1252"):
         read_surface(tmp_path / "a.txt")
 
 
@@ -64,23 +64,23 @@ DOUBTFUL = [
     (
         ["x [um],z [um]"],
         [f"{k},{k + 5}" for k in K],
-        "line 2 is '0,5', one number with a decimal comma or two",
+        "line 2 .*'0,5'",
     ),
-    ([], [f"{k},{k % 7},{k},5" for k in K], "has 4 columns; expected two"),
-    ([], [*rows_of(";")[:-1], "99,50;1"], "mixes decimal points and decimal commas"),
-    ([], [*rows_of(";")[:-1], "1.234,5;1"], "holds two columns of numbers|line 200 is"),
-    (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], "has 3 columns"),
-    (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], "has 3 columns"),
-    (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], "has 3 columns"),
+    ([], [f"{k},{k % 7},{k},5" for k in K], " 4 columns"),
+    ([], [*rows_of(";")[:-1], "99,50;1"], "decimal points and decimal commas"),
+    ([], [*rows_of(";")[:-1], "1.234,5;1"], "two columns|line 200 "),
+    (["x [um];y [um];z [nm]"], [f"{x};0.0;{z:.4f}" for x, z in zip(X, Z, strict=True)], " 3 columns"),
+    (["X;Y;invalid", "[um];[nm];[1/0]"], [line + ";0" for line in rows_of(";")], " 3 columns"),
+    (["x;y;is it", "valid;or;not"], [line + ";1" for line in rows_of(";")], " 3 columns"),
     (
         VALIDITY,
         [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1"],
-        "line 202 has 2 columns; expected 3",
+        "line 202 .*2 columns.* 3",
     ),
-    (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 has the validity '2'; expected 0 or 1"),
-    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "has the validity ''; expected 0"),
-    ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 contains a number that is too large"),
-    ([], [*rows_of(";")[:-1], "9e99;1"], "lengths above 10 m"),
+    (VALIDITY, [line + ";2" for line in rows_of(";")], "line 3 .*'2'.* 0 or 1"),
+    (VALIDITY, [*[line + ";1" for line in rows_of(";")[:-1]], "99.50;1;"], "validity ''"),
+    ([], [*rows_of(";")[:-1], "1e999;1"], "line 200 "),
+    ([], [*rows_of(";")[:-1], "9e99;1"], " 10 m"),
 ]
 
 
@@ -131,10 +131,10 @@ def test_units_are_those_of_their_own_column(tmp_path, separator, head, stated):
         rest = {other: unit for other, unit in given.items() if other != name}
         if known:
             assert_read(read_surface(path, **rest))
-            with pytest.raises(InputError, match=f"{name}: got 'mm', but .* states"):
+            with pytest.raises(InputError, match=f"{name}: .*'mm'"):
                 read_surface(path, **rest, **{name: "mm"})
         else:
-            with pytest.raises(InputError, match=f"{name}: missing"):
+            with pytest.raises(InputError, match=f"^{name}: "):
                 read_surface(path, **rest)
     assert_read(read_surface(path, **given))
 
@@ -142,7 +142,7 @@ def test_units_are_those_of_their_own_column(tmp_path, separator, head, stated):
 @each("unit", ["foo", "kg", "", "um; rm", "1", "1/um"])
 def test_units_that_are_no_length(tmp_path, unit):
     path = written(tmp_path / "a.txt", [], rows_of(";"))
-    with pytest.raises(InputError, match=r"z_unit: got .* expected a unit of length"):
+    with pytest.raises(InputError, match=r"z_unit: .*length"):
         read_surface(path, x_unit="um", z_unit=unit)
 
 
@@ -150,7 +150,7 @@ def test_units_that_are_no_length(tmp_path, unit):
 def test_spacings_that_are_none(tmp_path, unit):
     """Half a metre or half a picometre between points is no measurement."""
     path = written(tmp_path / "a.txt", [], rows_of(";"))
-    with pytest.raises(InputError, match=r"its points are 5e-.* m apart along x|lengths above 10 m"):
+    with pytest.raises(InputError, match=r" 5e-.* m .* x| 10 m"):
         read_surface(path, x_unit=unit, z_unit="pm")
 
 
@@ -162,11 +162,9 @@ def test_samples_that_may_be_missing(tmp_path):
     """Where positions are whole spacings, a gap looks like rounding: it is said; elsewhere it is refused."""
     whole = read_surface(positions(tmp_path / "a.txt", np.delete(np.arange(200), 100)))
     assert len(whole.warnings) == 1
-    assert "1 of the 198 distances between positions are twice the others, the first after point 99" in (
-        whole.warnings[0].text
-    )
+    assert [number in whole.warnings[0].text for number in ("1 of the 198", "point 99")] == [True, True]
     for step in (0.5, 10.0):
-        with pytest.raises(InputError, match="spacing is not uniform"):
+        with pytest.raises(InputError, match="not uniform"):
             read_surface(positions(tmp_path / "a.txt", step * np.delete(np.arange(200), 100)))
 
 
@@ -175,7 +173,7 @@ def test_rounded_positions_are_no_gap(tmp_path):
     assert read_surface(DEKTAK).warnings == ()
     lines = DEKTAK.read_bytes().splitlines(keepends=True)
     (tmp_path / "a.csv").write_bytes(b"".join(lines[:5000] + lines[5001:]))
-    with pytest.raises(InputError, match="spacing is not uniform"):
+    with pytest.raises(InputError, match="not uniform"):
         read_surface(tmp_path / "a.csv")
 
 
@@ -183,5 +181,5 @@ def test_a_text_of_too_many_lines(tmp_path, monkeypatch):
     monkeypatch.setattr(text_files, "MOST_LINES", 50)
     path = tmp_path / "a.csv"
     path.write_text("\n" * 51 + "1;2\n")
-    with pytest.raises(InputError, match=r"a\.csv: has 52 lines; expected at most 50$"):
+    with pytest.raises(InputError, match=r"a\.csv: .* 52 .* 50$"):
         read_surface(path)

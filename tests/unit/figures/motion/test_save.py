@@ -457,17 +457,18 @@ def test_an_animation_stopped_on_its_way_leaves_what_was_there(tmp_path):
 @each(
     "name, fps, said",
     [
-        ("run.avi", 25.0, "animation: got 'run.avi'; expected a name that ends in .gif or .mp4"),
-        ("run.mp4", 25.0, "animation: got 'run.mp4' and no ffmpeg is found; expected a name in .gif"),
-        ("run.gif", 0.0, "fps: got 0; expected 0.1 to 50 instants a second"),
-        ("run.gif", 1e3, "fps: got 1000; expected 0.1 to 50 instants a second"),
+        ("run.avi", 25.0, ["animation: ", "'run.avi'", ".gif or .mp4"]),
+        ("run.mp4", 25.0, ["animation: ", "'run.mp4'", "ffmpeg", ".gif"]),
+        ("run.gif", 0.0, ["fps: ", " 0;", "0.1 to 50"]),
+        ("run.gif", 1e3, ["fps: ", " 1000;", "0.1 to 50"]),
     ],
 )
 def test_animations_that_cannot_be_made_are_refused(name, fps, said, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(InputError) as caught:
         save_animation(by_hand(frames=2), tmp_path / name, fps=fps)
-    assert str(caught.value) == said
+    assert str(caught.value).startswith(said[0])
+    assert [part for part in said if part not in str(caught.value)] == []
     assert list(tmp_path.iterdir()) == []
 
 
