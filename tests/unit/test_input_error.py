@@ -4,6 +4,7 @@ import ast
 import copy
 import pickle
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -18,6 +19,7 @@ from ehlectric.cases.case import Case
 from ehlectric.errors import InputError, MemoryLimitError, WriteError
 from ehlectric.surfaces.files import read_surface
 from ehlectric.sweep.inputs import Sweep
+from tests.helpers.each import each
 
 CASE = {
     "contact": {
@@ -28,15 +30,14 @@ CASE = {
     },
     "lubricant": {"base": "paper"},
 }
-OILS = ", ".join(library.lubricant_names())
 # A contact of the inner ring, as an error names it.
 INNER = SimpleNamespace(ring=SimpleNamespace(name="inner"), load=800.0)
 # Any text, and what a line or a key may not hold.
 TEXTS = st.text(max_size=20) | st.sampled_from(["a\nb", "x;", "got", "takes", "a: b", "\x85", "\r\n"])
 
 
-@pytest.mark.parametrize(
-    ("error", "line", "known"),
+@each(
+    "error, line, known",
     [
         (
             InputError("contact.radius_x", got="-1 m", takes="above 0 m"),
@@ -90,7 +91,7 @@ def test_line_is_made_of_key_value_and_what_is_allowed(
     assert (error.key, error.got, error.takes) == known
 
 
-@pytest.mark.parametrize("kind", [InputError, MemoryLimitError, WriteError])
+@each("kind", [InputError, MemoryLimitError, WriteError])
 def test_error_of_a_worker_arrives_whole(kind: type[InputError]) -> None:
     error = kind("grid.nodes", got=10**6, takes="a grid that fits").under("case")
     for arrived in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
@@ -99,8 +100,8 @@ def test_error_of_a_worker_arrives_whole(kind: type[InputError]) -> None:
         assert vars(arrived) == vars(error)
 
 
-@pytest.mark.parametrize(
-    ("error", "table", "key", "line"),
+@each(
+    "error, table, key, line",
     [
         (InputError("width", got=2, takes="less"), "roughness", "roughness.width", "got 2; expected less"),
         (InputError(got=2, takes="less"), "contact.load", "contact.load", "got 2; expected less"),
@@ -131,45 +132,47 @@ def test_every_error_is_one_line_that_starts_with_its_key(
         assert one.key is None or str(one) == f"{one.key}: {one.text}"
 
 
-@pytest.mark.parametrize(
-    ("table", "value", "known"),
+@each(
+    "table, value, known",
     [
-        ("title", 3, ("title", "3", "a string")),
-        ("solver", 3, ("solver", "3", "a table")),
-        ("contact", {"geometry": "ring"}, ("contact.geometry", "'ring'", "'line' or 'point'")),
-        ("potential_2", 4, ("potential_2", None, "electric.potential_2")),
+        ("title", 3, ("title", "3", ["string"])),
+        ("solver", 3, ("solver", "3", ["table"])),
+        ("contact", {"geometry": "ring"}, ("contact.geometry", "'ring'", ["'line'", "'point'"])),
+        ("potential_2", 4, ("potential_2", None, ["electric.potential_2"])),
         (
             "grid",
             {"wedge": "third"},
-            ("grid.wedge", "'third'", "'third-order', 'second-order' or 'first-order'"),
+            ("grid.wedge", "'third'", ["third-order", "second-order", "first-order"]),
         ),
-        ("grid", {"node": 4}, ("grid.node", None, "grid.nodes")),
-        ("lubricant", {}, ("lubricant.viscosity_law", None, "a value")),
+        ("grid", {"node": 4}, ("grid.node", None, ["grid.nodes"])),
+        ("lubricant", {}, ("lubricant.viscosity_law", None, ["value"])),
         (
             "lubricant",
             {"base": "tar"},
-            ("lubricant.base", "'tar'", f"a name of the library: {OILS}"),
+            ("lubricant.base", "'tar'", library.lubricant_names()),
         ),
         (
             "motion",
             {"passes": 1, "duration": 1},
-            ("motion.passes", "passes and duration together", "either passes or duration"),
+            ("motion.passes", "passes and duration together", ["passes", "duration"]),
         ),
-        ("motion", {}, ("motion.passes", None, "either passes or duration")),
+        ("motion", {}, ("motion.passes", None, ["passes", "duration"])),
         (
             "roughness",
             [{"surface": 1, "file": "a.txt", "generator": "pit"}],
-            ("roughness.file", "file and generator together", "either file or generator"),
+            ("roughness.file", "file and generator together", ["file", "generator"]),
         ),
     ],
 )
 def test_refused_case_knows_key_value_and_what_is_allowed(
-    table: str, value: object, known: tuple[str | None, ...]
+    table: str, value: object, known: tuple[str, str | None, Sequence[str]]
 ) -> None:
     with pytest.raises(InputError) as refused:
         Case.from_dict(CASE | {table: value})
     error = refused.value
-    assert (error.key, error.got, error.takes) == known
+    key, got, named = known
+    assert (error.key, error.got) == (key, got)
+    assert [name for name in named if name not in str(error.takes)] == []
     assert str(error).startswith(f"{error.key}: ")
 
 
@@ -213,7 +216,7 @@ def test_contact_of_a_bearing_is_to_blame_by_key(error: InputError, line: str) -
     assert (refused.key, refused.takes) == ("bearing", error.takes)
 
 
-@pytest.mark.parametrize(
+@each(
     "error",
     [InputError("contacts.width", got=1), InputError("contact a file"), InputError("lubricant", got=1)],
 )

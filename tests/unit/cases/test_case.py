@@ -10,6 +10,7 @@ from ehlectric import Case, InputError, solve
 from ehlectric.contact.case_warnings import line_case_warnings
 from ehlectric.contact.resolve import resolve
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 
 TABLE = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}
 
@@ -29,6 +30,13 @@ def changed(**tables):
     return table
 
 
+# Texts of a user in a message, in which they are cut.
+LONG = [
+    (changed(title="x" * 201), r"^title: got 'x+\.\.\.x+'.* 200 "),
+    (changed(contact={"x" * 1000: 1.0}), r"^contact\.'x+\.\.\.x+': "),
+]
+
+
 def test_defaults_are_those_of_the_paper():
     case = Case.from_dict(TABLE)
     assert (case.electric.potential_1, case.electric.potential_2) == (-1.0, 1.0)
@@ -41,81 +49,12 @@ def test_defaults_are_those_of_the_paper():
 
 def test_cases_are_frozen():
     case = Case.from_dict(TABLE)
-    with pytest.raises(InputError, match="a case is frozen"):
+    with pytest.raises(InputError, match="frozen"):
         case.title = "other"
 
 
-# Each bad input with a part of the one line it gets.
-# ruff: noqa: E501
-BAD = [
-    (changed(contact={"reduced_moduls": 1e9}), r"reduced_moduls: unknown key.*contact\.reduced_modulus"),
-    (changed(roughness={"surface": 1}), r"roughness: got .* expected tables, each headed \[\[roughness\]\]"),
-    (changed(roughness=[{"surface": 3}]), r"roughness\.surface: got 3; expected 1 or 2"),
-    (changed(roughness=[{"surface": 1}]), r"roughness\.file: missing; expected either file or generator"),
-    (changed(roughness=[{"surface": 1, "file": "a", "cutof": 1}]), r"cutof: unknown key.*roughness\.cutoff"),
-    (changed(roughness=[{"surface": 1, "file": "a", "generator": "pit"}]), r"got file and generator together"),
-    (changed(roughness=[{"surface": 1, "generator": "pits"}]), r"generator: got 'pits'; expected one of 'sinusoid'"),
-    (changed(roughness=[{"surface": 1, "generator": "gaussian", "rq": 1e-8}]), r"correlation_length: missing"),
-    (changed(roughness=[{"surface": 1, "file": "a", "rq": 1e-8}]), r"rq: is not used by a file"),
-    (changed(roughness=[{"surface": 1, "file": "a", "direction": "y"}]), r"direction: got 'y'.*assume_transverse"),
-    (changed(roughness=[{"surface": 1, "file": "a", "x_unit": "foo"}]), r"roughness\.x_unit: got 'foo' .* expected a unit of length"),
-    (changed(roughness=[{"surface": 1, "file": "a", "z_unit": "kg"}]), r"roughness\.z_unit: got 'kg' .* expected a unit of length"),
-    (changed(roughness=[{"surface": 1, "file": "a", "z_unit": 1}]), r"roughness\.z_unit: got 1; expected a string"),
-    (changed(roughness=[{"surface": 1, "generator": "self-affine", "rq": 1e-8, "hurst": 0.5, "seed": 1, "rolloff_wavelength": 1e-5, "shortest_wavelength": 1e-5}]), r"shortest_wavelength: got 1e-05 m; expected less than rolloff"),
-    (changed(nodes=5), r"nodes: unknown key.*grid\.nodes"),
-    (changed(extra={"a": 1}), r"extra: unknown key"),
-    (changed(contact={"load_per_length": None}), r"contact\.load_per_length: missing.*max_hertz_pressure"),
-    (changed(lubricant={"base": None}), r"lubricant\.viscosity_law: required"),
-    ({"lubricant": {"base": "paper"}}, r"contact: missing; expected a table"),
-    (changed(contact={"reduced_modulus": "226 kg"}), r"reduced_modulus: got '226 kg' \(kg is not a unit"),
-    (changed(contact={"load_per_length": -1.0}), r"contact\.load_per_length: got -1\.0; expected .*at least 0\.01"),
-    (changed(contact={"load_per_length": 0}), r"contact\.load_per_length: got 0; expected .*at least 0\.01"),
-    (changed(contact={"load_per_length": float("nan")}), r"got nan \(it is not finite\)"),
-    (changed(contact={"load_per_length": float("inf")}), r"got inf \(it is not finite\)"),
-    (changed(contact={"load_per_length": [1.0]}), r"got \[1\.0\] \(it is not a number\)"),
-    (changed(contact={"load_per_length": True}), r"got True \(it is not a number\)"),
-    (changed(contact={"max_hertz_pressure": "1 GPa"}), r"got load_per_length, max_hertz_pressure together"),
-    (changed(contact={"reduced_radius": None, "radius_1": 1.0}), r"contact\.radius_2: missing"),
-    (changed(contact={"reduced_radius": None, "radius_1": 0, "radius_2": 1.0}), r"radius_1: got 0"),
-    (changed(contact={"speed_1": 1.0}), r"entrainment_speed, speed_1 together"),
-    (changed(contact={"entrainment_speed": None, "speed_1": 1.0, "speed_2": -1.0}), r"speed_1, speed_2: got 1 and -1 m/s"),
-    (
-        changed(contact={"entrainment_speed": None, "speed_1": 1.0, "speed_2": 2.0, "slide_to_roll_ratio": 0}),
-        r"slide_to_roll_ratio: follows from speed_1 and speed_2",
-    ),
-    (changed(contact={"geometry": "ball"}), r"contact\.geometry: got 'ball'; expected 'line'"),
-    (changed(contact=[1]), r"contact: got \[1\]; expected a table"),
-    (changed(title=3), r"title: got 3; expected a string"),
-    (changed(title="two\nlines"), r"title: got 'two\\nlines'; expected at most 200 printable"),
-    (changed(title="x" * 201), r"title: got 'x+\.\.\.x+'; expected at most 200"),
-    (changed(lubricant={"base": None, "viscosity": 1}), r"viscosity_law: required; also missing: density_law"),
-    (changed(contact={"a\nb": 1.0}), r"contact\.'a\\nb': unknown key"),
-    (changed(contact={"x" * 1000: 1.0}), r"contact\.'x+\.\.\.x+': unknown key"),
-    (changed(contact={"slide_to_roll_ratio": "1 deg"}), r"slide_to_roll_ratio: got '1 deg'"),
-    (changed(electric={"potential_1": 1.0 + 1e-9}), r"electric\.potential_2: got 1 V, which is potential_1"),
-    (changed(grid={"outlet": 1.2}), r"field_range: got \[-1\.25, 1\.25\], its default"),
-    (changed(grid={"field_range": [0.0, 1e-12]}), r"field_range: .* holds 0 nodes of the film"),
-    (changed(grid={"field_range": [0.0, 1e-12], "field_nodes": 50}), r"field_range: .* at least 0\.001"),
-    (changed(grid={"nodes": 100, "inlet": -50.0}), r"grid\.nodes: got 100 over 52 half-widths; expected at least 417"),
-    (changed(lubricant={"base": "papr"}), r"lubricant\.base: got 'papr'; expected .*paper"),
-    (changed(lubricant={"viscosity_law": "roeland"}), r"viscosity_law: got 'roeland'.*nearest is 'roelands'"),
-    (changed(lubricant={"viscosity_law": 3}), r"lubricant\.viscosity_law: got 3; expected a string"),
-    (changed(electric={"potential_1": "1 V"}), r"electric\.potential_2: got 1 V, which is potential_1"),
-    (changed(grid={"nodes": 10}), r"grid\.nodes: got 10; expected a whole number from 65"),
-    (changed(grid={"nodes": 10**9}), r"grid\.nodes: got 1000000000; expected .* from 65 to 10000001"),
-    (changed(grid={"nodes": "many"}), r"grid\.nodes: got 'many'; expected a whole number"),
-    (changed(grid={"nodes": 100.5}), r"grid\.nodes: got 100\.5; expected a whole number"),
-    (changed(grid={"inlet": 3.0}), r"grid\.inlet: got 3\.0; expected a number.*below -1"),
-    (changed(grid={"field_range": [-5.0, 1.0]}), r"grid\.field_range: got \[-5, 1\].*\[-4, 2\]"),
-    (changed(grid={"field_range": [1.0, -1.0]}), r"grid\.field_range: got \[1, -1\]"),
-    (changed(grid={"field_range": [1.0]}), r"grid\.field_range: got .* expected a list of two numbers"),
-    (changed(grid={"field_range": 1.0}), r"grid\.field_range: got 1\.0; expected a list of two numbers"),
-    (changed(grid={"wedge": "third"}), r"grid\.wedge: got 'third'; expected 'third-order', 'second-order' or 'first-order'"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("table", "message"), BAD)
-def test_bad_input_gets_one_line(table, message):
+@each("table, message", LONG)
+def test_long_texts_are_cut(table, message):
     with pytest.raises(InputError, match=message) as caught:
         Case.from_dict(table)
     assert "\n" not in str(caught.value)
@@ -127,19 +66,10 @@ def test_messages_stay_short():
     assert len(str(caught.value)) < 400
 
 
-@pytest.mark.parametrize("law", ["roelands", "barus", "constant"])
-def test_a_law_takes_what_it_needs(law):
-    lubricant = {
-        "viscosity": 0.04,
-        "viscosity_law": law,
-        "density_law": "incompressible",
-        "relative_permittivity": 2.4,
-    }
-    if law == "constant":
-        assert Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
-    else:
-        with pytest.raises(InputError, match="pressure_viscosity_coefficient: missing"):
-            Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
+def test_a_constant_viscosity_needs_no_coefficient():
+    laws = {"viscosity_law": "constant", "density_law": "incompressible"}
+    lubricant = {"viscosity": 0.04, "relative_permittivity": 2.4} | laws
+    assert Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
 
 
 def test_alternatives_give_the_same_contact():
@@ -177,32 +107,15 @@ def test_shares_of_unequal_bodies():
     assert conditions.compliance_share == pytest.approx(0.6)
 
 
-CONTRADICTIONS = [
-    ({"radius_1": 0.02, "radius_2": -0.01, "reduced_radius": None}, "concave body must be wider"),
-    ({"load_per_length": "900 MN/m"}, "dry contact would be"),
-    (
-        {"radius_1": 0.01, "radius_2": -0.0101, "reduced_radius": None, "load_per_length": 8e6},
-        "less conforming",
-    ),
-    ({"load_per_length": "0.1 N/m"}, "well above the ambient"),
-]
-
-
-@pytest.mark.parametrize(("keys", "message"), CONTRADICTIONS)
-def test_contradictions_are_refused(keys, message):
-    with pytest.raises(InputError, match=message):
-        resolve(Case.from_dict(changed(contact=keys)))
-
-
 WARNINGS = [
     ({"contact.load_per_length": "2 kN/m"}, "isoviscous-rigid"),
-    ({"contact.max_hertz_pressure": "20 MPa"}, "ambient pressure carries"),
+    ({"contact.max_hertz_pressure": "20 MPa"}, "ambient"),
     ({"lubricant.viscosity_law": "barus"}, "Barus"),
-    ({"lubricant.roelands_z": 0.4}, "Roelands' own relation gives 0.675"),
+    ({"lubricant.roelands_z": 0.4}, "0.675"),
 ]
 
 
-@pytest.mark.parametrize(("keys", "message"), WARNINGS)
+@each("keys, message", WARNINGS)
 def test_warnings_before_solving(keys, message):
     case = Case.from_dict(TABLE).replace(keys)
     assert any(message in text for text in map(str, line_case_warnings(case, resolve(case))))
@@ -228,7 +141,7 @@ def test_radii_of_no_machine_are_doubted(radius, told):
     )
     warnings = [w for w in line_case_warnings(case, resolve(case)) if w.code == "radius-large"]
     assert len(warnings) == told
-    assert all(str(w).startswith("reduced_radius is 1.1 m, more than machine parts") for w in warnings)
+    assert all("reduced_radius" in str(w) and " 1.1 m" in str(w) for w in warnings)
 
 
 def test_replace_displaces_alternatives():
@@ -254,7 +167,7 @@ def test_replace_of_the_base_drops_the_old_lubricant():
     assert case.replace(title="b", lubricant={"relative_permittivity": 3.0}).lubricant.viscosity == 0.1
 
 
-@pytest.mark.parametrize("key", ["contact.nonsense", "nonsense", "contact.load_per_length.x"])
+@each("key", ["contact.nonsense", "nonsense", "contact.load_per_length.x"])
 def test_replace_refuses_unknown_keys(key):
     with pytest.raises(InputError, match="unknown key"):
         Case.from_dict(TABLE).replace({key: 1.0})
@@ -324,10 +237,10 @@ def test_missing_roelands_exponent_is_given_by_his_relation():
         "viscosity": 0.04, "viscosity_law": "roelands", "pressure_viscosity_coefficient": 22e-9,
         "roelands_pressure": 0.198e9, "density_law": "incompressible", "relative_permittivity": 2.4,
     }  # fmt: skip
-    with pytest.raises(InputError, match=r"roelands_z: missing.* gives 0.675$"):
+    with pytest.raises(InputError, match=r"roelands_z: missing.*0\.675"):
         Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
     del lubricant["roelands_pressure"]
-    with pytest.raises(InputError, match=r"roelands_z: missing; .* needs it with roelands_pressure$"):
+    with pytest.raises(InputError, match=r"roelands_z: missing.*roelands_pressure"):
         Case.from_dict({"contact": PAPER_CONTACT, "lubricant": lubricant})
 
 

@@ -9,6 +9,7 @@ from ehlectric.cases import library
 from ehlectric.cases.bearings.coating import Coating
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, bearing_case
+from tests.helpers.each import each
 
 OUTER = {"ring": "outer", "thickness": "100 um", "relative_permittivity": 8.0}
 
@@ -18,7 +19,7 @@ def coated(coating, **bearing):
     return bearing_case(BALLS, bearing__coating=coating, **changes)
 
 
-@pytest.mark.parametrize("name", library.coating_names())
+@each("name", library.coating_names())
 def test_coated_rings_of_the_library_lack_their_permittivity(name):
     """No maker states it; with it and a thickness they are complete."""
     with pytest.raises(InputError, match="relative_permittivity"):
@@ -58,41 +59,6 @@ def test_a_new_base_replaces_the_values_of_the_old_one():
     assert stronger.voltage == pytest.approx(2000.0)
 
 
-@pytest.mark.parametrize(
-    ("table", "line"),
-    [
-        (OUTER, "bearing.coating.area: missing; expected it, or bearing.outer_diameter and bearing.width"),
-        (
-            OUTER | {"ring": "inner"},
-            "bearing.coating.area: missing; expected it, or bearing.bore and bearing.width",
-        ),
-        (OUTER | {"ring": "both"}, "bearing.coating.ring: got 'both'; expected 'inner' or 'outer'"),
-        (OUTER | {"thickness": "0 um"}, "bearing.coating.thickness: got '0 um'; expected"),
-        (OUTER | {"relative_permittivity": 0.5}, "bearing.coating.relative_permittivity: got 0.5; expected"),
-        (OUTER | {"base": "teflon"}, "bearing.coating.base: got 'teflon'; expected a name of the library"),
-        (
-            OUTER | {"area": "1 cm^2", "strength": "10 V/um", "breakdown_voltage": "1 kV"},
-            "bearing.coating.strength: got strength and breakdown_voltage together; expected one of the two",
-        ),
-    ],
-)
-def test_lines_for_a_wrong_coating(table, line):
-    with pytest.raises(InputError) as caught:
-        coated(table)
-    assert str(caught.value).startswith(line)
-
-
-@pytest.mark.parametrize(("fill", "value"), [("30 %", 0.3), (0.25, 0.25), (1, 1.0), ("air", "air")])
+@each("fill, value", [("30 %", 0.3), (0.25, 0.25), (1, 1.0), ("air", "air")])
 def test_fillings(fill, value):
     assert bearing_case(BALLS, bearing__fill=fill).bearing.fill == value
-
-
-@pytest.mark.parametrize("fill", ["grease", 1.1, -0.1, math.nan, True, "130 %", "0.3 mm"])
-def test_fillings_that_are_refused(fill):
-    with pytest.raises(InputError, match=r"bearing.fill: got .*; expected 'oil' or 'air', or the part"):
-        bearing_case(BALLS, bearing__fill=fill)
-
-
-def test_a_parallel_capacitance_below_zero_is_refused():
-    with pytest.raises(InputError, match=r"bearing\.parallel_capacitance"):
-        bearing_case(BALLS, bearing__parallel_capacitance="-1 pF")

@@ -4,10 +4,11 @@ import math
 
 import pytest
 
-from ehlectric import Case, InputError
+from ehlectric import Case
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.oils.resolution import depends_on_temperature
 from ehlectric.contact.check import check_case
+from tests.helpers.each import each
 
 SHEET = {
     "kinematic_viscosity_40": "46 mm^2/s",
@@ -23,35 +24,6 @@ CONTACT = {
 }
 
 
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        (
-            {"conductivity": "1e-9 S/m", "conductivity_table": OVER_T},
-            "conductivity: got conductivity and conductivity_table together",
-        ),
-        (
-            {"conductivity_law": "arrhenius", "conductivity_table": OVER_T},
-            "conductivity_law: got conductivity_law and conductivity_table together",
-        ),
-        (
-            {"conductivity": "1e-9 S/m", "conductivity_activation": "50 kJ/mol"},
-            "conductivity_law: missing; expected 'arrhenius'",
-        ),
-        ({"temperature": SHEET, "density": "900 kg/m^3"}, "density: got density and temperature.density_15"),
-        ({"heat_capacity": "2000 J/kg/K"}, "density: missing; expected it, with which heat_capacity"),
-        (
-            {"thermal_expansion": "7e-4 1/K"},
-            "reference_temperature: missing; expected the temperature",
-        ),
-    ],
-)
-def test_one_line_where_a_value_would_be_ignored(given, words):
-    with pytest.raises(InputError) as error:
-        Lubricant.from_dict({"base": "paper"} | given)
-    assert str(error.value).startswith(words)
-
-
 def test_the_density_of_a_data_sheet_serves_the_heat_capacity():
     oil = Lubricant.from_dict({"base": "paper", "temperature": SHEET, "heat_capacity": "2000 J/kg/K"})
     density = 870.0 * (1.0 - 6.5e-4 * 45.0)
@@ -63,8 +35,8 @@ def test_the_density_of_a_data_sheet_takes_the_place_of_that_of_the_base():
     assert oil.at(313.15).density == pytest.approx(870.0 * (1.0 - 6.5e-4 * 25.0), rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("oil", "follows"),
+@each(
+    "oil, follows",
     [
         ({"base": "paper"}, False),
         ({"base": "paper", "reference_temperature": "20 degC"}, False),
@@ -82,8 +54,8 @@ def test_what_makes_an_oil_depend_on_its_temperature(oil, follows):
     assert (numbers[0] != numbers[1]) is follows
 
 
-@pytest.mark.parametrize(
-    ("oil", "kelvin", "codes"),
+@each(
+    "oil, kelvin, codes",
     [
         ({"base": "paper"}, None, []),
         ({"base": "paper"}, 313.15, ["temperature-unused"]),
@@ -101,8 +73,8 @@ EPS = {"temperature": ["40 degC", "80 degC"], "relative_permittivity": [2.07, 2.
 WARM = CONTACT | {"temperature": 333.15}
 
 
-@pytest.mark.parametrize(
-    ("oil", "changes", "value"),
+@each(
+    "oil, changes, value",
     [
         ({"base": "fva-3"}, {"lubricant.viscosity": "0.05 Pa s"}, ("viscosity", 0.05)),
         ({"base": "fva-3"}, {"lubricant.temperature": SHEET}, ("density", 870.0 * (1.0 - 6.5e-4 * 45.0))),

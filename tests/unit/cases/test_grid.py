@@ -2,7 +2,8 @@
 
 import pytest
 
-from ehlectric import Case, InputError, solve
+from ehlectric import Case, solve
+from tests.helpers.each import each
 
 LINE = {
     "contact": {
@@ -31,8 +32,8 @@ def grid_of(tables, **grid):
     return Case.from_dict({**tables, "grid": grid}).grid
 
 
-@pytest.mark.parametrize(
-    ("tables", "grid", "target", "nodes"),
+@each(
+    "tables, grid, target, nodes",
     [
         (LINE, {}, 0.01, 401),
         (POINT, {}, 0.02, 129),
@@ -58,21 +59,6 @@ def test_the_first_grid_of_a_long_domain_has_no_larger_spacing():
         assert (grid.outlet - grid.inlet) / (grid.first().nodes - 1) <= 1.01 * 6.0 / 400
 
 
-@pytest.mark.parametrize(
-    ("tables", "grid", "text"),
-    [
-        (LINE, {"error": 0.01, "nodes": 801}, r"grid\.error: got error beside nodes; expected one of them"),
-        (POINT, {"error": 0.01, "nodes_y": 129}, r"grid\.error: got error beside nodes_y"),
-        (LINE, {"error": 0.01, "refine": 0.01}, r"grid\.error: got error beside refine"),
-        (LINE, {"error": 0.0}, r"grid\.error: .*0\.0001"),
-        (LINE, {"error": "a little"}, r"grid\.error: "),
-    ],
-)
-def test_errors_of_the_film_that_mean_nothing(tables, grid, text):
-    with pytest.raises(InputError, match=text):
-        grid_of(tables, **grid)
-
-
 def test_nodes_and_error_replace_one_another():
     case = Case.from_dict({**LINE, "grid": {"error": 0.02}})
     given = case.replace({"grid.nodes": 801})
@@ -89,8 +75,6 @@ def test_roughness_and_motion_begin_on_a_grid_that_can_have_waves():
     moving = {**POINT, "roughness": [WAVE], "motion": {"passes": 1.0}}
     assert Case.from_dict(moving).first_grid.nodes == 257
     assert Case.from_dict(moving).grid.target is None
-    with pytest.raises(InputError, match=r"grid\.error: is not used with \[motion\]"):
-        Case.from_dict({**moving, "grid": {"error": 0.01}})
 
 
 @pytest.mark.slow
@@ -114,6 +98,6 @@ def test_a_rough_grid_that_needs_too_many_nodes_says_so(monkeypatch):
     )
     assert result.film.x.size == 6401
     said = [str(warning) for warning in result.warnings if warning.code == "refine-not-reached"]
-    assert said[0].startswith(
-        "grid.error: an error of 0.01 % was not reached with 6401 nodes; a rough contact"
-    )
+    assert said[0].startswith("grid.error: ")
+    assert " 0.01 % " in said[0]
+    assert " 6401 nodes" in said[0]

@@ -13,6 +13,7 @@ from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.contact import ONLY, Contact
 from ehlectric.cases.keywords.constructors import keys_of
 from ehlectric.cases.keywords.types import BearingKeys, LineKeys, PointKeys
+from tests.helpers.each import each
 
 LINE = {
     "reduced_radius": "14.1 mm",
@@ -45,8 +46,8 @@ def test_keywords_are_the_keys_of_a_bearing():
     assert set(keys_of(BearingKeys)) == set(Bearing.known_keys())
 
 
-@pytest.mark.parametrize(
-    ("constructor", "keys"),
+@each(
+    "constructor, keys",
     [(Case.line, LineKeys), (Case.point, PointKeys), (BearingCase.of, BearingKeys)],
 )
 def test_editors_see_the_keywords(constructor, keys):
@@ -88,8 +89,8 @@ def test_quantities_of_pint(line):
         Case.line(**(LINE | {"reduced_radius": unit.Quantity(1.0, "N")}), lubricant="paper")
 
 
-@pytest.mark.parametrize(
-    ("make", "key", "text"),
+@each(
+    "make, key, text",
     [
         (lambda: Case.line(**LINE, reduced_radus=1.0, lubricant="paper"), "contact.reduced_radus", "contact.reduced_radius"),
         (lambda: Case.line(**LINE, lubricant="papper"), "lubricant.base", "paper"),
@@ -114,7 +115,7 @@ def test_wrong_keywords(make, key, text):
 
 def test_a_case_that_moves_is_no_line_case(line):
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": 1e-8, "wavelength": 1e-4}
-    with pytest.raises(InputError, match="motion: is no table of a LineCase"):
+    with pytest.raises(InputError, match=r"^motion: .*LineCase"):
         line.replace(roughness=(rough,), motion={"passes": 1.0})
 
 
@@ -125,7 +126,7 @@ def test_assignment_is_refused(line):
         lambda: delattr(line, "title"),
         lambda: setattr(line, "no_such_key", 1),
     ):
-        with pytest.raises(InputError, match="a case is frozen; its replace returns a changed copy"):
+        with pytest.raises(InputError, match="frozen"):
             change()
     assert line == Case.line(**LINE, lubricant="paper")
 
@@ -150,7 +151,5 @@ def test_an_error_in_a_table_within_a_table_has_its_whole_key():
 
 def test_a_missing_lubricant_is_told_as_every_missing_key():
     for make in (Case.line, Case.point, BearingCase.of):
-        with pytest.raises(
-            InputError, match=r"^lubricant: missing; expected its table, or the name of one of "
-        ):
+        with pytest.raises(InputError, match=r"^lubricant: missing"):
             make()

@@ -14,6 +14,7 @@ from ehlectric.cases.oils.named import named_oil
 from ehlectric.cases.oils.properties import Properties
 from ehlectric.cases.oils.report import oil_report
 from ehlectric.cases.oils.survey import PROPERTIES, usual_temperatures
+from tests.helpers.each import each
 
 COMPLETE = [oil.name for oil in library_oils() if not oil.needs]
 SHEET = {"kinematic_viscosity_40": "46 mm^2/s", "kinematic_viscosity_100": "6.8 mm^2/s", "density_15": 870.0}
@@ -28,7 +29,7 @@ OWN = {
 }
 
 
-@pytest.mark.parametrize("name", COMPLETE)
+@each("name", COMPLETE)
 def test_an_oil_that_lacks_nothing_is_that_of_a_solution(name):
     """Two ways to the same oil: property by property, and all of them or none."""
     kelvin = 333.15
@@ -52,8 +53,8 @@ def test_an_oil_that_lacks_nothing_is_that_of_a_solution(name):
         assert PROPERTIES[key].value(known, pressure) == expected_value, key
 
 
-@pytest.mark.parametrize(
-    ("name", "key", "unknown"),
+@each(
+    "name, key, unknown",
     [
         ("n100", "lubricant.relative_permittivity", {"relative_permittivity"}),
         ("pao100", "lubricant.relative_permittivity", {"relative_permittivity"}),
@@ -86,7 +87,7 @@ def test_a_measured_table_of_permittivity_works_at_pressure():
     assert float(oil.permittivity(1e9, oil.density_ratio(1e9)[0])) == pytest.approx(by_hand, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", ["n100", "shell-t9", "fva-3"])
+@each("name", ["n100", "shell-t9", "fva-3"])
 def test_a_range_ends_where_the_viscosity_stops_to_rise(name):
     """The law is capped there: its slope is zero above, and not below."""
     known = known_oil(Properties.from_dict({"base": name}), 313.15)
@@ -112,8 +113,8 @@ def test_a_law_without_a_cap_ends_where_its_measurements_do():
     assert "Hertz" not in str(report.warnings[0])
 
 
-@pytest.mark.parametrize(
-    ("name", "line", "pressure", "law", "kind"),
+@each(
+    "name, line, pressure, law, kind",
     [
         ("fva-3", "viscosity", 0.0, "vogel", "fitted"),
         ("fva-3", "viscosity", 1e9, "modulus", "fitted"),
@@ -156,8 +157,8 @@ def test_values_of_the_base_keep_their_source_beside_those_of_a_user():
     assert named_oil("mobil-shc-320").source("temperature.expansion").kind == "published"
 
 
-@pytest.mark.parametrize(
-    ("source", "celsius"),
+@each(
+    "source, celsius",
     [
         ("fva-3", [40.0, 60.0, 80.0, 100.0]),
         ("mobil-shc-320", [40.0, 60.0, 80.0]),
@@ -212,8 +213,8 @@ def test_an_oil_of_a_file_has_its_temperatures_and_its_conductivity(tmp_path):
     assert ehlectric.oil(str(path), "50 degC").temperature == pytest.approx(323.15)
 
 
-@pytest.mark.parametrize(
-    ("source", "temperature", "message"),
+@each(
+    "source, temperature, message",
     [
         ("fva3", None, "oil: got 'fva3'; expected .*; nearest is 'fva-3'"),
         ("n100", "40 degC", "lubricant.relative_permittivity: missing"),
@@ -244,4 +245,5 @@ def test_a_pole_of_the_permittivity_has_no_value_beyond_it():
     assert values[1e9][0] > 12.0
     assert values[3e9] == (None,)
     (warning,) = report.warnings
-    assert warning.startswith("at 40 °C, lubricant.permittivity_law: 'clausius-mossotti' has a pole")
+    assert "40 °C" in warning
+    assert "lubricant.permittivity_law: 'clausius-mossotti'" in warning

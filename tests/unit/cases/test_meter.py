@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from ehlectric import Case, InputError
+from ehlectric import Case
 from tests.conftest import PAPER_CONTACT
-from tests.unit.cases.test_point_case import BALL, NO_RADII, RING, point
+from tests.helpers.each import each
+from tests.unit.cases.test_point_case import BALL, NO_RADII, point
 
 COATING = {"thickness": "100 um", "relative_permittivity": 9, "strength": "20 V/um"}
 PLANE = {"radius_x": 1e3, "radius_y": 1e3}
@@ -19,7 +20,7 @@ def line(meter, **tables):
     return Case.from_dict(table | tables)
 
 
-@pytest.mark.parametrize(("fill", "share"), [("oil", 1.0), ("air", 0.0), (0.4, 0.4), ("40 %", 0.4)])
+@each("fill, share", [("oil", 1.0), ("air", 0.0), (0.4, 0.4), ("40 %", 0.4)])
 def test_fill_is_a_share(fill, share):
     case = point(meter={"fill": fill, "coating": COATING})
     assert case.meter.fill == share
@@ -27,48 +28,14 @@ def test_fill_is_a_share(fill, share):
     assert Case.from_dict(case.to_dict()) == case
 
 
-BAD = [
-    ({}, {}, r"^meter\.fill: missing; expected either fill, as 'oil', or oil_radius"),
-    ({"fill": "water"}, {}, r"^meter\.fill: got 'water'.* expected 'oil', 'air', or a number"),
-    ({"fill": 1.2}, {}, r"^meter\.fill: got 1\.2; expected 'oil', 'air'"),
-    ({"fill": "oil", "oil_radius": "2 mm"}, {}, r"^meter\.fill: got fill and oil_radius together"),
-    ({"fill": "oil", "coating": {"thickness": "1 um"}}, {}, r"^meter\.coating\.relative_permittivity: "),
-    ({"fill": "oil", "rq": "20 nm"}, {"roughness": BEFORE_OUTLET}, r"^meter\.rq: is not used with \[\[rough"),
-    ({"fill": "oil", "parallel": 1e-12}, {}, r"^meter\.parallel: unknown key"),
-    (
-        {"fill": "oil"},
-        {"body_1": RING, "body_2": BALL},
-        r"^meter\.length: missing; expected the width",
-    ),
-    ({"fill": "oil"}, {"body_1": PLANE, "body_2": CROWNED}, r"^meter\.length: missing"),
-]
-
-
-@pytest.mark.parametrize(("meter", "tables", "message"), BAD)
-def test_what_does_not_fit_is_one_line(meter, tables, message):
-    bodies = {key: value for key, value in tables.items() if key.startswith("body")}
-    others = {key: value for key, value in tables.items() if key not in bodies}
-    with pytest.raises(InputError, match=message):
-        point(NO_RADII | bodies if bodies else None, meter=meter, **others)
-
-
-@pytest.mark.parametrize("bodies", [(PLANE, BALL), (BALL, BALL), (BALL, CROWNED)])
+@each("bodies", [(PLANE, BALL), (BALL, BALL), (BALL, CROWNED)])
 def test_a_ball_on_an_open_body_needs_no_width(bodies):
     first, second = bodies
     assert point(NO_RADII | {"body_1": first, "body_2": second}, meter={"fill": "air"}).meter.length is None
 
 
-def test_a_line_needs_its_length_once():
-    with pytest.raises(InputError, match=r"^meter\.length: missing; expected the length of the line contact"):
-        line({"fill": "oil"})
-    with pytest.raises(InputError, match=r"^meter\.length: got 0\.01 m; expected that of discharge\.length"):
-        line({"fill": "oil", "length": "10 mm"}, discharge={"length": "12 mm"})
+def test_the_length_of_a_line_may_be_that_of_its_discharge():
     assert line({"fill": "oil"}, discharge={"length": "12 mm"}).meter.length is None
-
-
-def test_a_moving_contact_has_no_meter():
-    with pytest.raises(InputError, match=r"^meter: is not used with \[motion\]"):
-        line({"fill": "oil", "length": 0.01}, roughness=BEFORE_OUTLET, motion={"passes": 1.0})
 
 
 def test_alternatives_and_geometry_are_replaced():

@@ -13,6 +13,7 @@ from ehlectric.contact.conditions import default_side
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.resolve import resolve, resolve_point
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 from tests.helpers.strategies import point_tables
 
 POINT = {
@@ -40,60 +41,6 @@ def point(contact=None, **tables):
 
 NO_RADII = {"radius_x": None, "radius_y": None}
 NO_MODULUS = {"reduced_modulus": None}
-# ruff: noqa: E501
-BAD = [
-    (table({"geometry": "ball"}), r"contact\.geometry: got 'ball'; expected 'line' or 'point'"),
-    (table({"load_per_length": 1e5}), r"contact\.load_per_length: is not used by a point contact.* load or max_hertz_pressure"),
-    (table({"reduced_radius": 0.01}), r"contact\.reduced_radius: is not used by a point contact"),
-    (table({"radius_1": 0.01}), r"contact\.radius_1: is not used by a point contact.* expected radius_x and radius_y or body_1\.radius_x"),
-    (table({"radius_2": 0.01}), r"contact\.radius_2: is not used by a point contact"),
-    ({"contact": PAPER_CONTACT | {"load": 20}, "lubricant": {"base": "paper"}}, r"contact\.load: is not used by a line contact"),
-    ({"contact": PAPER_CONTACT | {"radius_x": 1}, "lubricant": {"base": "paper"}}, r"contact\.radius_x: is not used by a line contact.* expected reduced_radius or radius_1"),
-    ({"contact": PAPER_CONTACT | {"radius_y": 1}, "lubricant": {"base": "paper"}}, r"contact\.radius_y: is not used by a line contact"),
-    ({"contact": PAPER_CONTACT | {"body_1": STEEL | BALL}, "lubricant": {"base": "paper"}}, r"contact\.body_1\.radius_x: is not used by a line"),
-    ({"contact": PAPER_CONTACT | {"body_1": {"youngs_modulus": 1e11}}, "lubricant": {"base": "paper"}}, r"contact\.reduced_modulus: got reduced_modulus, body_1\.youngs_modulus together"),
-    ({"contact": {k: v for k, v in PAPER_CONTACT.items() if k != "reduced_modulus"} | {"body_1": {}}, "lubricant": {"base": "paper"}}, r"contact\.reduced_modulus: missing; expected either reduced_modulus or body_1\.youngs"),
-    (table({"radius_y": None}), r"contact\.radius_y: missing; expected either radius_x and radius_y or body_1"),
-    (table(NO_RADII), r"contact\.radius_x: missing; expected either radius_x and radius_y or body_1\.radius_x and"),
-    (table({"load": None}), r"contact\.load: missing; expected either load or max_hertz_pressure"),
-    (table({"max_hertz_pressure": 1e9}), r"contact\.load: got load, max_hertz_pressure together"),
-    (table({"body_1": BALL}), r"contact\.radius_x: got radius_x, radius_y, body_1\.radius_x, body_1\.radius_y together"),
-    (table({"body_1": STEEL, "body_2": STEEL}), r"contact\.reduced_modulus: got reduced_modulus, body_1\.youngs_modulus"),
-    (table(NO_RADII | {"body_1": BALL}), r"contact\.body_2\.radius_x: missing"),
-    (table(NO_RADII | {"body_1": BALL, "body_2": {"radius_x": 1}}), r"contact\.body_2\.radius_y: missing"),
-    (table(NO_RADII | {"body_1": BALL, "body_2": BALL | {"radius_y": 0}}), r"contact\.body_2\.radius_y: got 0 m; expected at least 1e-06 m"),
-    (table(NO_RADII | {"body_1": BALL | {"radius_x": 1e-9}, "body_2": BALL}), r"contact\.body_1\.radius_x: got 1e-09 m"),
-    (table(NO_MODULUS | {"body_1": STEEL}), r"contact\.body_2\.youngs_modulus: missing"),
-    (table(NO_MODULUS | {"body_1": {"youngs_modulus": 1e11}, "body_2": STEEL}), r"contact\.body_1\.poissons_ratio: missing"),
-    (table({"load": "20 N/m"}), r"contact\.load: got '20 N/m' \(N/m is not a unit of this quantity\)"),
-    (table({"load": 0}), r"contact\.load: got 0; expected .*at least 1e-06"),
-    (table({"radius_x": -0.01}), r"contact\.radius_x: got -0\.01; expected"),
-    (table({"body_1": {"radius_z": 1}}), r"contact\.body_1\.radius_z: unknown key.*contact\.body_1\.radius_[xy]"),
-    (table(grid={"nodes": 4098}), r"grid\.nodes: got 4098 in a point contact; expected at most 4097"),
-    (table(grid={"field_nodes": 5000}), r"grid\.field_nodes: got 5000 in a point contact; expected at most 4097"),
-    (table(grid={"nodes_y": 32}), r"grid\.nodes_y: got 32; expected a whole number from 33 to 4097"),
-    (table(grid={"nodes": 65, "inlet": -9.0}), r"grid\.nodes: got 65 over 10\.5 semi-axes; expected at least 85"),
-    (table(grid={"nodes": 65, "side": 5.0}), r"grid\.nodes: got 65 across 10 semi-axes; expected at least 81"),
-    (table(grid={"nodes_y": 65, "side": 5.0}), r"grid\.nodes_y: got 65 across 10 semi-axes"),
-    (table(grid={"side": 1.0}), r"grid\.side: got 1\.0; expected .*above 1"),
-    (table(grid={"side": 1.1}), r"grid\.field_side: got 1\.25; expected at most side, 1\.1"),
-    (table(grid={"refine": "3 K"}), r"grid\.refine: got '3 K' \(it is not a number in percent\); expected a number or a string in percent"),
-    (table(grid={"refine": "3 deg"}), r"grid\.refine: got '3 deg' \(it is not a number in percent"),
-    (table(grid={"refine": "60 %"}), r"grid\.refine: got '60 %'; expected .* at most 0\.5"),
-    (table(grid=[1]), r"grid: got \[1\]; expected a table"),
-    *(
-        ({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {key: 40}}, rf"grid\.{key}: is not used by a line contact")
-        for key in ("nodes_y", "side", "field_side", "field_nodes_y")
-    ),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("given", "message"), BAD)
-def test_bad_input_gets_one_line(given, message):
-    with pytest.raises(InputError, match=message) as caught:
-        Case.from_dict(given)
-    assert "\n" not in str(caught.value)
-    assert len(str(caught.value)) < 400
 
 
 def test_grid_of_a_point_has_its_own_defaults():
@@ -113,16 +60,14 @@ def test_parts_make_a_case_as_tables_do():
     assert again == case
 
 
-@pytest.mark.parametrize(
-    ("given", "value"), [("3 %", 0.03), ("3%", 0.03), (0.03, 0.03), ("0.01 percent", 1e-4)]
-)
+@each("given, value", [("3 %", 0.03), ("3%", 0.03), (0.03, 0.03), ("0.01 percent", 1e-4)])
 def test_refine_takes_percent(given, value):
     assert point(grid={"refine": given}).grid.refine == value
     line = {"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}, "grid": {"refine": given}}
     assert Case.from_dict(line).grid.refine == value
 
 
-@pytest.mark.parametrize("given", ["3", "3 % %", "3 rad", "3 m/m", "3 kg", "%"])
+@each("given", ["3", "3 % %", "3 rad", "3 m/m", "3 kg", "%"])
 def test_a_fraction_takes_no_other_text(given):
     with pytest.raises(ValueError, match="it is not a number in percent"):
         Quantity("", least=0.0, most=1.0, fraction=True).parse(given)
@@ -142,7 +87,7 @@ COMBINATIONS = {
 }
 
 
-@pytest.mark.parametrize("name", COMBINATIONS)
+@each("name", COMBINATIONS)
 def test_alternatives_combine(name):
     """By hand: 1/Rx = 1/24 + 1/5.953, 1/Ry = 1/5.953 - 1/6.191 per mm; E' = 206 GPa/0.91."""
     conditions = resolve_point(point(COMBINATIONS[name]))
@@ -201,23 +146,6 @@ def test_sides_shrink_with_the_ratio():
     assert resolve_point(point(grid={"side": 2.5})).side == 2.5
 
 
-CONTRADICTIONS = [
-    (table(NO_RADII | {"body_1": {"radius_x": 0.01, "radius_y": -0.005}, "body_2": BALL}), r"body_1\.radius_y: got -0\.005 m with 0\.005953 m of body_2.* concave body must be wider"),
-    (table({"load": "10 MN"}), "dry contact would be"),
-    (table({"radius_x": 1e-5, "radius_y": 10.0, "load": "100 kN"}), "dry contact would be .*smallest radius 1e-05"),
-    (table(NO_RADII | {"load": "1 MN", "body_1": RING | {"radius_y": -5.96e-3}, "body_2": BALL}), "less conforming"),
-    (table({"load": "1 uN", "reduced_modulus": "1 MPa"}), "well above the ambient"),
-    (table({"radius_x": 0.1}, grid={"nodes_y": 65}), r"grid\.nodes_y: got 65 across 9 semi-axes; expected at least 73"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("given", "message"), CONTRADICTIONS)
-def test_contradictions_are_refused(given, message):
-    with pytest.raises(InputError, match=message) as caught:
-        resolve_point(Case.from_dict(given))
-    assert "\n" not in str(caught.value)
-
-
 def test_semi_axes_are_compared_with_the_radii_of_their_plane():
     """A narrow long ellipse, wider across than the ball is along, is no contradiction."""
     case = point({"radius_x": 1e-3, "radius_y": 10.0, "load": 10.0})
@@ -227,20 +155,20 @@ def test_semi_axes_are_compared_with_the_radii_of_their_plane():
 
 
 WARNINGS = [
-    ({"load": "1 N", "reduced_modulus": "2 MPa"}, {"ambient_pressure": 0.0}, "isoviscous-elastic regime"),
+    ({"load": "1 N", "reduced_modulus": "2 MPa"}, {"ambient_pressure": 0.0}, "isoviscous-elastic"),
     (
         {"load": "5 mN"},
         {"ambient_pressure": 0.0},
-        "isoviscous-rigid regime: .* semi-axes: check that grid.inlet is at most -",
+        r"isoviscous-rigid .*grid\.inlet",
     ),
-    ({"max_hertz_pressure": "20 MPa", "load": None}, {}, "ambient pressure carries 8.6 % of the load"),
-    ({"max_hertz_pressure": "4.3 GPa", "load": None}, {}, "permanently above 4.2 GPa in point contacts"),
+    ({"max_hertz_pressure": "20 MPa", "load": None}, {}, r"ambient .* 8\.6 %"),
+    ({"max_hertz_pressure": "4.3 GPa", "load": None}, {}, r"4\.2 GPa"),
     ({}, {"viscosity_law": "barus"}, "Barus"),
-    ({}, {"roelands_z": 0.4}, "Roelands' own relation gives 0.675"),
+    ({}, {"roelands_z": 0.4}, r"0\.675"),
 ]
 
 
-@pytest.mark.parametrize(("contact", "lubricant", "message"), WARNINGS)
+@each("contact, lubricant, message", WARNINGS)
 def test_warnings_before_solving(contact, lubricant, message):
     """The ambient share by hand: 1e5/20e6 6 6/(2 pi/3) = 0.086."""
     case = Case.from_dict(table(contact) | {"lubricant": {"base": "paper"} | lubricant})
@@ -335,7 +263,7 @@ def test_any_case_means_something_or_is_refused_in_words(table):
 def test_grids_that_do_not_fit_into_memory(monkeypatch):
     monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
     check_memory(point())
-    with pytest.raises(InputError, match=r"grid\.nodes: got 2049 x 2049 .* GB; expected a grid .* 1 GB"):
+    with pytest.raises(InputError, match=r"grid\.nodes: .*2049 x 2049 .* 1 GB"):
         check_memory(point(grid={"nodes": 2049}))
-    with pytest.raises(InputError, match=r"grid\.field_nodes: got 4001 x 4001 with field_degree 20"):
+    with pytest.raises(InputError, match=r"grid\.field_nodes: .*4001 x 4001 .*field_degree 20"):
         check_memory(point(grid={"field_nodes": 4001, "field_nodes_y": 4001, "field_degree": 20}))

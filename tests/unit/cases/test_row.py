@@ -9,12 +9,13 @@ from ehlectric.cases.quantity import to_si
 from ehlectric.cases.result_key import ResultKey
 from ehlectric.cases.row import UNITS, Row, rows_of, value_at
 from ehlectric.tables.layout import table_of
+from tests.helpers.each import each
 
 KEYS = {"film.minimum_thickness": ResultKey("smallest film", "m")}
 ENTRY = ("minimum film", "film.minimum_thickness")
 
 
-@pytest.mark.parametrize("unit", [unit for unit in UNITS if unit not in ("", "%")])
+@each("unit", [unit for unit in UNITS if unit not in ("", "%")])
 def test_units_are_those_of_case_files(unit):
     si, factor = UNITS[unit]
     assert to_si(f"1 {unit}", si) * factor == pytest.approx(1.0, rel=1e-14)
@@ -51,8 +52,8 @@ def test_values_by_dotted_key():
     assert [value_at(table, key) for key in ("a.b.2", "a.b.x", "a.c", "n.b")] == [None] * 4
 
 
-@pytest.mark.parametrize(
-    ("row", "text"),
+@each(
+    "row, text",
     [
         (Row("minimum film", 1e-6, "µm", ", here"), "1 µm, here"),
         (Row("minimum film", 1e-6, "µm", " at x/b = 1"), "1 µm at x/b = 1"),

