@@ -170,7 +170,7 @@ def test_json_on_request(ehlectric, bearing_file, tmp_path):
             "bearing.radial_clearance",
             ["missing", "clearance_class", "[bearing.fits]"],
         ),
-        ("elements = 14", "elements = 18", "bearing.elements", ["18", "3 to 17"]),
+        ("elements = 14", "elements = 18", "bearing.elements", ["18", "3 to 17", "0.011 m", "0.06 m"]),
         (
             "[lubricant]\n",
             '[lubricant]\nviscosity = "0.02 Pa s"\n',

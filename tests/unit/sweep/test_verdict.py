@@ -122,7 +122,15 @@ def test_points_without_a_margin_leave_no_green_verdict():
         )
     )
     assert verdict.level == "yellow"
-    for part in ("none of 2 points", "1.50 to 2.00", "3 more points", "1 not solved", "15 V/µm"):
+    for part in (
+        "none of 2 points",
+        "1.50 to 2.00",
+        "3 more points",
+        "1 surfaces touch",
+        "1 not solved",
+        "1 solved",
+        "15 V/µm",
+    ):
         assert part in verdict.text
     one = sweep_verdict(sweep({SPEED: speeds[:3]}, [1.5, None, 2.0], at_1={"lubrication": "conducting"}))
     assert "1 more point has no margin" in one.text
