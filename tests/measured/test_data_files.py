@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.helpers.each import each
 from tests.measured.reference import DATA, NEEDED, exponent, film_log, load, zero_checks
 
 FILES = sorted(path.stem for path in DATA.glob("*.csv"))
@@ -12,7 +13,7 @@ def test_there_are_data_files():
     assert len(FILES) == 5
 
 
-@pytest.mark.parametrize("name", FILES)
+@each("name", FILES)
 def test_header_and_values(name):
     reference = load(name)
     assert [line for line in NEEDED if not reference.header.get(line)] == []

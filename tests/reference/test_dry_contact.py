@@ -8,6 +8,7 @@ from scipy.special import elliprd, elliprf, erf
 
 from ehlectric.film.deflection import Deflection, line_influence, point_influence
 from ehlectric.surfaces import made_maps
+from tests.helpers.each import each
 from tests.reference import dry_contact as dry
 from tests.reference.hertz_point import radii_ratio
 
@@ -151,8 +152,8 @@ def test_complete_contact_of_a_map():
     assert np.std(found.pressure) == pytest.approx(0.5 * gradient, rel=1e-8)
 
 
-@pytest.mark.parametrize("hardness", [np.inf, 1.5, 0.9])
-@pytest.mark.parametrize("shift", [0.0, 0.01])
+@each("hardness", [np.inf, 1.5, 0.9])
+@each("shift", [0.0, 0.01])
 def test_rough_line_obeys_complementarity_in_the_films_equations(hardness, shift):
     x = np.linspace(-2.4, 1.6, 401)
     dx, added = x[1] - x[0], waves(x)

@@ -9,6 +9,7 @@ from ehlectric.contact.resolve import resolve_point
 from ehlectric.film.deflection import Deflection, point_geometry, point_influence
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.formulas.hertz_point import dry_contact
+from tests.helpers.each import each
 from tests.reference.hertz_point import potential_outside, radii_ratio
 from tests.unit.cases.test_point_case import point
 
@@ -16,7 +17,7 @@ DX, DY = 0.1, 0.3
 CELLS = [(1, 0), (0, 1), (1, 1), (2, 1), (7, 3), (60, 0), (0, 60), (55, 44)]
 
 
-@pytest.mark.parametrize("cell", CELLS)
+@each("cell", CELLS)
 def test_love_against_quadrature(cell):
     k, m = cell
     total, _ = dblquad(
@@ -47,8 +48,8 @@ def test_love_far_away_is_a_point():
     np.testing.assert_allclose(far * cells / DX - 1.0, 1.0 / (24.0 * cells**2), atol=1e-9)
 
 
-@pytest.mark.parametrize("ny", [9, 10, 33])
-@pytest.mark.parametrize("nx", [16, 21])
+@each("ny", [9, 10, 33])
+@each("nx", [16, 21])
 def test_half_of_the_operator_is_the_whole_one(nx, ny):
     """On a pressure that is its mirror image, by transforms and as a dense matrix."""
     geometry = point_geometry(radius_ratio=0.5, ellipse_ratio=1.5, compliance=0.3)
