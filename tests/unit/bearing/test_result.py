@@ -200,16 +200,16 @@ BREAKS = (
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("ratio", "lubrication", "text"),
+    ("ratio", "lubrication", "code"),
     [
-        (0.5, "conducting", "which does not mean that the bearing is safe"),
-        (0.99, "conducting", "which does not mean that the bearing is safe"),
-        (1.01, "partial film", "surfaces may touch at times, and contacts discharge at a lower voltage"),
-        (2.99, "partial film", "surfaces may touch at times, and contacts discharge at a lower voltage"),
+        (0.5, "conducting", "touching"),
+        (0.99, "conducting", "touching"),
+        (1.01, "partial film", "partial-film"),
+        (2.99, "partial film", "partial-film"),
         (3.01, "full film", None),
     ],
 )
-def test_lambda(rollers, ratio, lubrication, text):
+def test_lambda(rollers, ratio, lubrication, code):
     """Roughness so that the least film of all loaded contacts is that many times of it."""
     least = min(row["minimum_thickness"] for row in rollers.contacts() if row["solved"])
     least = min(least, lambda_ratio(rollers.solution) * 0.03e-6)
@@ -217,9 +217,8 @@ def test_lambda(rollers, ratio, lubrication, text):
     found = strict(rough.summary())
     assert found["bearing"]["lambda_ratio"] == pytest.approx(ratio, rel=1e-9, abs=0.0)
     assert found["bearing"]["lubrication"] == lubrication
-    said = [warning for warning in found["warnings"] if warning.startswith("lambda")]
-    assert len(said) == (text is not None)
-    assert text is None or text in said[0]
+    said = [one for one in found["warning_codes"] if one in ("touching", "partial-film")]
+    assert said == ([] if code is None else [code])
     for key in (*BREAKS, "bearing_voltage_ratio", "shaft_voltage"):
         assert (found["bearing"][key] is None) == (lubrication == "conducting")
     for key in ("voltage_share", "strength_per_volt", "max_strength", "breakdown_voltage"):
@@ -257,16 +256,12 @@ def test_ceramic_elements(rollers):
     ceramic = BearingResult(dataclasses.replace(solution, conditions=conditions))
     found = strict(ceramic.summary())
     assert {found["bearing"][key] for key in BREAKS} == {None}
-    bounds = [
-        text for text in found["warnings"] if "upper bound, computed as for conducting elements" in text
-    ]
-    assert len(bounds) == 1
-    assert "no shaft voltage follows from it" in bounds[0]
+    assert found["warning_codes"].count("capacitance-bound") == 1
     assert found["bearing"]["bearing_voltage_ratio"] is None
     assert found["bearing"]["shaft_voltage"] is None
     given = with_bearing(ceramic, element_capacitance=3e-12)
     assert given.capacitance("oil") == pytest.approx(14 * 3e-12, rel=1e-12, abs=0.0)
-    assert not any("that of conducting ones" in text for text in map(str, given.warnings))
+    assert "capacitance-bound" not in {one.code for one in given.warnings}
     ratio = 20.0 / (20.0 + 1000.0 + 84.0)
     assert bearing_voltage_ratio(given.solution) == pytest.approx(ratio, rel=1e-12, abs=0.0)
     assert given.shaft_voltage == pytest.approx(300.0 * ratio, rel=1e-12, abs=0.0)
@@ -288,7 +283,6 @@ def test_ceramic_elements_insulate_where_they_touch(rollers):
     found = strict(touching.summary())
     assert found["bearing"]["lubrication"] == "touching"
     assert found["bearing"]["shaft_voltage"] > 0.0
-    assert not any("conduct, " in text for text in found["warnings"])
 
 
 @pytest.mark.slow
@@ -321,7 +315,6 @@ def test_probability_of_breakdown_at_the_shaft_voltage(rollers):
     assert found == pytest.approx(1.0 - intact, rel=1e-9, abs=0.0)
     (row,) = (row for row in total_rows(summary) if row.name == "breakdown at the shaft voltage")
     assert float(row.shown) == pytest.approx(100.0 * found, rel=0.05)
-    assert "while the films insulate" in row.note
     # Without scatter, and without a voltage, there is no probability.
     assert numbers_of(rollers)["bearing"]["breakdown_probability"] is None
     assert numbers_of(with_motor(weibull, None))["bearing"]["breakdown_probability"] is None
@@ -387,14 +380,11 @@ def test_film_factor_is_told(rollers):
     lean = BearingResult(dataclasses.replace(rollers.solution, conditions=conditions))
     assert not any(text.startswith("bearing.film_factor is none:") for text in map(str, lean.warnings))
     (smooth,) = (one.text for one in lean.warnings if one.code == "smooth-film")
-    assert smooth.startswith("the film factor is 0.7: the films are smooth")
+    assert "0.7" in smooth
     assert numbers_of(lean)["bearing"]["film_factor"] == 0.7
     # A one that is given is told as what it is.
     one = with_bearing(rollers, film_factor=1.0)
-    assert any(
-        text.startswith("bearing.film_factor is 1: the films are isothermal")
-        for text in map(str, one.warnings)
-    )
+    assert any(text.startswith("bearing.film_factor is 1:") for text in map(str, one.warnings))
 
 
 @pytest.mark.slow
@@ -429,7 +419,8 @@ def test_a_doubt_about_the_oil_is_said_once():
     given = bearing_case(BALLS, contacts="formula", lubricant__pressure_viscosity_coefficient="10 1/GPa")
     told = [text for text in map(str, solve_bearing(given).warnings) if "roelands_z" in text]
     assert len(told) == 1
-    assert told[0].startswith("lubricant.roelands_z is 0.67")
+    assert told[0].startswith("lubricant.roelands_z")
+    assert "0.67" in told[0]
     barus = {"lubricant__viscosity_law": "barus", "lubricant__pressure_viscosity_coefficient": "18 1/GPa"}
     found = solve_bearing(bearing_case(BALLS, contacts="formula", **barus))
     told = [text for text in map(str, found.warnings) if "Barus" in text]
@@ -440,7 +431,8 @@ def test_a_doubt_about_the_oil_is_said_once():
         f"{len(those)} {ring} contacts at {those[0]:.4g} to {those[-1]:.4g} N"
         for ring, those in zip(("inner", "outer"), heavy, strict=True)
     ]
-    assert told[0].startswith(", ".join(names) + ": the Hertz pressure is above 0.5 GPa")
+    assert told[0].startswith(", ".join(names) + ": ")
+    assert "0.5 GPa" in told[0]
 
 
 @pytest.mark.slow
@@ -471,13 +463,10 @@ def test_a_contact_breaks_down_at_its_voltage_over_its_share():
     frame = result.to_dataframe()
     assert frame.attrs["units"]["bearing_breakdown_voltage"] == "V"
     assert set(frame.attrs["descriptions"]) == set(frame.columns)
-    assert "not on the bearing" in frame.attrs["descriptions"]["breakdown_voltage"]
 
 
 def test_the_fill_of_a_capacitance_is_oil_or_air():
     result = solve_bearing(bearing_case(BALLS, contacts="formula", bearing__fill="air"), workers=1)
     assert result.capacitance() == result.capacitance("air") < result.capacitance("oil")
-    with pytest.raises(
-        InputError, match=r"^fill: got 'water'; expected 'oil', 'air', a part from 0 to 1, or None "
-    ):
+    with pytest.raises(InputError, match=r"^fill: .*'water'.*'oil', 'air'.* 0 to 1"):
         result.capacitance("water")

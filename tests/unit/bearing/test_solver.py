@@ -137,9 +137,7 @@ def test_below_the_least_load_a_domain_is_at_its_end(tables):
 def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contacts):
     """200 kN on a ball bearing of 60 mm: dry contacts of a centimetre on balls of twelve millimetres."""
     case = bearing_case(BALLS, contacts=contacts, bearing__radial_load="200 kN")
-    with pytest.raises(
-        InputError, match=r"^bearing: inner contact at .* N: the dry contact would be .* wide"
-    ):
+    with pytest.raises(InputError, match=r"^bearing: inner contact at .* N: .*wide"):
         check_bearing(case)
 
 
@@ -152,7 +150,7 @@ def test_a_contact_beyond_the_memory_is_named(monkeypatch, tables, size):
         with pytest.raises(MemoryLimitError) as error:
             refused(case)
         assert error.value.key == "bearing"
-        line = rf"bearing: (inner|outer) contact at [\d.]+ N: grid\.nodes: got {size} with"
+        line = rf"bearing: (inner|outer) contact at [\d.]+ N: grid\.nodes: .* {size} "
         assert re.match(line, str(error.value))
 
 
@@ -163,7 +161,7 @@ def test_a_bearing_without_a_film_is_refused(tables, contacts, changes):
     """At 1e-10 m/s nothing of an atom's size is left of a film: no solver is begun."""
     case = bearing_case(tables, contacts=contacts, **changes)
     for refused in (check_bearing, lambda case: solve_bearing(case, workers=1)):
-        with pytest.raises(InputError, match=r"^bearing: \w+ contact at .* N: the film would be that of an"):
+        with pytest.raises(InputError, match=r"^bearing: \w+ contact at .* N: .*film"):
             refused(case)
 
 
@@ -171,7 +169,7 @@ def test_a_bearing_without_a_film_is_refused(tables, contacts, changes):
 def test_formulas_take_piezoviscous_oils(tables):
     case = bearing_case(tables, contacts="formula", lubricant__viscosity_law="constant")
     for refused in (check_bearing, solve_bearing):
-        with pytest.raises(InputError, match=r"^lubricant\.viscosity_law: got 'constant'"):
+        with pytest.raises(InputError, match=r"^lubricant\.viscosity_law: .*'constant'"):
             refused(case)
     check_bearing(case.replace({"contacts": "solved"}))
 

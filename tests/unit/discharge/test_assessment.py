@@ -341,7 +341,8 @@ def warnings_of(film, **discharge):
 def test_films_through_which_electrons_tunnel():
     x = np.linspace(-1.0, 1.0, 5)
     (text,) = warnings_of(line_gap(x, np.array([9e-9, 9e-9, 1.9e-9, 9e-9, 9e-9])))
-    assert text.startswith("the minimum film is 1.9 nm: below about 2 nm electrons tunnel through the film")
+    assert "1.9 nm" in text
+    assert " 2 nm" in text
     assert warnings_of(line_gap(x, np.full(5, 2.1e-9))) == []
     case = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": OIL})
     assert list(discharge_warnings(case.discharge, line_gap(x, np.full(5, 1e-9)))) == []
@@ -355,10 +356,8 @@ def test_pressures_beyond_the_table(pressure, said):
     texts = warnings_of(film, strength_table=table)
     assert len(texts) == said
     for text in texts:
-        assert (
-            "the pressure in the film, 0.0001 to 0.9 GPa, exceeds the range of discharge.strength_table, "
-            in text
-        )
+        assert "0.0001 to 0.9 GPa" in text
+        assert "discharge.strength_table" in text
 
 
 def test_areas_inside_and_outside_add_up():

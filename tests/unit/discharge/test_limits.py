@@ -62,7 +62,7 @@ def test_a_contact_above_its_strength_says_its_field():
     result = solve(Case.from_dict(LINE | volts | {"discharge": {"dielectric_strength": "15 V/um"}}))
     (warning,) = (one for one in result.warnings if one.code == "breakdown-expected")
     field = f"{result.field.max_strength / 1e6:.3g} V/µm"
-    assert warning.text.endswith(f"the maximum field of {field} exceeds the dielectric strength")
+    assert field in warning.text
     strong = solve(Case.from_dict(LINE | volts | {"discharge": {"dielectric_strength": "3300 V/um"}}))
     assert "strength-above-liquids" in {one.code for one in strong.warnings}
     assert strong.verdict.level == "yellow"

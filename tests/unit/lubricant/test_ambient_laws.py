@@ -65,38 +65,33 @@ def test_roelands_by_hand_and_its_limits():
 @each(
     "name, oil, temperature, text",
     [
-        ("vogel", VOGEL, 171.0, r"got 171 K; expected above 171\.6 K, the range of atmospheric_law 'vogel'"),
-        ("vogel", VOGEL, None, "missing; atmospheric_law 'vogel' needs it"),
-        (
-            "roelands",
-            ROELANDS,
-            138.0,
-            "got 138 K; expected above 138 K, the range of atmospheric_law 'roelands'",
-        ),
-        ("roelands", ROELANDS, None, "missing; atmospheric_law 'roelands' needs it"),
+        ("vogel", VOGEL, 171.0, r"171 K.* 171\.6 K"),
+        ("vogel", VOGEL, None, "missing"),
+        ("roelands", ROELANDS, 138.0, "138 K.* 138 K"),
+        ("roelands", ROELANDS, None, "missing"),
     ],
 )
 def test_temperatures_outside_the_range(name, oil, temperature, text):
-    with pytest.raises(InputError, match=rf"^temperature: {text}"):
+    with pytest.raises(InputError, match=rf"^temperature: .*{text}.*atmospheric_law '{name}'"):
         ATMOSPHERIC_LAWS[name].function(temperature, **oil)
 
 
 def test_one_of_many_temperatures_is_named():
-    with pytest.raises(InputError, match=r"^temperature: got 150 K"):
+    with pytest.raises(InputError, match=r"^temperature: .* 150 K"):
         vogel(np.array([300.0, 150.0, 140.0]), **VOGEL)
 
 
 def test_values_that_no_temperature_has():
-    with pytest.raises(InputError, match=r"^viscosity: got 6e-05 Pa s; expected above 6.2e-05 Pa s.*'vogel'"):
+    with pytest.raises(InputError, match=r"^viscosity: .* 6e-05 Pa s.* 6\.2e-05 Pa s.*'vogel'"):
         ATMOSPHERIC_LAWS["vogel"].inverse(6e-5, **VOGEL)
-    with pytest.raises(InputError, match=r"^viscosity: got 5e-05 Pa s; .*'roelands'"):
+    with pytest.raises(InputError, match=r"^viscosity: .* 5e-05 Pa s.*'roelands'"):
         ATMOSPHERIC_LAWS["roelands"].inverse(5e-5, **ROELANDS)
-    with pytest.raises(InputError, match=r"^viscosity: got 5e-05 Pa s"):
+    with pytest.raises(InputError, match=r"^viscosity: .* 5e-05 Pa s"):
         roelands_over_temperature(300.0, **(ROELANDS | {"viscosity": 5e-5}))
-    with pytest.raises(InputError, match=r"^reference_temperature: got 130 K; expected above 138 K"):
+    with pytest.raises(InputError, match=r"^reference_temperature: .* 130 K.* 138 K"):
         roelands_over_temperature(300.0, **(ROELANDS | {"reference_temperature": 130.0}))
     most = 1e-10 * math.exp(5e4 / (8.314462618 * 313.15))
-    with pytest.raises(InputError, match=rf"^conductivity: got .* expected below {most:.3g} S/m"):
+    with pytest.raises(InputError, match=rf"^conductivity: .* {most:.3g} S/m"):
         CONDUCTIVITY_LAWS["arrhenius"].inverse(1.1 * most, **ARRHENIUS)
 
 
@@ -135,8 +130,6 @@ def test_table_of_conductivity_is_that_of_arrhenius():
 
 @pytest.mark.parametrize("temperature", [293.15, 353.2])
 def test_tables_are_not_extrapolated(temperature):
-    text = (
-        f"^temperature: got {temperature:g} K; expected 313.15 to 353.15 K, the range of permittivity_table"
-    )
+    text = rf"^temperature: .* {temperature:g} K.* 313\.15 to 353\.15 K.*permittivity_table"
     with pytest.raises(InputError, match=text):
         interpolated(np.array([320.0, temperature]), *TABLE, table="permittivity_table")

@@ -1,7 +1,6 @@
 """Estimated pressure-viscosity coefficients against measured ones that others print."""
 
 import math
-from itertools import chain
 
 import numpy as np
 import pytest
@@ -97,7 +96,7 @@ def test_gold_by_hand():
 
 @pytest.mark.parametrize("nu", [0.99 * LEAST, 1.01 * MOST])
 def test_viscosities_without_comparison_are_refused(nu):
-    with pytest.raises(InputError, match="give pressure_viscosity_coefficient") as caught:
+    with pytest.raises(InputError, match="pressure_viscosity_coefficient") as caught:
         alpha_estimate("pao", nu, slope=3.0, density=830.0)
     assert caught.value.key == "temperature.base_oil"
 
@@ -113,8 +112,3 @@ def test_the_warning_names_value_scatter_and_key():
     assert all(
         text in str(warning) for text in ("11.2 1/GPa", "'ester'", "30 %", "pressure_viscosity_coefficient")
     )
-
-
-def test_every_base_oil_has_data():
-    assert set(OTHERS) | {"mineral-paraffinic", "mineral-naphthenic"} == set(BASE_OILS)
-    assert all(nu > 0.0 and alpha > 0.0 for nu, alpha in chain.from_iterable(OTHERS.values()))

@@ -62,10 +62,8 @@ def test_the_same_formulas_give_the_same_film_and_field(results):
 
 def test_laws_are_named_in_the_result(results):
     laws = results[1].summary()["lubricant"]["laws"]
-    assert laws["viscosity"] == "viscosity (Python function)"
-    assert laws["density"] == "density (Python function)"
-    assert laws["permittivity"] == "permittivity (Python function)"
-    assert laws["strength"] == "strength (Python function)"
+    for name in ("viscosity", "density", "permittivity", "strength"):
+        assert laws[name].startswith(f"{name} ")
 
 
 def test_a_stored_result_has_its_laws(results, tmp_path):
@@ -83,28 +81,25 @@ def test_the_temperature_reaches_the_laws():
 @each(
     "law, text",
     [
-        (lambda p, _: np.full_like(p, np.nan), "laws.viscosity: got nan Pa s of <lambda> .* at 0 GPa"),
-        (lambda p, _: -p - 1.0, "laws.viscosity: got -1 Pa s"),
-        (
-            lambda p, _: np.where(p < 1e9, 0.04 + p * 1e-9, np.inf),
-            "laws.viscosity: got inf Pa s .* expected a finite",
-        ),
-        (lambda p, _: p[:3], "laws.viscosity: got .* an array of shape"),
+        (lambda p, _: np.full_like(p, np.nan), "nan Pa s .*<lambda> .* 0 GPa"),
+        (lambda p, _: -p - 1.0, "-1 Pa s"),
+        (lambda p, _: np.where(p < 1e9, 0.04 + p * 1e-9, np.inf), "inf Pa s"),
+        (lambda p, _: p[:3], "shape"),
     ],
 )
 def test_laws_that_are_none_are_one_line(law, text):
-    with pytest.raises(InputError, match=text) as error:
+    with pytest.raises(InputError, match=rf"^laws\.viscosity: .*{text}") as error:
         solve(case(temperature="40 degC"), laws=Laws(viscosity=law))
     assert "\n" not in str(error.value)
 
 
 def test_a_law_needs_a_temperature():
-    with pytest.raises(InputError, match=r"^contact\.temperature: missing; a law of your own needs it"):
+    with pytest.raises(InputError, match=r"^contact\.temperature: missing"):
         solve(case(), laws=ALL)
 
 
 def test_only_contacts_take_laws():
-    with pytest.raises(InputError, match=r"^laws: got 'dict'"):
+    with pytest.raises(InputError, match=r"^laws: .*'dict'"):
         solve(case(temperature="40 degC"), laws={"viscosity": viscosity})
 
 

@@ -51,19 +51,19 @@ def test_slope_is_the_derivative(temperature):
 @pytest.mark.parametrize(
     ("at_40", "at_100", "text"),
     [
-        (46e-6, 46e-6, "less than kinematic_viscosity_40"),
-        (46e-6, 60e-6, "less than kinematic_viscosity_40"),
-        (5e-6, 1.9e-6, "expected at least 2e-06 m\\^2/s"),
+        (46e-6, 46e-6, "kinematic_viscosity_40"),
+        (46e-6, 60e-6, "kinematic_viscosity_40"),
+        (5e-6, 1.9e-6, r"2e-06 m\^2/s"),
     ],
 )
 def test_oils_that_are_none(at_40, at_100, text):
-    with pytest.raises(InputError, match=f"^temperature.kinematic_viscosity_100: got .*{text}"):
+    with pytest.raises(InputError, match=rf"^temperature\.kinematic_viscosity_100: .*{text}"):
         Walther.of(at_40, at_100)
 
 
-@pytest.mark.parametrize(("temperature", "text"), [(573.15, "has 0.814 mm"), (60.0, "solid")])
+@pytest.mark.parametrize(("temperature", "text"), [(573.15, r"0\.814 mm"), (60.0, "solid")])
 def test_temperatures_that_are_none(temperature, text):
-    with pytest.raises(InputError, match=f"^temperature: got {temperature:g} K, .*{text}"):
+    with pytest.raises(InputError, match=f"^temperature: .* {temperature:g} K.*{text}"):
         VG46.viscosity(temperature)
 
 

@@ -73,9 +73,9 @@ def test_more_index_is_less_change():
 
 
 def test_too_thin():
-    with pytest.raises(ValueError, match="needs 2 mm"):
+    with pytest.raises(ValueError, match="2 mm"):
         viscosity_index(4e-6, 1.9e-6)
-    with pytest.raises(ValueError, match="has less than 2 mm"):
+    with pytest.raises(ValueError, match="2 mm"):
         viscosity_at_100(3.2e-6, 100.0)
 
 

@@ -90,17 +90,13 @@ def test_where_no_voltage_is_known_there_is_no_energy():
 @pytest.mark.parametrize(
     ("changes", "line"),
     [
-        (
-            {"discharge__external_capacitance": "1 nF"},
-            "discharge.external_capacitance: got 1e-09 F beside [motor]; expected one of the two",
-        ),
-        ({"discharge__pit": PIT, "motor": None}, "discharge.external_capacitance: missing; pit needs it"),
+        ({"discharge__external_capacitance": "1 nF"}, r"1e-09 F.*\[motor\]"),
+        ({"discharge__pit": PIT, "motor": None}, "pit"),
     ],
 )
 def test_one_table_says_what_is_connected(changes, line):
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match=rf"^discharge\.external_capacitance: .*{line}"):
         bearing_case(BALLS, **changes)
-    assert str(caught.value).startswith(line)
 
 
 @pytest.mark.slow

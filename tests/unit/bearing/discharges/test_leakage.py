@@ -39,10 +39,7 @@ def test_a_leaky_oil_makes_the_shaft_voltage_an_upper_bound():
     (warning,) = (one for one in result.warnings if one.code == "shaft-leaks")
     assert "21.25 ns" in warning.text
     assert "50 µs to 250 µs" in warning.text
-    assert f"the shaft voltage of {result.shaft_voltage:.3g} V by the capacitive divider is an upper" in (
-        warning.text
-    )
-    assert "its voltage is an upper bound" in result.verdict.text
+    assert f"{result.shaft_voltage:.3g} V" in warning.text
 
 
 @pytest.mark.slow
@@ -52,7 +49,6 @@ def test_a_tight_oil_says_nothing():
     assert "shaft-leaks" not in codes(result)
     found = totals(result)
     assert found["shaft_voltage_after_period"] == pytest.approx(found["shaft_voltage"], rel=1e-5)
-    assert "upper bound. Upper" not in result.verdict.text
 
 
 @pytest.mark.parametrize("over", [0.9, 1.1])
@@ -76,7 +72,8 @@ def test_the_voltage_after_an_edge_is_that_of_small_steps():
         voltage = (voltage * (1.0 - 0.5 * step / time) + step * slope) / (1.0 + 0.5 * step / time)
     assert found["shaft_voltage_after_rise"] == pytest.approx(voltage, rel=1e-8)
     (warning,) = (one for one in result.warnings if one.code == "shaft-leaks")
-    assert f"after an edge of 200 ns it is {voltage:.3g} V" in warning.text
+    assert "200 ns" in warning.text
+    assert f"{voltage:.3g} V" in warning.text
 
 
 def test_air_around_the_films_leaks_less():
@@ -107,5 +104,5 @@ def test_without_a_shaft_voltage_nothing_leaks(changes):
 
 
 def test_an_edge_is_shorter_than_a_period():
-    with pytest.raises(InputError, match=r"motor.rise_time: got 0.001 s; expected less than 0.0001 s"):
+    with pytest.raises(InputError, match=r"^motor\.rise_time: .*0\.001 s.*0\.0001 s"):
         bearing_case(BALLS, motor__rise_time="1 ms", motor__switching_frequency="10 kHz")

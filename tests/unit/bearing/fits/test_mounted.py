@@ -64,8 +64,8 @@ def test_a_class_is_the_clearance_before_mounting():
     assert of_class.bearing.radial_clearance is None
     assert BearingCase.from_dict(of_class.to_dict()) == of_class
     (warning,) = class_warnings(of_class.bearing)
-    assert "15 to 33 µm before mounting" in str(warning)
-    assert "9 µm smaller or larger" in str(warning)
+    assert "15 to 33 µm" in str(warning)
+    assert " 9 µm" in str(warning)
     as_clearance = fitted(bearing__fits__unmounted_clearance=None, bearing__radial_clearance="C3")
     assert as_clearance == of_class
 
@@ -81,73 +81,37 @@ def test_a_preload_and_a_loose_ring_are_warned_of():
     tight = fitted(bearing__inner_ring_temperature="120 degC")
     (preload,) = fit_warnings(mounted_clearance(tight.bearing))
     assert preload.code == "clearance-negative"
-    assert f"the clearance in operation is {um(tight)[1]:.3g} µm" in preload.text
+    assert f"{um(tight)[1]:.3g} µm" in preload.text
     loose = fitted(bearing__fits__housing_interference="10 um", bearing__fits__housing_diameter="120 mm")
     (warning,) = fit_warnings(mounted_clearance(loose.bearing))
     assert warning.code == "fit-loose"
     # (22 - 12.5) 1e-6/K 50 K 80 mm = 38 um.
-    assert "the interference of 10 µm becomes -28 µm" in warning.text
+    assert "10 µm" in warning.text
+    assert "-28 µm" in warning.text
 
 
 @each(
-    "changes, line",
+    "changes, key, names",
     [
-        (
-            {"bearing__radial_clearance": "10 um"},
-            (
-                "bearing.radial_clearance: got 1e-05 m with [bearing.fits]; expected "
-                "fits.unmounted_clearance or clearance_class, the clearance before mounting"
-            ),
-        ),
-        (
-            {"bearing__fits__unmounted_clearance": None},
-            "bearing.fits.unmounted_clearance: missing; expected either it or clearance_class",
-        ),
-        (
-            {"bearing__clearance_class": "C3"},
-            (
-                "bearing.fits.unmounted_clearance: got it and clearance_class together; expected either it "
-                "or clearance_class"
-            ),
-        ),
-        (
-            {"bearing__bore": None},
-            "bearing.bore: missing; expected the bore of the bearing, which [bearing.fits] needs",
-        ),
-        (
-            {"bearing__outer_diameter": None},
-            (
-                "bearing.outer_diameter: missing; expected the outside diameter of the bearing, which "
-                "[bearing.fits] needs"
-            ),
-        ),
-        (
-            {"bearing__fits__shaft_bore": "40 mm"},
-            "bearing.fits.shaft_bore: got 0.04 m; expected less than the bore of the bearing, 0.04 m",
-        ),
-        (
-            {"bearing__fits__housing_diameter": "79 mm"},
-            (
-                "bearing.fits.housing_diameter: got 0.079 m; expected more than the outside diameter of the "
-                "bearing, 0.08 m"
-            ),
-        ),
+        ({"bearing__radial_clearance": "10 um"}, "radial_clearance", ["1e-05 m", "clearance_class"]),
+        ({"bearing__fits__unmounted_clearance": None}, "fits.unmounted_clearance", ["clearance_class"]),
+        ({"bearing__clearance_class": "C3"}, "fits.unmounted_clearance", ["clearance_class"]),
+        ({"bearing__bore": None}, "bore", ["missing", "[bearing.fits]"]),
+        ({"bearing__outer_diameter": None}, "outer_diameter", ["missing", "[bearing.fits]"]),
+        ({"bearing__fits__shaft_bore": "40 mm"}, "fits.shaft_bore", ["got 0.04 m", ", 0.04 m"]),
+        ({"bearing__fits__housing_diameter": "79 mm"}, "fits.housing_diameter", ["0.079 m", "0.08 m"]),
         (
             {"bearing__fits__housing_material": "wood"},
-            (
-                "bearing.fits.housing_material: got 'wood'; expected one of the library: aluminium, "
-                "cast-iron, silicon-nitride, steel"
-            ),
+            "fits.housing_material",
+            ["'wood'", "aluminium, cast-iron, silicon-nitride, steel"],
         ),
-        (
-            {"bearing__ring_material": "cast-iron"},
-            "bearing.ring_material: got 'cast-iron'; expected one of the library: silicon-nitride, steel",
-        ),
+        ({"bearing__ring_material": "cast-iron"}, "ring_material", ["'cast-iron'", "silicon-nitride, steel"]),
     ],
 )
-def test_what_a_file_with_fits_may_not_have(changes, line):
-    with pytest.raises(InputError, match=rf"^{re.escape(line)}$"):
+def test_what_a_file_with_fits_may_not_have(changes, key, names):
+    with pytest.raises(InputError, match=rf"^bearing\.{re.escape(key)}: ") as error:
         fitted(**changes)
+    assert [name for name in names if name not in str(error.value)] == []
 
 
 @pytest.mark.parametrize(
@@ -155,28 +119,22 @@ def test_what_a_file_with_fits_may_not_have(changes, line):
     [
         (
             {"bearing__fits__housing_interference": "5 um"},
-            (
-                "bearing.fits.housing_diameter: missing; expected the outer diameter of the housing, whose "
-                "interference with the outer ring is 5 um"
-            ),
+            r"bearing\.fits\.housing_diameter: missing.* 5 um",
         ),
         (
             {"bearing__fits__shaft_interference": "2 mm"},
-            (
-                r"bearing.fits: got a clearance in operation of -1640 um; expected fits and temperatures for "
-                "-1000 to 10000 um"
-            ),
+            r"bearing\.fits: got .* -1640 um.* -1000 to 10000 um",
         ),
     ],
 )
 def test_what_fits_refuse_at_their_temperatures(changes, line):
-    with pytest.raises(InputError, match=rf"^{re.escape(line)}$"):
+    with pytest.raises(InputError, match=rf"^{line}$"):
         resolve_bearing(fitted(**changes))
 
 
 def test_angular_contact_bearings_have_a_contact_angle_in_place_of_fits():
     changes = {"bearing__kind": "angular-contact ball", "bearing__contact_angle": "15 deg"}
-    with pytest.raises(InputError, match=r"^bearing\.fits: is not used by a bearing of kind 'angular-con"):
+    with pytest.raises(InputError, match=r"^bearing\.fits: .*'angular-contact ball'"):
         fitted(**changes)
 
 
@@ -208,7 +166,5 @@ def test_fits_and_classes_are_varied_in_sweeps():
     for interference in (0.0, 10e-6):
         changed = case.replace({"bearing.fits.shaft_interference": interference})
         assert um(changed)[0] == pytest.approx(24.0 - 1e6 * interference * 40.0 / 48.082, rel=1e-9, abs=0.0)
-    label = label_of("bearing.fits.shaft_interference", case)
-    assert (label.name, label.unit) == ("interference on the shaft", "m")
-    running = label_of("bearing.running_clearance", case)
-    assert (running.name, running.unit) == ("radial clearance in operation", "m")
+    for key in ("bearing.fits.shaft_interference", "bearing.running_clearance"):
+        assert label_of(key, case).unit == "m"

@@ -398,10 +398,10 @@ def test_domain_may_be_any(outer):
 @each(
     "arguments, angle, message",
     [
-        ((0.5, 0.2), 0.0, "above 0.5"),
+        ((0.5, 0.2), 0.0, r"0\.5"),
         ((0.52, 0.0), 0.0, "shoulder_height"),
         ((0.52, 0.6), 0.0, "shoulder_height"),
-        ((0.52, 0.1), 0.7, "contact_angle: must be below 36.1 degrees"),
+        ((0.52, 0.1), 0.7, r"contact_angle: .*36\.1"),
     ],
 )
 def test_refused(arguments, angle, message):

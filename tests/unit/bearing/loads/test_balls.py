@@ -344,9 +344,9 @@ def test_contacts_of_a_6208_are_hard_ones(viscosity):
 @pytest.mark.parametrize(
     ("bearing", "duty", "other", "message"),
     [
-        (ANGULAR, (500.0,), {}, "axial_load: got 0 N; expected one above 0"),
-        (ANGULAR, (500.0, -10.0), {}, "axial_load: got -10 N; expected one above 0"),
-        (B6208, (500.0,), {"unloaded": "inner"}, "unloaded: got 'inner'; expected one of centred, outer"),
+        (ANGULAR, (500.0,), {}, "^axial_load: .* 0 N.* above 0"),
+        (ANGULAR, (500.0, -10.0), {}, "^axial_load: .* -10 N.* above 0"),
+        (B6208, (500.0,), {"unloaded": "inner"}, "^unloaded: .*'inner'.*centred, outer"),
     ],
 )
 def test_what_it_cannot_do(bearing, duty, other, message):

@@ -108,33 +108,33 @@ def test_relief_of_the_logarithmic_profile(length, depth):
 @each(
     "other, message",
     [
-        ({"elements": 16}, "elements: got 16; expected 3 to 15"),
-        ({"elements": 2}, "elements: got 2; expected 3 to 15"),
-        ({"pitch_diameter": 12e-3}, "pitch_diameter: got 0.012 m"),
-        ({"pitch_diameter": 11e-3}, "pitch_diameter: got 0.011 m"),
-        ({"inner_groove": 0.5}, "inner_groove: got 0.5; expected one above 0.5"),
-        ({"outer_groove": 1.5}, "outer_groove: got 1.5"),
-        ({"contact_angle": 0.3}, "radial_clearance, contact_angle: give one of the two"),
-        ({"radial_clearance": None}, "radial_clearance, contact_angle: give one of the two"),
-        ({"radial_clearance": None, "contact_angle": 1.6}, "contact_angle: got 1.6 rad"),
-        ({"radial_clearance": 1.2e-3}, "radial_clearance: got 0.0012 m; expected one below 0.0011906 m"),
+        ({"elements": 16}, r"elements: .* 16.* 3 to 15"),
+        ({"elements": 2}, r"elements: .* 2;.* 3 to 15"),
+        ({"pitch_diameter": 12e-3}, r"pitch_diameter: .* 0\.012 m"),
+        ({"pitch_diameter": 11e-3}, r"pitch_diameter: .* 0\.011 m"),
+        ({"inner_groove": 0.5}, r"inner_groove: .* 0\.5;.* 0\.5"),
+        ({"outer_groove": 1.5}, r"outer_groove: .* 1\.5"),
+        ({"contact_angle": 0.3}, r"radial_clearance, contact_angle: "),
+        ({"radial_clearance": None}, r"radial_clearance, contact_angle: "),
+        ({"radial_clearance": None, "contact_angle": 1.6}, r"contact_angle: .* 1\.6 rad"),
+        ({"radial_clearance": 1.2e-3}, r"radial_clearance: .* 0\.0012 m.* 0\.0011906 m"),
     ],
 )
 def test_what_is_no_ball_bearing(other, message):
-    with pytest.raises(InputError, match=message) as caught:
+    with pytest.raises(InputError, match=f"^{message}") as caught:
         balls(**other)
     assert "\n" not in str(caught.value)
 
 
 def test_what_is_no_roller_bearing():
-    with pytest.raises(InputError, match=r"profile: got 'crowned'; expected one of none, logarithmic"):
+    with pytest.raises(InputError, match=r"profile: .*'crowned'.*none, logarithmic"):
         RollerBearing(**(ROLLERS | {"profile": "crowned"}))
-    with pytest.raises(InputError, match="elements: got 40"):
+    with pytest.raises(InputError, match=r"elements: .* 40"):
         RollerBearing(**(ROLLERS | {"elements": 40}))
 
 
 def test_elements_that_just_fit():
     """Six circles around one of the same size: d_m = 2 D."""
     assert balls(elements=6, pitch_diameter=2.0000001 * 11.906e-3).elements == 6
-    with pytest.raises(InputError, match="expected 3 to 5"):
+    with pytest.raises(InputError, match=r"elements: .* 3 to 5"):
         balls(elements=6, pitch_diameter=1.9999999 * 11.906e-3)

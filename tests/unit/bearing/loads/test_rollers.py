@@ -160,11 +160,11 @@ def test_unloaded_rollers():
 @each(
     "duty, other, message",
     [
-        ((500.0, 10.0), {}, "axial_load: got 10 N; expected 0: the raceways"),
-        ((0.0, 10.0), {}, "axial_load: got 10 N; expected 0: the raceways"),
-        ((500.0,), {"unloaded": "inner"}, "unloaded: got 'inner'"),
-        ((500.0,), {"slices": 40}, "slices: got 40; expected an odd number from 31"),
-        ((500.0,), {"slices": 29}, "slices: got 29"),
+        ((500.0, 10.0), {}, "^axial_load: .* 10 N.* 0"),
+        ((0.0, 10.0), {}, "^axial_load: .* 10 N.* 0"),
+        ((500.0,), {"unloaded": "inner"}, "^unloaded: .*'inner'"),
+        ((500.0,), {"slices": 40}, "^slices: .* 40.* 31"),
+        ((500.0,), {"slices": 29}, "^slices: .* 29.* 31"),
     ],
 )
 def test_what_it_cannot_do(duty, other, message):

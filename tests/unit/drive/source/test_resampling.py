@@ -97,9 +97,9 @@ def test_steps_that_are_refused_or_leave_the_waveform_as_it_is():
     waveform = Waveform(0.0, STEP, sine(0.01, 100))
     assert resample(waveform, STEP) is waveform
     for step in (0.5 * STEP, 0.0, -STEP, np.nan, np.inf):
-        with pytest.raises(InputError, match="1e-09 s or more"):
+        with pytest.raises(InputError, match="1e-09 s"):
             resample(waveform, step)
-    with pytest.raises(InputError, match="the whole waveform"):
+    with pytest.raises(InputError, match=r"^step: .* 1e-07 s.* 9\.9e-08 s"):
         resample(waveform, 100 * STEP)
     assert resample(waveform, 99 * STEP).values.size == 2
 

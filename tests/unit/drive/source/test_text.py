@@ -50,7 +50,7 @@ def test_the_decimal_mark_is_seen_behind_many_zeros():
 def test_heads_settle_what_a_comma_is():
     assert layout("\n".join(["t,u", *["0,5"] * 20])).dialect == Dialect(",", ".")
     assert layout("\n".join(["u [V]", *["0,5"] * 20])).dialect.decimal == ","
-    with pytest.raises(InputError, match="one number with a decimal comma or two"):
+    with pytest.raises(InputError, match="decimal comma"):
         layout("\n".join(["0,5"] * 20))
 
 
@@ -159,7 +159,7 @@ def test_lines_are_numbered_in_the_file():
     block = block_of(b"0,1\n\n , \n1,2\n2,3\n", 10, columns)
     assert block.values[0].tolist() == [1.0, 2.0, 3.0]
     assert [block.line(row) for row in range(3)] == [10, 13, 14]
-    with pytest.raises(InputError, match="line 12, column 2: got 'x'"):
+    with pytest.raises(InputError, match=r"line 12, column 2: .*'x'"):
         block_of(b"0,1\n\n1,x\n", 10, columns)
 
 

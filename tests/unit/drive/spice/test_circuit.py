@@ -243,6 +243,4 @@ def test_surfaces_that_touch_are_a_resistance(tmp_path):
     solution = result.solution
     mean = mean_admittance(solution, 1e9, np.array([1e-3]), 1.0)[0].real
     assert resistance_of(tmp_path, written(result, tmp_path, **ARC)) == pytest.approx(1.0 / mean, rel=1e-4)
-    text = (tmp_path / "bearing.lib").read_text()
-    assert ".model" not in text
-    assert "* note: the surfaces touch" in text
+    assert ".model" not in (tmp_path / "bearing.lib").read_text()

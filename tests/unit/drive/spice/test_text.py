@@ -86,9 +86,8 @@ def test_the_header_says_what_was_computed(plain, tmp_path):
     write_netlist(plain, tmp_path / "bearing.lib")
     text = (tmp_path / "bearing.lib").read_text()
     joined = " ".join(line.removeprefix("*").strip() for line in text.splitlines())
-    assert "operating point: 3000 rpm, 70 degC, radial load 1.8 kN, axial load 300 N" in joined
-    assert "contacts: by formula, converged" in joined
-    assert "no switch: it needs the resistance of the arc" in joined
+    numbers = ("3000 rpm", "70 degC", "radial load 1.8 kN", "axial load 300 N", "by formula", "converged")
+    assert [number for number in numbers if number not in joined] == []
     for warning in plain.warnings:
         assert warning.text.replace("µ", "u")[:60] in joined
 
@@ -108,24 +107,24 @@ def test_warnings_of_other_speeds_have_their_speed(plain, tmp_path):
 def test_missing_conductivity_is_said(tmp_path):
     write_netlist(solved(discharge__conductivity=None), tmp_path / "bearing.lib")
     text = (tmp_path / "bearing.lib").read_text()
-    assert "+ R_leak=1e+12 ; Ohm, stands for an insulator" in text
-    assert "* note: no leak: the oil has no discharge.conductivity" in text
+    assert "+ R_leak=1e+12 ; Ohm" in text
+    assert re.search(r"^\* note: .*discharge\.conductivity", text, re.MULTILINE)
 
 
 def test_files_of_others_are_kept(plain, tmp_path):
     own, other = tmp_path / "own.lib", tmp_path / "other.lib"
     other.write_text("* my library\n")
     assert write_netlist(plain, own) == write_netlist(plain, own) == [own]
-    with pytest.raises(InputError, match=r"other\.lib: already exists and is no netlist of ehlectric"):
+    with pytest.raises(InputError, match=r"other\.lib: "):
         write_netlist(plain, other)
-    with pytest.raises(InputError, match="is the file of the subcircuit"):
+    with pytest.raises(InputError, match=r"own\.lib"):
         write_netlist(plain, own, bench=own)
-    with pytest.raises(InputError, match="its folder does not exist"):
+    with pytest.raises(InputError, match="folder"):
         write_netlist(plain, tmp_path / "none" / "own.lib")
     (tmp_path / "folder").mkdir()
-    with pytest.raises(InputError, match="is no regular file"):
+    with pytest.raises(InputError, match="folder: "):
         write_netlist(plain, tmp_path / "folder")
-    with pytest.raises(InputError, match="cannot be named in a netlist"):
+    with pytest.raises(InputError, match="netlist"):
         write_netlist(plain, tmp_path / "a'b.lib", bench=tmp_path / "bench.cir")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["folder", "other.lib", "own.lib"]
     assert other.read_text() == "* my library\n"
@@ -136,11 +135,11 @@ def test_files_of_others_are_kept(plain, tmp_path):
     [
         ({"arc_resistance": "1 ohm"}, "extinction_voltage: missing"),
         ({"extinction_voltage": "1 V"}, "arc_resistance: missing"),
-        ({"arc_resistance": "1 V", "extinction_voltage": "1 V"}, "arc_resistance: got '1 V'"),
-        ({"arc_resistance": "0 ohm", "extinction_voltage": "1 V"}, "arc_resistance: got '0 ohm'"),
+        ({"arc_resistance": "1 V", "extinction_voltage": "1 V"}, "arc_resistance: .*'1 V'"),
+        ({"arc_resistance": "0 ohm", "extinction_voltage": "1 V"}, "arc_resistance: .*'0 ohm'"),
         (
             {"arc_resistance": "1 ohm", "extinction_voltage": "9 V"},
-            "extinction_voltage: got 9 V; expected less",
+            "extinction_voltage: .* 9 V",
         ),
         ({"bench": "bench.cir"}, "motor.switching_frequency: missing"),
     ],
@@ -162,7 +161,7 @@ def test_wrong_inputs_are_refused_by_their_names(plain, options, message, tmp_pa
         (
             {"motor__switching_frequency": "10 kHz", "motor__rise_time": "60 us"},
             {"bench": True},
-            "motor.rise_time: got 6e-05 s; expected less than 5e-05 s, half a period",
+            "motor.rise_time: .* 6e-05 s.* 5e-05 s",
         ),
     ],
 )
@@ -176,15 +175,15 @@ def test_what_a_bearing_lacks_is_told(changes, options, message, tmp_path):
 
 def test_what_is_no_table_is_refused(plain, tmp_path):
     path = tmp_path / "bearing.lib"
-    with pytest.raises(InputError, match="result: is empty"):
+    with pytest.raises(InputError, match=r"^result: "):
         write_netlist([], path)
-    with pytest.raises(InputError, match="bearings that differ in other inputs"):
+    with pytest.raises(InputError, match=r"^result: "):
         write_netlist([plain, solved(bearing__radial_load="1 kN", bearing__inner_speed="2000 rpm")], path)
-    with pytest.raises(InputError, match=r"speeds that differ by 0\.1 % or more"):
+    with pytest.raises(InputError, match=r"0\.1 %"):
         write_netlist([plain, solved(bearing__inner_speed="3001 rpm")], path)
     touching = solved(bearing__inner_speed="50 rpm", bearing__contact_resistance="1 ohm")
     apart = solved(bearing__contact_resistance="1 ohm")
-    with pytest.raises(InputError, match="50 rpm, where surfaces touch"):
+    with pytest.raises(InputError, match="50 rpm"):
         write_netlist([apart, touching], path)
     assert not list(tmp_path.iterdir())
 

@@ -60,26 +60,25 @@ def test_numbers_that_differ_make_another_result(drive):
 
 
 @each(
-    "name, change, says",
+    "name, change",
     [
-        ("event_bearing", lambda values: values + 1, "event_bearing is not 0 or 1"),
-        ("event_count", lambda values: values + 1, "event_count is not the number of values along event"),
-        ("voltage_edge", lambda values: -values, "voltage_edge is not increasing"),
-        ("position_breakdown", lambda values: 0.0 * values, "position_breakdown is not positive or infinite"),
-        ("time_at_voltage", lambda values: values - 1.0, "time_at_voltage is not not negative"),
+        ("event_bearing", lambda values: values + 1),
+        ("event_count", lambda values: values + 1),
+        ("voltage_edge", lambda values: -values),
+        ("position_breakdown", lambda values: 0.0 * values),
+        ("time_at_voltage", lambda values: values - 1.0),
     ],
 )
-def test_what_is_wrong_is_named(drive, tmp_path, name, change, says):
+def test_what_is_wrong_is_named(drive, tmp_path, name, change):
     dataset = drive.to_xarray()
     changed = dataset.assign({name: (dataset[name].dims, change(dataset[name].values))})
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match=name):
         of_drives.result_of(changed, tmp_path / "drive.nc")
-    assert says in str(caught.value)
 
 
 def test_the_file_of_another_result_is_refused(drive, tmp_path):
     other = drive.to_xarray().assign_attrs(schema="ehlectric.bearing.solution/1")
-    with pytest.raises(InputError, match="is not the result of a drive"):
+    with pytest.raises(InputError, match=r"drive\.nc: "):
         of_drives.result_of(other, tmp_path / "drive.nc")
 
 
@@ -90,5 +89,5 @@ def test_events_of_another_bearing_than_counted_are_refused(drive):
     assert films.size > 10
     check(dataset, 2)
     for edited in (films * 0, films * 0 + 1, 1 - films):
-        with pytest.raises(UnfitError, match="event_bearing does not belong to block_events"):
+        with pytest.raises(UnfitError, match=r"event_bearing .*block_events"):
             check(dataset.assign(event_bearing=edited), 2)

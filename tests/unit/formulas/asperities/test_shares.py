@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from ehlectric.formulas.asperities.shares import (
     LOAD_SHARE,
-    ShareLaw,
     contact_probability,
     johnson_end,
     johnson_fit,
@@ -65,12 +64,3 @@ def test_johnson_fit_ends_at_its_zero():
 def test_contact_begins_below_two():
     assert float(contact_probability(2.0)) < 0.01
     assert float(contact_probability(0.5)) > 0.4
-
-
-def test_a_new_share_law_is_in_the_table_by_name(monkeypatch):
-    law = ShareLaw("step", lambda film: np.where(np.asarray(film) < 1.0, 1.0, 0.0), "own")
-    monkeypatch.setitem(LOAD_SHARE, "step", law)
-    shares = load_shares([0.5, 1.5])
-    assert set(shares) == set(LOAD_SHARE)
-    assert shares["step"].tolist() == [1.0, 0.0]
-    np.testing.assert_array_equal(shares["clarke"], contact_probability([0.5, 1.5]))
