@@ -530,5 +530,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("autodoc-process-signature", _shortened)
     app.connect("builder-inited", _write, priority=100)
     app.connect("builder-inited", _paper, priority=100)
-    app.connect("builder-inited", _check_tests)
+    app.connect("builder-inited", _check_tests, priority=50)  # before figures are drawn
     return {"parallel_read_safe": True}
