@@ -37,8 +37,8 @@ def silent(_done, _of, _text):
         ("drive", "drive"),
     ],
 )
-def test_an_example_is_opened_as_it_is(tmp_path, name, kind):
-    found = uploaded({f"{name}.toml": example(name)}, tmp_path)
+def test_an_example_is_opened_as_it_is(tmp_path_factory, name, kind):
+    found = uploaded({f"{name}.toml": example(name)}, tmp_path_factory.mktemp("session"))
     assert (found.name, found.kind, found.missing) == (f"{name}.toml", kind, ())
     assert found.table == tomllib.loads(example(name).decode())
 
@@ -121,12 +121,12 @@ def test_surfaces_of_a_case_that_is_refused_do_not_stay(tmp_path):
 
 def test_files_are_few_and_a_tab_holds_so_much(tmp_path):
     many = {f"{k}.csv": b"1 2" for k in range(MOST_FILES + 1)}
-    with pytest.raises(InputError, match=f"at most {MOST_FILES} at once"):
+    with pytest.raises(InputError, match=f"at most {MOST_FILES}"):
         uploaded(many, tmp_path)
     (tmp_path / "surfaces").mkdir()
     with (tmp_path / "surfaces" / "there.csv").open("wb") as there:
         there.truncate(MOST_TOGETHER)
-    with pytest.raises(InputError, match="240 MB in all files of a tab"):
+    with pytest.raises(InputError, match="240 MB"):
         uploaded({"case.toml": example("line_contact")}, tmp_path)
 
 
@@ -139,35 +139,37 @@ def test_a_sweep_asks_for_its_case(tmp_path):
 
 
 @each("path", ["/etc/passwd", "../../passwd", "C:\\me\\passwd", "\\\\host\\a\\passwd"])
-def test_a_path_of_another_machine_is_asked_for_by_its_name(tmp_path, path):
+def test_a_path_of_another_machine_is_asked_for_by_its_name(tmp_path_factory, path):
     table = tomllib.loads(example("rough_contact").decode())
     table["roughness"][0]["file"] = path
-    assert uploaded({"a.toml": Inputs(table).toml().encode()}, tmp_path).missing == ("passwd",)
+    folder = tmp_path_factory.mktemp("session")
+    assert uploaded({"a.toml": Inputs(table).toml().encode()}, folder).missing == ("passwd",)
 
 
 @each("path", ["..", ".", "", "a/..", ".bashrc", "a\0b", "con: x", "x" * 200, "a\nb"])
-def test_a_name_that_no_file_may_have_is_refused(tmp_path, path):
+def test_a_name_that_no_file_may_have_is_refused(tmp_path_factory, path):
     table = tomllib.loads(example("rough_contact").decode())
     table["roughness"][0]["file"] = path
+    folder = tmp_path_factory.mktemp("session")
     with pytest.raises(InputError, match=r"roughness\.1\.file"):
-        uploaded({"a.toml": Inputs(table).toml().encode()}, tmp_path)
-    assert list(tmp_path.iterdir()) == []
+        uploaded({"a.toml": Inputs(table).toml().encode()}, folder)
+    assert list(folder.iterdir()) == []
 
 
 @each(
     "contents, says",
     [
-        ({"a.toml": b"a = " + b"1" * MOST_CASE}, "at most 200000 bytes"),
-        ({"a.toml": b"\xff\xfe"}, "not a text file in UTF-8"),
+        ({"a.toml": b"a = " + b"1" * MOST_CASE}, "200000"),
+        ({"a.toml": b"\xff\xfe"}, "UTF-8"),
         ({"a.toml": b"a = 1,5"}, "decimal comma"),
-        ({"a.toml": b"[bearing]\nbase = '6208'\nradial_laod = '1 N'"}, "bearing.radial_laod: unknown key"),
-        ({"a.csv": b"1 2"}, "expected a case in a .toml file"),
-        ({"a.toml": b"a." * 20 + b"b = 1"}, "more than 16 parts"),
+        ({"a.toml": b"[bearing]\nbase = '6208'\nradial_laod = '1 N'"}, "bearing.radial_laod"),
+        ({"a.csv": b"1 2"}, ".toml"),
+        ({"a.toml": b"a." * 20 + b"b = 1"}, "16"),
     ],
 )
-def test_a_bad_file_is_refused_in_words(tmp_path, contents, says):
+def test_a_bad_file_is_refused_in_words(tmp_path_factory, contents, says):
     with pytest.raises(InputError) as refused:
-        uploaded(contents, tmp_path)
+        uploaded(contents, tmp_path_factory.mktemp("session"))
     assert says in str(refused.value)
     assert "Traceback" not in str(refused.value)
 

@@ -9,6 +9,25 @@ from ehlectric.app.following import Following
 from ehlectric.errors import InputError
 
 
+class Lock(asyncio.Semaphore):
+    """Lock of whole answers that counts how often it was asked for."""
+
+    def __init__(self):
+        super().__init__(1)
+        self.asked = 0
+
+    async def acquire(self):
+        self.asked += 1
+        return await super().acquire()
+
+
+async def until(condition):
+    """Wait until a condition is met."""
+    async with asyncio.timeout(60.0):
+        while not condition():
+            await asyncio.sleep(0.002)
+
+
 class Page:
     """Page that records what it is asked to compute and to show; every quick answer waits for ``go``."""
 
@@ -16,7 +35,7 @@ class Page:
         self.asked, self.shown, self.passed, self.refused = [], [], [], []
         self.go = asyncio.Event()
         self.go.set()
-        self.behind = asyncio.Semaphore(1)
+        self.behind = Lock()
         self.following = Following(
             self.quick,
             self.whole,
@@ -48,7 +67,7 @@ def test_a_whole_answer_follows_the_quick_one():
         page = Page()
         await page.following.ask(1)
         assert page.shown == [(1, "quick")]
-        await asyncio.sleep(0.05)
+        await until(lambda: len(page.shown) > 1)
         return page
 
     page = asyncio.run(use())
@@ -77,9 +96,10 @@ def test_a_whole_answer_to_older_inputs_is_not_computed():
         page = Page()
         async with page.behind:
             await page.following.ask(1)
-            await asyncio.sleep(0.05)
+            await until(lambda: page.behind.asked == 2)
             await page.following.ask(2)
-        await asyncio.sleep(0.05)
+        # The lock is given in the order in which it was asked for.
+        await until(lambda: ("whole", 2) in page.asked)
         return page
 
     page = asyncio.run(use())
@@ -111,7 +131,7 @@ def test_a_closed_page_wants_no_answer():
         page.following.drop()
         page.go.set()
         await task
-        await asyncio.sleep(0.05)
+        await asyncio.gather(*(asyncio.all_tasks() - {asyncio.current_task()}))
         return page
 
     page = asyncio.run(use())

@@ -23,20 +23,25 @@ def test_a_port_is_listened_at_before_the_server_is_loaded():
         assert bound.getsockname()[1] > 0
 
 
-def test_without_a_port_the_next_free_one_is_taken():
+def test_without_a_port_the_next_free_one_is_taken(taken, monkeypatch):
     with listen("127.0.0.1", None) as one, listen("127.0.0.1", None) as other:
-        assert 8080 <= one.getsockname()[1] < other.getsockname()[1] < 8180
+        ports = {bound.getsockname()[1] for bound in (one, other)}
+    assert len(ports) == 2
+    assert ports < set(range(8080, 8180))
+    # Other programs may hold ports of that range and give them back at any time.
+    monkeypatch.setattr("ehlectric.app.start._PORTS", (taken, 0))
+    with listen("127.0.0.1", None) as bound:
+        assert bound.getsockname()[1] != taken
 
 
 def test_a_taken_port_is_told(taken):
     with pytest.raises(InputError) as caught:
         listen("127.0.0.1", taken)
-    assert str(caught.value).startswith(f"--port: {taken} cannot be used, address already in use")
-    assert "free port" in caught.value.takes
+    assert str(caught.value).startswith(f"--port: {taken} ")
 
 
 @each("host", ["203.0.113.7", "no such host", "1.2.3.4.5", ""])
 def test_an_address_of_another_machine_is_told(host):
     with pytest.raises(InputError) as caught:
         listen(host, 0).close()
-    assert str(caught.value) == f"--host: got {host}; expected an address of this machine"
+    assert (caught.value.key, caught.value.got) == ("--host", host)

@@ -34,8 +34,7 @@ def bounds(text):
 def test_bounds_of_an_error_are_in_the_unit_of_the_field(field):
     """Expected: the bounds of the checks, which are in SI units."""
     kind = number_of(input_field(field.key))
-    if not isinstance(kind, Quantity):
-        pytest.skip("its own check")
+    assert isinstance(kind, Quantity)
     with pytest.raises(InputError) as error:
         kind.parse("fast", written=True)
     told = bounds(in_field_unit(field, error.value.text))
@@ -58,9 +57,9 @@ def test_a_text_in_a_box_is_written_back_as_it_was(field):
 @each("field", WITH_UNIT, ids=by_key)
 def test_units_with_signs_are_taken(field):
     kind = number_of(input_field(field.key))
-    if isinstance(kind, Quantity):
-        text = field.from_slider(0.6)
-        assert kind.parse(text.replace(field.unit, with_signs(field.unit))) == kind.parse(text)
+    assert isinstance(kind, Quantity)
+    text = field.from_slider(0.6)
+    assert kind.parse(text.replace(field.unit, with_signs(field.unit))) == kind.parse(text)
 
 
 @each(
@@ -85,5 +84,5 @@ def test_an_error_of_a_whole_case_keeps_its_other_words():
     with pytest.raises(InputError) as error:
         case_of_dict(EXAMPLE.changed({field.key: "-5 rpm"}).table, written=True)
     told = in_field_unit(field, error.value.text)
-    assert told.startswith("got '-5 rpm'; expected a number")
-    assert told.endswith("of the inner ring")
+    assert "'-5 rpm'" in told
+    assert "inner ring" in told

@@ -166,7 +166,7 @@ def test_a_job_that_takes_too_long_is_stopped():
 
     state, _, error = working(Limits(seconds=3.0), use)
     assert state == "failed"
-    assert "longer than the 0.05 min allowed" in str(error)
+    assert "0.05 min" in str(error)
 
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="processes are watched by the files of Linux")
@@ -211,7 +211,7 @@ def test_jobs_beyond_the_limits_are_refused():
     async def use(work):
         share = work.share()
         jobs = [share.start(calls.wait, 60.0) for _ in range(2)]
-        with pytest.raises(LostError, match="2 computations of this page"):
+        with pytest.raises(LostError, match="2 computations"):
             share.start(calls.wait, 60.0)
         work.share().start(calls.wait, 60.0)
         with pytest.raises(LostError, match="too many computations"):

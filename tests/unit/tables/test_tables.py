@@ -18,6 +18,7 @@ from ehlectric.tables.motion import run_rows, schedule_rows
 from ehlectric.tables.surface import surface_table
 from ehlectric.tables.sweep import sweep_rows
 from tests.conftest import PAPER_CONTACT
+from tests.helpers.each import each
 from tests.helpers.moving_cases import moving
 from tests.helpers.point_pages import result_of
 from tests.helpers.sweep_models import breakdown, grid
@@ -50,39 +51,39 @@ def moved(tmp_path_factory):
     return summary_of(read_motion(folder))
 
 
-@pytest.fixture(
-    scope="module",
-    params=["check line", "check motion", "line", "rough line", "circle", "gaussian", "motion"],
-)
-def rows(request, moved):
-    match request.param:
-        case "check line":
-            return rows_of_a_case(line())
-        case "check motion":
-            contact = TransientContact.of(moving())
-            return [
-                *rows_of_a_case(moving()),
-                *schedule_rows(contact.schedule, contact.conditions.entrainment_speed),
-            ]
-        case "motion":
-            return run_rows(moved)
-        case "circle" | "gaussian":
-            return result_rows(result_of(request.param))
+PRINTED = ("check line", "check motion", "line", "rough line", "circle", "gaussian", "motion")
+
+
+@pytest.fixture(scope="module")
+def printed(moved):
+    """Rows of every table that is printed, by name."""
+    contact = TransientContact.of(moving())
+    schedule = schedule_rows(contact.schedule, contact.conditions.entrainment_speed)
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "200 um"}
-    tables = {"roughness": [rough]} if "rough" in request.param else {}
-    return result_rows(solve(line(grid={"nodes": 401}, **tables)))
+    return {
+        "check line": rows_of_a_case(line()),
+        "check motion": [*rows_of_a_case(moving()), *schedule],
+        "line": result_rows(solve(line(grid={"nodes": 401}))),
+        "rough line": result_rows(solve(line(grid={"nodes": 401}, roughness=[rough]))),
+        "circle": result_rows(result_of("circle")),
+        "gaussian": result_rows(result_of("gaussian")),
+        "motion": run_rows(moved),
+    }
 
 
-def test_labels_are_understood_alone(rows):
+@each("table", PRINTED)
+def test_labels_are_understood_alone(printed, table):
     """No label continues the row above, none is there twice, and none has words of our own."""
-    names = [row.name for row in rows]
+    names = [row.name for row in printed[table]]
     assert len(names) > 15
     assert [name for name in names if name != name.strip() or PRIVATE.search(name)] == []
     assert len(set(names)) == len(names)
     assert max(map(len, names)) <= 40
 
 
-def test_inputs_that_decide_come_first(rows):
+@each("table", PRINTED)
+def test_inputs_that_decide_come_first(printed, table):
+    rows = printed[table]
     named = texts(rows)
     assert rows[0].heading
     for name in ("entrainment speed", "slide-to-roll ratio", "viscosity at ambient pressure"):
@@ -119,7 +120,6 @@ def test_temperature_and_name_of_the_oil_stand_before_its_viscosity():
 def test_a_film_that_is_not_converged_is_said_first():
     rows = result_rows(solve(line(grid={"nodes": 401}, solver={"max_iterations": 1})))
     assert (rows[0].name, rows[0].alarm) == ("NOT CONVERGED", True)
-    assert "do not use" in rows[0].text
     assert not any("vs. solved" in row.text for row in rows)
 
 
@@ -166,26 +166,20 @@ def test_a_sweep_says_why_points_failed():
         replace(point, status="failed" if reason else "solved", reason=reason)
         for point, reason in zip(results.points, reasons, strict=True)
     ]
-    assert [(row.name, row.text) for row in sweep_rows(replace(results, points=tuple(points)))] == [
-        ("points solved", "1 of 4"),
-        ("points not converged", "0 of 4"),
-        ("points failed", "3 of 4"),
-        ("  reason, 2 points", "for example grid.nodes: got 65"),
-        ("  reason, 1 point", "no memory"),
-    ]
+    solved, unconverged, failed, two, one = sweep_rows(replace(results, points=tuple(points)))
+    assert [row.text for row in (solved, unconverged, failed)] == ["1 of 4", "0 of 4", "3 of 4"]
+    assert "2 points" in two.name
+    assert two.text.endswith("grid.nodes: got 65")
+    assert "1 point" in one.name
+    assert one.text == "no memory"
 
 
 @pytest.mark.parametrize(
     ("size", "voids", "step", "said"),
     [
-        (None, None, None, "surface 1: generated\nspacing 0.5 µm"),
-        ([1, 300], 0.0, None, "surface 1: a.csv\n300 points, spacing 0.5 µm"),
-        (
-            [20, 30],
-            0.02,
-            1e-9,
-            "surface 1: a.csv\n20 x 30 points, spacing 0.5 µm, 2 % voids, height resolution 1 nm",
-        ),
+        (None, None, None, ("surface 1: generated", "0.5 µm")),
+        ([1, 300], 0.0, None, ("surface 1: a.csv", "300 points", "0.5 µm")),
+        ([20, 30], 0.02, 1e-9, ("surface 1: a.csv", "20 x 30 points", "0.5 µm", "2 %", "1 nm")),
     ],
 )
 def test_the_head_of_a_surface(size, voids, step, said):
@@ -193,4 +187,6 @@ def test_the_head_of_a_surface(size, voids, step, said):
     first = {"step": "as read", "points": 300, "spacing": 5e-7} | dict.fromkeys(numbers, 1e-9)
     surface = {"surface": 1, "source": None if size is None else "a.csv", "size": size, "voids": voids}
     table = surface_table(surface | {"height_step": step, "steps": [first]})
-    assert str(table.title) == said
+    for text in said:
+        assert text in str(table.title)
+    assert ("%" in str(table.title)) == bool(voids)
