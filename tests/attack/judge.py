@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.attack.runner import Outcome
 
-# Longest time [s] and largest memory [bytes] of a command with an input of the attack.
+# Longest time on a processor [s] and largest memory [bytes] of a command with an input of the attack.
 LONGEST = 30.0
 LARGEST = 2 << 30
 
@@ -41,8 +41,11 @@ def faults(outcome: Outcome, folder: Path, temporary: Path) -> Iterator[str]:
     str
         A fault.
     """
-    if not outcome.ended or outcome.seconds > LONGEST:
-        yield f"took more than {LONGEST:g} s"
+    if not outcome.ended:
+        yield f"did not end in {outcome.seconds:.0f} s"
+        return
+    if outcome.processor > LONGEST:
+        yield f"took more than {LONGEST:g} s of a processor"
         return
     if outcome.status not in STATUSES:
         yield f"exit status {outcome.status}"

@@ -10,6 +10,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.helpers.processes import PATIENCE
+
 REPOSITORY = Path(__file__).parents[2]
 
 
@@ -29,6 +31,8 @@ class Outcome:
         What it printed.
     seconds : float
         Its time [s].
+    processor : float
+        Its time on the processor, with that of workers that it waited for [s].
     peak : int
         Largest memory of its process, without those of workers [bytes].
     changed : tuple of str
@@ -43,6 +47,7 @@ class Outcome:
     out: str
     err: str
     seconds: float
+    processor: float
     peak: int
     changed: tuple[str, ...]
     group: int
@@ -76,16 +81,30 @@ class Runner:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._server.communicate(timeout=60)
+        self._server.communicate(timeout=PATIENCE)
 
     def _line(self) -> dict[str, float]:
         assert self._server.stdout is not None
         return json.loads(self._server.stdout.readline())
 
-    def run(self, *arguments: str, folder: Path, limit: float = 60.0) -> Outcome:
-        """Run a command in a folder, and kill it where it takes longer than ``limit`` seconds."""
+    def run(
+        self, *arguments: str, folder: Path, limit: float = 600.0, processor: float | None = None
+    ) -> Outcome:
+        """Run a command in a folder, and kill it where it hangs, or at a moment of its work.
+
+        Parameters
+        ----------
+        *arguments : str
+            Words of the command.
+        folder : Path
+            Folder to run in.
+        limit : float
+            Time after which it is killed, which only ends a command that hangs [s].
+        processor : float, optional
+            Time on the processor at which it is killed [s], however long a busy machine takes for it.
+        """
         files = {name: self.told / name for name in ("out", "err", "changes")}
-        request = {"arguments": arguments, "folder": str(folder), "limit": limit}
+        request = {"arguments": arguments, "folder": str(folder), "limit": limit, "processor": processor}
         request |= {name: str(path) for name, path in files.items()}
         assert self._server.stdin is not None
         print(json.dumps(request), file=self._server.stdin, flush=True)
@@ -95,7 +114,8 @@ class Runner:
         )
         return Outcome(
             arguments, int(answer["status"]), bool(answer["ended"]), out, err, answer["seconds"],
-            int(answer["peak"]), tuple(dict.fromkeys(changes.splitlines())), int(answer["group"]),
+            answer["processor"], int(answer["peak"]), tuple(dict.fromkeys(changes.splitlines())),
+            int(answer["group"]),
         )  # fmt: skip
 
     def left_behind(self) -> list[str]:
@@ -105,8 +125,8 @@ class Runner:
         return [str(path) for path in paths if "matplotlib" not in path.parts]
 
 
-def workers_gone(group: int, patience: float = 20.0) -> bool:
-    """Whether no process of a group is left, after at most some seconds."""
+def workers_gone(group: int, patience: float = PATIENCE) -> bool:
+    """Whether no process of a group comes to be left, after at most some seconds."""
     deadline = time.monotonic() + patience
     while time.monotonic() < deadline:
         try:

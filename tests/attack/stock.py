@@ -157,6 +157,6 @@ def make(folder: Path, runner: Runner) -> Stock:
 
 
 def _done(runner: Runner, folder: Path, *words: str) -> None:
-    outcome = runner.run(*words, folder=folder, limit=300.0)
+    outcome = runner.run(*words, folder=folder)
     if outcome.status != 0:
         raise AssertionError(f"{' '.join(words)}: {outcome.err}")

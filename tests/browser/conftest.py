@@ -10,7 +10,9 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from tests.browser.driving import connected
 from tests.helpers.app_server import AppServer
+from tests.helpers.processes import PATIENCE
 
 # Names under which systems install Chromium.
 _NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
@@ -34,8 +36,8 @@ _HARMLESS = re.compile("GPU stall|GL Driver Message|WebGL")
 # Plotly resizes a figure in its own time, also one that the page has replaced since.
 _LATE = re.compile("Resize must be passed a displayed plot div element")
 
-# Time that a page has for what a test waits for, on a busy machine [ms].
-_PATIENCE = 20_000.0
+# Time after which a test gives up what it waits for [ms].
+_PATIENCE = 1e3 * PATIENCE
 
 
 def _program():
@@ -56,7 +58,7 @@ def browser():
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=program, args=list(_FLAGS))
+        chromium = playwright.chromium.launch(executable_path=program, args=list(_FLAGS), timeout=_PATIENCE)
         yield chromium
         chromium.close()
 
@@ -65,7 +67,7 @@ def browser():
 def app_server(tmp_path_factory):
     """Server of the app that tests share; see ``own_server`` for one that a test may stop."""
     _program()
-    server = AppServer(tmp_path_factory.mktemp("app"))
+    server = AppServer(tmp_path_factory.mktemp("app"), patient=True)
     yield server
     assert server.stop() == 0
     assert not list(server.folder.iterdir()), "nothing is written where the command was typed"
@@ -77,8 +79,8 @@ def own_server(tmp_path):
     """Start of a server, with options of the command, that ends with the test."""
     servers = []
 
-    def start(*options):
-        servers.append(AppServer(tmp_path, *options))
+    def start(*options, **limits):
+        servers.append(AppServer(tmp_path, *options, patient=True, **limits))
         return servers[-1]
 
     yield start
@@ -147,6 +149,7 @@ def open_page(browser, request):
         page.watch.of(page)
         target = server.address if path == "/" else f"{server.address.partition('?')[0].rstrip('/')}{path}"
         page.goto(target)
+        connected(page)
         return page
 
     yield opened

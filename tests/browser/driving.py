@@ -2,7 +2,31 @@
 
 import re
 
+from tests.helpers.processes import PATIENCE, wait_until
+
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def connected(page):
+    """Wait until a page is connected with its server; one that is refused has no connection."""
+    page.wait_for_function("() => !window.socket || window.did_handshake")
+
+
+def loaded_again(page):
+    """Function that waits until a page was loaded anew since now, and is connected with its server again."""
+    page.evaluate("() => { window.before = true; }")
+    return lambda: page.wait_for_function("() => !window.before && window.did_handshake")
+
+
+def seen(page, test_id):
+    """The one element of a test mark that is seen, where a page has several of them."""
+    return page.get_by_test_id(test_id).filter(visible=True)
+
+
+def complete(page):
+    """Wait until a page of a bearing has its whole answer, and help beside its fields; then it stays so."""
+    page.locator("[data-testid=answer][data-whole=true][aria-busy=false]").wait_for()
+    page.get_by_role("button", name="About Radial load").wait_for(state="attached")
 
 
 def type_into(page, key, text):
@@ -32,7 +56,7 @@ def number(page, name):
     return None if found is None else float(found[0])
 
 
-def wait_for_number(page, name, expected, *, digits=3, seconds=20.0):
+def wait_for_number(page, name, expected, *, digits=3, seconds=PATIENCE):
     """Wait until a number agrees with an expected one to a number of digits."""
     seen = None
     for _ in range(int(seconds / 0.1)):
@@ -41,3 +65,8 @@ def wait_for_number(page, name, expected, *, digits=3, seconds=20.0):
             return seen
         page.wait_for_timeout(100)
     raise AssertionError(f"{name}: {seen}, expected {expected}")
+
+
+def wait_for_any_number(page, name):
+    """Wait until the page shows any number under a name."""
+    assert wait_until(lambda: number(page, name) is not None)

@@ -4,6 +4,7 @@ import json
 
 from ehlectric.app.inputs import Inputs
 from tests.helpers.commands import run_command
+from tests.helpers.processes import PATIENCE, wait_until
 
 # Options with which the command prints its numbers and draws nothing.
 NUMBERS = ("--json", "--no-plots", "-o", "out")
@@ -14,9 +15,9 @@ def address_of(path, table):
     return f"{path}?{Inputs(table).address()}"
 
 
-def downloaded(page, test_id, folder, *, milliseconds=60_000.0):
+def downloaded(page, test_id, folder):
     """Path of the file that a button of a page downloads, in a folder."""
-    with page.expect_download(timeout=milliseconds) as info:
+    with page.expect_download(timeout=1e3 * PATIENCE) as info:
         page.get_by_test_id(test_id).click()
     path = folder / info.value.suggested_filename
     info.value.save_as(path)
@@ -46,3 +47,8 @@ def bearing_by_command(page, folder, contacts="atlas"):
 def overflow(page):
     """Width by which a page is wider than its window [px]."""
     return page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+
+
+def fits(page):
+    """Whether a page comes to be no wider than its window; figures follow it in their own time."""
+    return wait_until(lambda: overflow(page) <= 0)

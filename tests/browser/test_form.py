@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.browser.driving import field, type_into, wait_for_number
+from tests.browser.driving import complete, field, type_into, wait_for_number
 from tests.browser.outputs import address_of, downloaded
 from tests.browser.test_first_page import capacitance
 from tests.helpers.places import EXAMPLES
@@ -86,7 +86,7 @@ _FOCUSED = """() => {
 
 @pytest.mark.slow
 def test_the_focus_is_seen_and_never_lost(page):
-    wait_for_number(page, "capacitance", capacitance())
+    complete(page)
     page.locator("main.page").focus()
     stops = []
     for _ in range(24):
@@ -101,9 +101,9 @@ def test_the_focus_is_seen_and_never_lost(page):
 
 @pytest.mark.slow
 def test_messages_do_not_move_the_page(page):
-    wait_for_number(page, "capacitance", capacitance())
+    complete(page)
     page.evaluate("window.scrollTo(0, 0)")
-    form = page.get_by_role("form").first
+    form = page.get_by_role("form", name="Inputs")
     before = form.bounding_box()
     page.get_by_test_id("copy-link").click()
     page.get_by_test_id("toast").filter(has_text="link").wait_for()
@@ -133,7 +133,7 @@ def test_a_browser_that_takes_its_time_over_the_link(page, writes, text):
 @pytest.mark.slow
 def test_the_short_answer_leads_to_the_answer_on_a_phone(open_page, app_server):
     page = open_page(app_server, "/", width=400, height=800)
-    wait_for_number(page, "capacitance", capacitance())
+    complete(page)
     answer = page.locator("section.answer")
     assert answer.bounding_box()["y"] > 800
     page.get_by_test_id("to-answer").click()

@@ -15,7 +15,7 @@ from scipy.io import loadmat
 from ehlectric.cases.row import amount
 from tests.browser.driving import type_into, wait_for_number
 from tests.browser.outputs import address_of, command, downloaded
-from tests.browser.test_contact_page import example, upload, wait_until_solved
+from tests.browser.test_contact_page import example, solve, upload, wait_until_solved
 from tests.browser.test_first_page import LOAD, capacitance
 from tests.helpers.places import DEKTAK
 
@@ -188,8 +188,7 @@ def test_a_case_with_a_measured_surface_is_downloaded_with_its_file_and_runs(ope
     page.get_by_test_id("use-surface").click()
     page.locator("[data-testid=solved].old").wait_for()
     # A film over a rough surface takes longer and is solved on demand.
-    page.get_by_test_id("solve").click()
-    wait_until_solved(page, 120.0)
+    solve(page)
     packed = downloaded(page, "download-all", tmp_path)
     with zipfile.ZipFile(packed) as archive:
         archive.extractall(tmp_path / "out")

@@ -5,10 +5,11 @@ from urllib.parse import quote
 
 import pytest
 
-from tests.browser.driving import type_into, wait_for_number
+from tests.browser.driving import loaded_again, seen, type_into, wait_for_number
 from tests.browser.outputs import address_of, downloaded
 from tests.browser.test_first_page import LOAD, capacitance
 from tests.browser.test_sweep_page import run, sweep, wait_for_points
+from tests.helpers.app_server import kept_port
 from tests.helpers.processes import alive, wait_until
 
 PATHS = ("/", "/contact", "/contact?contact.geometry=point", "/sweep", "/compare")
@@ -19,7 +20,8 @@ PATHS = ("/", "/contact", "/contact?contact.geometry=point", "/sweep", "/compare
 def test_a_page_asks_no_other_host_and_has_no_error(open_page, app_server, path):
     page = open_page(app_server, path)
     page.get_by_test_id("theme").wait_for()
-    page.locator(".js-plotly-plot, [data-testid=by-formula] .value, [data-testid=plan]").first.wait_for()
+    answer = page.locator(".js-plotly-plot, [data-testid=by-formula] .value, [data-testid=plan]")
+    assert wait_until(lambda: answer.filter(visible=True).count() > 0)
     page.wait_for_load_state("networkidle")
     hosts = {url.split("/")[2] for url in page.watch.requests if "://" in url}
     assert hosts == {page.watch.host}
@@ -40,42 +42,46 @@ def test_a_page_asks_no_other_host_and_has_no_error(open_page, app_server, path)
 def test_a_wrong_link_is_told_in_words(open_page, app_server, path):
     page = open_page(app_server, path)
     alert = page.locator("[role=alert], .light, [data-testid=notice]").filter(has_text="expected")
-    alert.first.wait_for()
+    assert wait_until(lambda: alert.filter(visible=True).count() > 0)
     assert "Traceback" not in page.inner_text("body")
     assert "Server error" not in page.inner_text("body")
 
 
 @pytest.mark.slow
 def test_a_server_that_is_killed_during_a_job_leaves_no_process(own_server, open_page):
-    server = own_server()
-    page = open_page(server)
+    with kept_port() as port:
+        server = own_server("--port", str(port))
+        page = open_page(server)
+        wait_for_number(page, "capacitance", capacitance())
+        before = set(server.started())
+        page.get_by_test_id("solve").click()
+        assert wait_until(lambda: set(server.processes()) > before)
+        every = server.processes()
+        wait_until_again = loaded_again(page)
+        server.stop(signal.SIGKILL)
+        assert wait_until(lambda: not any(map(alive, every)))
+        own_server("--port", str(port))
+    wait_until_again()
     wait_for_number(page, "capacitance", capacitance())
-    before = set(server.processes())
-    page.get_by_test_id("solve").click()
-    assert wait_until(lambda: set(server.processes()) > before)
-    every = server.processes()
-    server.stop(signal.SIGKILL)
-    assert wait_until(lambda: not any(map(alive, every)), seconds=20.0)
-    own_server("--port", str(server.port))
-    wait_for_number(page, "capacitance", capacitance(), seconds=60.0)
     # The browser tells that the server was gone.
     page.watch.wrong.clear()
 
 
 @pytest.mark.slow
 def test_a_page_answers_while_others_compute(own_server, open_page):
-    server = own_server()
+    server = own_server("--jobs", "1")
     tabs = [open_page(server) for _ in range(4)]
-    for tab in tabs:
-        wait_for_number(tab, "capacitance", capacitance(), seconds=60.0)
-        tab.get_by_test_id("solve").click()
     asking = open_page(server)
-    type_into(asking, LOAD, "900 N")
-    wait_for_number(asking, "capacitance", capacitance("900 N"), seconds=60.0)
-    # Jobs beyond the number that may run wait, and say so.
-    assert any("wait" in tab.inner_text("body").lower() for tab in tabs)
+    for tab in (asking, *tabs):
+        wait_for_number(tab, "capacitance", capacitance())
     for tab in tabs:
-        tab.get_by_test_id("cancel").first.click()
+        tab.get_by_test_id("solve").click()
+    type_into(asking, LOAD, "900 N")
+    wait_for_number(asking, "capacitance", capacitance("900 N"))
+    # Jobs beyond the number that may run wait, and say so.
+    assert wait_until(lambda: any("wait" in tab.inner_text("body").lower() for tab in tabs))
+    for tab in tabs:
+        seen(tab, "cancel").click()
         tab.get_by_test_id("solve-message").filter(has_text="Cancelled").wait_for()
 
 
@@ -103,7 +109,7 @@ def test_a_file_that_is_too_large_is_refused_before_it_is_read(open_page, app_se
     page.get_by_test_id("upload-surface").wait_for(state="attached")
     # Playwright sends files of at most 50 MB; the field takes larger ones by their path only.
     page.get_by_test_id("upload-surface").set_input_files(large)
-    page.get_by_test_id("roughness").get_by_role("alert").filter(has_text="at most").first.wait_for()
+    page.get_by_test_id("roughness").get_by_role("alert").filter(has_text="at most").wait_for()
 
 
 @pytest.mark.slow
@@ -119,6 +125,8 @@ def test_a_file_that_is_too_large_is_refused_before_it_is_read(open_page, app_se
 def test_no_text_of_a_link_runs(open_page, app_server, address):
     """The framework runs properties whose names begin with a colon, and a text could hold further ones."""
     page = open_page(app_server, address)
-    page.get_by_test_id("theme").wait_for()
-    page.wait_for_timeout(2000)
+    # What comes with the page has run when the server has answered a click.
+    page.wait_for_load_state("networkidle")
+    page.get_by_test_id("copy-link").click()
+    page.get_by_test_id("toast").filter(has_text="link").wait_for()
     assert page.evaluate("window.ran === undefined")

@@ -3,13 +3,51 @@
 import os
 import re
 import signal
+import socket
 import subprocess
+import sys
 import threading
+from contextlib import contextmanager
 
+from ehlectric.runtime.parallel.workers import cores
 from tests.helpers.commands import COMMAND
-from tests.helpers.processes import memory_of, tree
+from tests.helpers.processes import PATIENCE, memory_of, tree, wait_until
 
 _ADDRESS = re.compile(r"ehlectric is at (http://\S+)")
+
+# The command with longer times for an answer, for a message on a page, and for a browser that is away [s], so
+# that a busy machine ends none of them. The modules of the pages are loaded when the command would load them.
+_PATIENT = """
+import sys
+from dataclasses import replace
+from ehlectric.app import work
+
+limits_of, warm = work.limits_of, work.Work.warm
+
+def longer(**given):
+    return replace(limits_of(**given), patience=600.0)
+
+def warm_and_patient(self):
+    warm(self)
+    from ehlectric.app import server
+    from ehlectric.app.pages import control
+    server._RECONNECT, control._BRIEF = {away}, 60.0
+
+work.limits_of, work.Work.warm = longer, warm_and_patient
+sys.argv[0] = "ehlectric"
+from ehlectric.__main__ import main
+main()
+"""
+
+
+@contextmanager
+def kept_port():
+    """Port that no other program is given meanwhile, so that servers of a test may come and go on it."""
+    with socket.socket() as keeper:
+        # Servers may share it with a socket that does not listen, and that allows it.
+        keeper.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        keeper.bind(("127.0.0.1", 0))
+        yield keeper.getsockname()[1]
 
 
 class AppServer:
@@ -21,14 +59,20 @@ class AppServer:
         Folder in which the command is typed, and beside which its temporary files lie.
     *options : str
         Further options of the command.
+    patient : bool
+        Whether it has longer time limits than the command, for tests that wait for its answers.
+    away : float
+        Time after which a patient server ends what a browser has left [s].
     """
 
-    def __init__(self, folder, *options):
+    def __init__(self, folder, *options, patient=False, away=60.0):
         self.folder, self.temporary = folder / "typed_here", folder / "tmp"
         for path in (self.folder, self.temporary):
             path.mkdir(exist_ok=True)
         self.log = folder / "log"
-        words = [COMMAND, "app", "--no-browser", *(() if "--port" in options else ("--port", "0")), *options]
+        begin = [sys.executable, "-c", _PATIENT.format(away=away)] if patient else [COMMAND]
+        port = () if "--port" in options else ("--port", "0")
+        words = [*begin, "app", "--no-browser", *port, *options]
         with self.log.open("wb") as log:
             self.process = subprocess.Popen(
                 words,
@@ -38,7 +82,7 @@ class AppServer:
                 stderr=log,
                 text=True,
             )
-        self.address = self._told(60.0)
+        self.address = self._told(PATIENCE)
 
     def _told(self, seconds):
         """Address of the app, which the command prints when it answers."""
@@ -61,6 +105,12 @@ class AppServer:
         """Numbers of the processes of the server."""
         return tree(self.process.pid)
 
+    def started(self):
+        """Numbers of its processes, once there are all that it begins with: those of jobs come later."""
+        # The server, the process that the others are forked from, its tracker, and those of quick answers.
+        assert wait_until(lambda: len(self.processes()) >= 3 + min(4, cores()))
+        return self.processes()
+
     def memory(self):
         """Memory of all processes of the server [bytes]."""
         return memory_of(self.processes())
@@ -69,7 +119,7 @@ class AppServer:
         """Stop the server by a signal; returns its exit status."""
         self.process.send_signal(number)
         try:
-            return self.process.wait(20.0)
+            return self.process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
             self.process.kill()
             raise

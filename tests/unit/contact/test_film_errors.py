@@ -141,7 +141,7 @@ def test_too_large_a_tolerance_is_refused_when_solved(paper_case):
     """A case may have it, as stored results may."""
     case = paper_case.replace({"solver.tolerance": 1e-4})
     for refuse in (solve, check_case):
-        with pytest.raises(InputError, match=r"^solver.tolerance: got 0.0001; expected at most 1e-06: "):
+        with pytest.raises(InputError, match=r"^solver.tolerance: .*0.0001.* 1e-06"):
             refuse(case)
 
 

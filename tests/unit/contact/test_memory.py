@@ -25,9 +25,9 @@ def point(*roughness, **grid):
 def test_grids_that_do_not_fit_into_memory(monkeypatch, paper_case):
     monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
     check_memory(paper_case)
-    with pytest.raises(InputError, match=r"grid\.nodes: got 5000001 .* GB; expected a grid .* 1 GB"):
+    with pytest.raises(InputError, match=r"grid\.nodes: .*5000001 .* GB.* 1 GB"):
         check_memory(paper_case.replace({"grid.nodes": 5_000_001}))
-    with pytest.raises(InputError, match=r"grid\.field_nodes: got 1000001 with field_degree 8"):
+    with pytest.raises(InputError, match=r"grid\.field_nodes: .*1000001 .*field_degree 8"):
         check_memory(paper_case.replace({"grid.field_nodes": 1_000_001, "grid.field_degree": 8}))
 
 
@@ -94,10 +94,10 @@ def test_instants_of_a_motion_that_fit_into_no_memory_are_refused(monkeypatch):
     """64 bytes a node and instant; no more instants than time steps and one are kept."""
     monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 64e6)
     check_memory(moving(motion={"passes": 1.0, "record": 20_000}))
-    with pytest.raises(InputError, match=r"^motion\.record: got 20000 .* at most 15384 in"):
+    with pytest.raises(InputError, match=r"^motion\.record: .*20000 .* 15384 "):
         check_memory(moving(motion={"duration": "1 s", "record": 20_000}))
     ball = moving(TABLES["point"], motion={"duration": "1 s", "record": 300})
-    with pytest.raises(InputError, match=r"^motion\.record: got 300 instants of 4225 nodes"):
+    with pytest.raises(InputError, match=r"^motion\.record: .*300 .* 4225 "):
         check_memory(ball)
     monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
     check_memory(ball)

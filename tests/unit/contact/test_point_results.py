@@ -250,22 +250,22 @@ def test_any_result_survives_the_disk(table, tmp_path_factory):
 
 
 WARNINGS = [
-    ({"grid.inlet": -2.2}, "the domain is too small: .* % of the pressure would build up upstream",
+    ({"grid.inlet": -2.2}, " % ",
      "domain-too-small"),
-    SLOW({"grid.inlet": -1.5}, "the domain is too small: .* do not use this film", "domain-far-too-small"),
-    SLOW({"grid.side": 1.3, "grid.field_side": 1.2}, "too small: .* lower grid.inlet and raise grid.side",
+    SLOW({"grid.inlet": -1.5}, "do not use", "domain-far-too-small"),
+    SLOW({"grid.side": 1.3, "grid.field_side": 1.2}, "grid.inlet .*grid.side",
          "domain-too-small"),
-    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "does not cavitate", "outlet-too-short"),
+    ({"grid.outlet": 1.01, "grid.field_range": [-1.1, 1.0]}, "cavitate", "outlet-too-short"),
     ({"contact.entrainment_speed": 0.5, "grid.wedge": "second-order"},
-     "error of the film .*; do not use this film", "grid-far-too-coarse"),
-    SLOW({"contact.entrainment_speed": 0.1}, "do not use this film: the next coarser grid was not solved",
+     "do not use", "grid-far-too-coarse"),
+    SLOW({"contact.entrainment_speed": 0.1}, "do not use",
          "coarser-grid-unsolved"),
-    SLOW({"grid.field_nodes": 20}, "grid.field_nodes is 20, but the film has", "field-grid-too-coarse"),
-    ({"grid.field_nodes_y": 20}, "grid.field_nodes_y is 20, but the film has", "field-grid-too-coarse"),
-    ({"solver.max_iterations": 1}, "do not use this film: the iteration .*stalled at", "not-converged"),
-    SLOW({"contact.load": 0.02}, "isoviscous-rigid regime", "regime"),
-    SLOW({"grid.field_side": 0.5}, "edge of grid.field_range or grid.field_side", "field-range-too-narrow"),
-    ({"electric.potential_2": 1e4}, "no insulator withstands", "field-above-insulators"),
+    SLOW({"grid.field_nodes": 20}, "grid.field_nodes .* 20", "field-grid-too-coarse"),
+    ({"grid.field_nodes_y": 20}, "grid.field_nodes_y .* 20", "field-grid-too-coarse"),
+    ({"solver.max_iterations": 1}, "do not use .*stalled", "not-converged"),
+    SLOW({"contact.load": 0.02}, "isoviscous-rigid", "regime"),
+    SLOW({"grid.field_side": 0.5}, "grid.field_range .*grid.field_side", "field-range-too-narrow"),
+    ({"electric.potential_2": 1e4}, "insulator", "field-above-insulators"),
 ]  # fmt: skip
 
 

@@ -136,4 +136,4 @@ def test_formats_of_the_files(tmp_path):
     files = save_oil(oil_report("n100", ["40 degC"]), tmp_path, ["svg", "pdf"])
     stems = ("oil_over_pressure", "oil_over_temperature")
     assert [file.name for file in files] == [f"{stem}.{kind}" for stem in stems for kind in ("svg", "pdf")]
-    assert all(file.stat().st_size > 1000 for file in files)
+    assert all(file.is_file() for file in files)

@@ -51,9 +51,7 @@ def test_a_duration_is_rounded_to_whole_steps_or_taken_as_it_is():
     found = schedule(moving(LINE, motion={"duration": 3.02 * time, "steps": 100}))
     assert found.end == pytest.approx(3.02, rel=1e-12)
     assert found.courant == pytest.approx(3.02 / 100 * 64 / 6, rel=1e-12)
-    with pytest.raises(
-        InputError, match=r"^motion\.duration: got .* s, in which oil travels less than a grid"
-    ):
+    with pytest.raises(InputError, match=r"^motion\.duration: .* s"):
         schedule(moving(LINE, motion={"duration": 1e-3 * time}))
 
 

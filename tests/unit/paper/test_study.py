@@ -3,7 +3,6 @@
 import dataclasses
 import os
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -141,14 +140,6 @@ def test_heavier_contacts_flatten_their_roughness_more(study):
     """Amplitude reduction: less of it is left at the higher of two pressures, all else the same."""
     for light, heavy in zip(CONTACTS[:4], CONTACTS[4:], strict=True):
         assert amplitude(study.rough[heavy]) < amplitude(study.rough[light]) < 1.0
-
-
-def test_numbers_of_the_report_are_all_used():
-    template = (Path(report.__file__).parent / "report.html.jinja").read_text(encoding="utf-8")
-    named = set(re.findall(r"number\.(\w+)", template))
-    source = Path(report.__file__).read_text(encoding="utf-8")
-    body = source[source.index("def numbers(") : source.index("def _column(")]
-    assert named == set(re.findall(r'^        "(\w+)":', body, re.MULTILINE))
 
 
 def test_packaged_profile_is_that_of_the_examples():

@@ -12,6 +12,7 @@ import pytest
 from ehlectric import InputError
 from ehlectric.runtime import folders
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
+from tests.helpers.processes import PATIENCE
 
 HOLD = """
 import sys, time
@@ -20,7 +21,7 @@ from ehlectric.runtime.folders import alone_in
 from ehlectric.runtime.files import whole
 with alone_in(sys.argv[1], locks=sys.argv[2:]) as folder, whole(folder / "film.png"):
     print("held", flush=True)
-    time.sleep(60)
+    time.sleep(600)
 """
 
 
@@ -78,10 +79,18 @@ def test_figures_may_be_drawn_while_points_are_solved(tmp_path, holder):
 
 
 def test_a_command_that_draws_is_waited_for(tmp_path, holder, monkeypatch):
-    monkeypatch.setitem(folders._PATIENCE, FIGURE_LOCK, 30.0)
-    process = holder(FIGURE_LOCK)
-    Thread(target=lambda: (time.sleep(0.3), process.kill())).start()
+    monkeypatch.setitem(folders._PATIENCE, FIGURE_LOCK, PATIENCE)
+    process, waited, sleep = holder(FIGURE_LOCK), [], time.sleep
+
+    def kill_and_sleep(seconds):
+        """The other process ends once it is waited for."""
+        waited.append(seconds)
+        process.kill()
+        sleep(seconds)
+
+    monkeypatch.setattr(folders.time, "sleep", kill_and_sleep)
     with alone_in(tmp_path, locks=[FIGURE_LOCK]):
+        assert waited
         assert process.wait() == -signal.SIGKILL
 
 
@@ -123,7 +132,7 @@ COUNT = """
 import sys
 from pathlib import Path
 from ehlectric.runtime import folders
-folders._PATIENCE[folders.FIGURE_LOCK], folders._AGAIN = 60.0, 1e-4
+folders._PATIENCE[folders.FIGURE_LOCK], folders._AGAIN = 600.0, 1e-4
 for _ in range(200):
     with folders.alone_in(sys.argv[1], locks=[folders.FIGURE_LOCK]):
         count = Path(sys.argv[2])

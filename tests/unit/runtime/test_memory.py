@@ -19,6 +19,8 @@ from ehlectric.runtime.memory import (
     out_of_memory,
     physical_memory,
 )
+from tests.helpers.each import each
+from tests.helpers.processes import PATIENCE
 
 V1 = "9:name=systemd:/\n4:cpu,memory:{path}\n0::/\n"
 V2 = "0::{path}\n"
@@ -59,13 +61,14 @@ def test_the_least_limit_of_a_group_and_those_above_it(tmp_path):
     assert left_of_groups(**there) == -1_000.0
 
 
-@pytest.mark.parametrize("path", ["/docker/7", "/", "/../.."])
-def test_a_container_sees_its_own_group(tmp_path, path):
+@each("path", ["/docker/7", "/", "/../.."])
+def test_a_container_sees_its_own_group(tmp_path_factory, path):
     """Version 1: the group of the container is mounted, whatever the path of the process's group."""
     mounts = [
         ("/docker/7", "/sys/fs/cgroup/memory", "cgroup cgroup rw,memory"),
         ("/", "/c", "cgroup c rw,cpu"),
     ]
+    tmp_path = tmp_path_factory.mktemp("container")
     there = machine(tmp_path, V1.format(path=path), mounts)
     group(tmp_path / "sys/fs/cgroup/memory", 1, 2_000_000, 500_000, spare=100_000)
     group(tmp_path / "c", 1, 10, 0)  # another controller's
@@ -137,7 +140,7 @@ def test_limits_below_which_nothing_starts(megabytes):
         [sys.executable, "-m", "ehlectric", "--version"],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=PATIENCE,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
     )
     assert done.returncode == 2

@@ -234,15 +234,15 @@ def test_a_temperature_without_values_of_the_oil_is_refused_by_its_key(key):
 @pytest.mark.parametrize("ratio", [2.5, -2.5])
 def test_a_surface_against_entrainment_is_refused(ratio):
     case = case_with("contact", slide_to_roll_ratio=ratio)
-    with pytest.raises(InputError, match=r"^contact\.slide_to_roll_ratio: got .*against entrainment"):
+    with pytest.raises(InputError, match=r"^contact\.slide_to_roll_ratio: .*2\.5"):
         check_case(case)
 
 
 def test_laws_of_a_user_and_the_solver_of_the_paper_have_no_heat():
     case = case_with("contact")
-    with pytest.raises(InputError, match=r"^film\.thermal: is not used with laws of your own"):
+    with pytest.raises(InputError, match=r"^film\.thermal: "):
         solve(case, laws=Laws(viscosity=lambda p, _: 0.04 * np.exp(2e-8 * p)))
-    with pytest.raises(InputError, match=r"^film: is not solved by the solver 'paper'"):
+    with pytest.raises(InputError, match=r"^film: .*'paper'"):
         solve(case, solvers=PAPER)
 
 

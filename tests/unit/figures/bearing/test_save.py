@@ -29,7 +29,6 @@ from ehlectric.figures.bearing.curves import RPM, critical_speed_of, curves_of
 from ehlectric.figures.bearing.save import (
     bearing_figures_of,
     figure,
-    save_bearing_figures,
     save_speed_figures,
     speed_figure,
 )
@@ -327,15 +326,6 @@ def test_what_has_no_meaning_is_not_drawn(changes, figures, panels):
 def test_a_bearing_without_motor_has_no_shaft_voltage():
     ax = bearing_pitch_plot.breakdown_over_pitch(by_hand(positions=1, motor=None))
     assert not [found for found in ax.get_lines() if found.get_label().startswith("shaft")]
-
-
-@pytest.mark.slow
-def test_figures_are_saved(result, tmp_path):
-    files = save_bearing_figures(result, tmp_path)
-    assert [file.name for file in files] == list(bearing_figures_of(result))
-    assert LOADS in [file.name for file in files]
-    assert sorted(tmp_path.iterdir()) == sorted(files)
-    assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
 
 
 @pytest.mark.slow

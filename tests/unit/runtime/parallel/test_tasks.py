@@ -15,6 +15,7 @@ import pytest
 from ehlectric.errors import InputError, LostError
 from ehlectric.runtime.parallel.tasks import run_all
 from ehlectric.runtime.parallel.workers import processes
+from tests.helpers.processes import alive, wait_until
 
 
 def marked(folder, text, act):
@@ -45,6 +46,12 @@ def send_in_part_and_stay(path):
     begin_to_send()
     Path(path).touch()
     time.sleep(600.0)
+
+
+def refuse_after(folder, text):
+    """Fail once another task has begun."""
+    assert wait_until(lambda: any(Path(folder).glob(f"{text}-*")))
+    divmod(1, 0)
 
 
 def starve():
@@ -99,11 +106,16 @@ def refuse(width):
 
 def test_the_processes_end_with_an_error(tmp_path):
     """The other tasks are not waited for."""
-    started = time.monotonic()
-    tasks = [partial(marked, tmp_path, "a", partial(time.sleep, 60.0)), partial(divmod, 1, 0)]
+    found = {}
+    tasks = [
+        partial(marked, tmp_path, "a", partial(time.sleep, 600.0)),
+        partial(refuse_after, tmp_path, "a"),
+    ]
     with pytest.raises(ZeroDivisionError):
-        run_all(tasks, lambda _number, _result: None, limit=2)
-    assert time.monotonic() - started < 50.0
+        run_all(tasks, found.__setitem__, limit=2)
+    assert found == {}
+    (mark,) = tmp_path.glob("a-*")
+    assert wait_until(lambda: not alive(int(mark.name.split("-")[1])))
 
 
 @SENDS
@@ -111,8 +123,7 @@ def test_the_processes_end_while_one_sends_its_result(tmp_path):
     def left():
         with processes(1) as crew:
             crew.submit(send_in_part_and_stay, tmp_path / "sent")
-            while not (tmp_path / "sent").exists():
-                time.sleep(0.01)
+            assert wait_until((tmp_path / "sent").exists)
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
@@ -121,14 +132,15 @@ def test_the_processes_end_while_one_sends_its_result(tmp_path):
 
 def test_a_run_that_is_stopped_leaves_no_error_of_its_threads(monkeypatch, capfd):
     """Where tasks wait for a process, and the thread of the pool sees first that the processes have ended."""
-    shutdown = ProcessPoolExecutor.shutdown
+    shutdown, broken = ProcessPoolExecutor.shutdown, []
 
     def late(pool, **options):
-        time.sleep(0.5)
+        broken.append(wait_until(lambda: pool._broken))
         shutdown(pool, **options)
 
     monkeypatch.setattr(ProcessPoolExecutor, "shutdown", late)
-    tasks = [partial(divmod, 1, 0), *[partial(time.sleep, 60.0)] * 8]
+    tasks = [partial(divmod, 1, 0), *[partial(time.sleep, 600.0)] * 8]
     with pytest.raises(ZeroDivisionError):
         run_all(tasks, lambda _number, _result: None, limit=2)
+    assert broken == [True]
     assert "Traceback" not in capfd.readouterr().err
