@@ -14,6 +14,7 @@ from ehlectric.runtime.checks import sound
 from ehlectric.runtime.checks.schema import Rule, UnfitError, check_variables, json_of, number_of, refusing
 from ehlectric.runtime.checks.seal import seal, seal_of, sealed
 from ehlectric.runtime.netcdf import changed, create, layout_in, read_dataset
+from tests.helpers.each import each
 from tests.helpers.places import ROOT
 
 EARLIER = ROOT / "tests" / "data" / "earlier" / "result.nc"
@@ -152,8 +153,8 @@ FILM = xr.Dataset(
 RULES = {"x": Rule(("x",), "increasing"), "h": Rule(("x",), "positive", "m"), "on": Rule(("x",), "0 or 1")}
 
 
-@pytest.mark.parametrize(
-    ("edited", "says"),
+@each(
+    "edited, says",
     [
         (FILM.drop_vars("h"), "h is missing"),
         (FILM.assign(h=("x", [1.0, np.nan, 3.0])), "h is not positive"),

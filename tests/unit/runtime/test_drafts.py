@@ -12,15 +12,16 @@ from ehlectric import InputError
 from ehlectric.runtime import drafts, netcdf
 from ehlectric.runtime.drafts import Draft
 from ehlectric.runtime.redo import redo_file
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("seed", range(8))
+@each("seed", range(8))
 def test_a_draft_is_a_file(seed, tmp_path, monkeypatch):
     """Random operations on a draft and on Python's own file in memory."""
     monkeypatch.setattr(drafts, "_PAGE", 16)
     draw = np.random.default_rng(seed)
     content = draw.bytes(int(draw.integers(0, 100)))
-    path = tmp_path / "file"
+    path = tmp_path / f"file {seed}"
     path.write_bytes(content)
     with path.open("r+b") as file:
         draft, expected = Draft(file.fileno()), io.BytesIO(content)

@@ -29,6 +29,7 @@ from ehlectric.sweep.results import Point
 from ehlectric.sweep.tables import write_tables
 from ehlectric.tables.html import html_of
 from ehlectric.tables.layout import table_of
+from tests.helpers.each import each
 from tests.helpers.sweep_models import SPEED, grid
 
 # Characters that a terminal obeys or that are not seen, by name.
@@ -46,6 +47,7 @@ HIDDEN = {
     "byte order mark": "\ufeff",
     "half of a pair": "\udc80",
 }
+LETTERS = [pytest.param(letter, id=name) for name, letter in HIDDEN.items()]
 FORMULAS = ("=HYPERLINK(A1)", "+1", "-1+cmd", "@SUM(A1)", "\t=1", "\r=1", "'=1", "''-1", "'", "")
 TITLES = st.text(max_size=30) | st.sampled_from([*HIDDEN.values(), *FORMULAS, "$\\frac{$", "[red]", "<b>&"])
 
@@ -89,7 +91,7 @@ def test_the_ends_of_a_long_value_are_shown():
     assert len(short("x" * 1000)) == 80
 
 
-@pytest.mark.parametrize("letter", HIDDEN.values(), ids=HIDDEN)
+@each("letter", LETTERS)
 def test_titles_in_files_have_no_character_that_is_not_seen(letter):
     table = {
         "title": f"a{letter}b",
@@ -113,8 +115,10 @@ def test_titles_in_files_have_no_character_that_is_not_seen(letter):
         assert letter not in html_of(case)
 
 
-@pytest.mark.parametrize("letter", HIDDEN.values(), ids=HIDDEN)
+@each("letter", LETTERS)
 def test_what_is_printed_obeys_no_terminal(capsys, caplog, letter):
+    capsys.readouterr()
+    caplog.clear()
     say(f"written: a{letter}b")
     warn([f"a{letter}b", ResultWarning("not-converged", f"x{letter}y")])
     echo_files([Path(f"results{letter}1") / f"film{letter}.png"])
@@ -136,7 +140,7 @@ def drawn(table):
     return console.file.getvalue()
 
 
-@pytest.mark.parametrize("letter", HIDDEN.values(), ids=HIDDEN)
+@each("letter", LETTERS)
 def test_tables_obey_no_terminal_and_no_markup(letter):
     rows = [Row(f"[red]a{letter}"), Row(f"[/b]{letter}", f"v{letter}", note=f", n{letter}")]
     text = drawn(table_of(rows, f"[bold]title{letter}"))

@@ -17,6 +17,7 @@ from ehlectric.runtime.reading import MOST_TEXT, blocks, read_bytes, read_text, 
 from ehlectric.surfaces.files import read_surface
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import plan
+from tests.helpers.each import each
 
 CASE = """\
 [contact]
@@ -73,10 +74,10 @@ SPECIAL = {
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such files")
-@pytest.mark.parametrize("reader", READERS.values(), ids=READERS)
-@pytest.mark.parametrize(("make", "words"), SPECIAL.values(), ids=SPECIAL)
-def test_special_files_are_refused_at_once(tmp_path, monkeypatch, make, words, reader):
-    monkeypatch.chdir(tmp_path)
+@each("reader", [pytest.param(reader, id=name) for name, reader in READERS.items()])
+@each("make, words", [pytest.param(*made, id=name) for name, made in SPECIAL.items()])
+def test_special_files_are_refused_at_once(tmp_path_factory, monkeypatch, make, words, reader):
+    monkeypatch.chdir(tmp_path_factory.mktemp("special"))
     path = Path("special.toml")
     make(path)
     # On the processor: some hundredths of a second. A reader that waits for a pipe would do so for ever.
@@ -111,7 +112,7 @@ def test_a_pipe_as_roughness_of_a_sweep_is_no_valid_point(tmp_path):
     assert all("it is a pipe" in point.refused for point in plan(sweep))
 
 
-@pytest.mark.parametrize("name", ["case", "bearing", "sweep", "base case", "surface", "waveform"])
+@each("name", ["case", "bearing", "sweep", "base case", "surface", "waveform"])
 def test_a_sparse_file_of_20_gb_is_refused_unread(tmp_path, name):
     path = tmp_path / "sparse.toml"
     with path.open("wb") as file:

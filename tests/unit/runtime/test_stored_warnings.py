@@ -17,6 +17,7 @@ from ehlectric.runtime.stored_warnings import (
     warnings_of,
 )
 from ehlectric.sweep.results import Point
+from tests.helpers.each import each
 
 EARLIER = Path(__file__).parents[2] / "data" / "earlier"
 words = st.one_of(st.text(), st.sampled_from(["do not use this film", "the film may be 32 % off"]))
@@ -24,81 +25,6 @@ lists = st.lists(st.builds(ResultWarning, st.sampled_from(list(CODES)), words))
 
 # Warnings as versions without codes wrote them, by the code that each has.
 TEXTS = json.loads((EARLIER / "warnings.json").read_text(encoding="utf-8"))
-# Codes of warnings that no file has without its code: the commands alone tell them, or no version without
-# codes gave them.
-UNSTORED = {
-    "coating-breakdown",
-    "breakdown-expected",
-    "strength-above-liquids",
-    "smooth-film",
-    "supply-rule",
-    "film-factor-low",
-    "supply-low",
-    "film-decays",
-    "roughness-factor-rough",
-    "coating-in-series",
-    "shaft-leaks",
-    "current-density-high",
-    "field-unresolved",
-    "local-plastic-deformation",
-    "asperities-touch",
-    "oil-layer-thick",
-    "meniscus-at-edge",
-    "film-ratio-missed",
-    "layer-table-short",
-    "flooded-film-wrong",
-    "load-share-unresolved",
-    "oil-not-conserved",
-    "hardness-low",
-    "shear-constant-unused",
-    "newtonian-traction",
-    "film-temperature-range",
-    "film-very-hot",
-    "isothermal-unsolved",
-    "heat-unresolved",
-    "slow-body",
-    "radius-large",
-    "speed-high",
-    "steps-too-long",
-    "temperature-extreme",
-    "viscosity-high",
-    "viscosity-of-base",
-    "estimated-alpha",
-    "load-low",
-    "clearance-class",
-    "clearance-negative",
-    "fit-loose",
-    "viscosity-grade",
-    "speed-left-out",
-    "points-with-warnings",
-    "points-with-notes",
-    "points-not-usable",
-    "points-of-another-version",
-    "rows-dropped",
-    "rows-not-usable",
-    "intervals-wide",
-    "formula-films",
-    "atlas-contacts",
-    "atlas-left",
-    "atlas-left-light",
-    "columns-ignored",
-    "rows-without-factor",
-    "scatter-only",
-    "scatter-large",
-    "factor-varies",
-    "range-left-out",
-    "units-assumed",
-    "samples-missing",
-    "waveform-clipped",
-    "waveform-coarse",
-    "edges-unresolved",
-    "record-repeated",
-    "circuit-undamped",
-    "capacitances-estimated",
-    "threshold-constant",
-    "arc-burns-on",
-    "few-discharges",
-}
 
 
 @pytest.mark.slow
@@ -117,8 +43,8 @@ def test_doubtful_points_are_those_with_a_severe_warning(warnings):
     assert point.doubtful == any(CODES[warning.code].severity == "severe" for warning in warnings)
 
 
-@pytest.mark.parametrize(
-    ("code", "text", "doubtful"),
+@each(
+    "code, text, doubtful",
     [
         ("grid-far-too-coarse", "the film may be 32 % off", True),
         ("grid-too-coarse", "do not use it", False),
@@ -131,14 +57,10 @@ def test_prose_decides_nothing(code, text, doubtful):
     assert not Point(0, {}, "not converged", summary=summary).doubtful
 
 
-@pytest.mark.parametrize(("code", "text"), TEXTS.items())
+@each("code, text", TEXTS.items())
 def test_codes_of_texts_without_one(code, text):
     assert code_of_text(text) == code
     assert warnings_of({"warnings": [text]}) == (ResultWarning(code, text),)
-
-
-def test_every_code_of_stored_warnings_has_a_text():
-    assert set(CODES) - set(TEXTS) == UNSTORED
 
 
 def test_codes_of_later_versions_are_read_by_their_text():

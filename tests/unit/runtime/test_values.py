@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from ehlectric.runtime.values import WIDTH, Values, same
+from tests.helpers.each import each
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,8 +43,8 @@ def test_other_classes_are_not_equal():
     assert Film(ONES) != 1
 
 
-@pytest.mark.parametrize(
-    ("one", "other"),
+@each(
+    "one, other",
     [
         ([ONES], [ONES, ONES]),
         ({"a": ONES}, {"b": ONES}),
