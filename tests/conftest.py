@@ -25,7 +25,7 @@ GATE = tomllib.loads((Path(__file__).parent / "gate.toml").read_text(encoding="u
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Mark the long tests of ``gate.toml``: single cases by their whole name, all cases by the name without them."""
+    """Mark the long tests of ``gate.toml``: a case by its whole name, all cases by the name without it."""
     chosen = {name for group in GATE.values() for name in group["tests"]}
     for item in items:
         if item.nodeid in chosen or item.nodeid.partition("[")[0] in chosen:

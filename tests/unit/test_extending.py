@@ -283,7 +283,7 @@ def test_a_lubricant_of_the_library_is_one_file(tmp_path, monkeypatch):
 
 
 def test_the_map_names_files_and_tests_that_are_there():
-    """The table "I want to add ..." of docs/architecture.md: every path, and the test that shows the addition."""
+    """The table "I want to add ..." of docs/architecture.md: paths, and tests that show the addition."""
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     lines = [line for line in page.partition("## I want to add")[2].splitlines() if "`" in line]
     tests = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "tests").rglob("test_*.py"))

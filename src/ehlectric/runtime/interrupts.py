@@ -15,7 +15,8 @@ _STOPPING = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, na
 def not_ignored() -> list[signal.Signals]:
     """Signals that stop the program. After ``nohup`` that of a closed terminal does not: it is ignored.
 
-    An ignored signal must keep this setting. Processes that are started inherit it, but they inherit no handler.
+    An ignored signal must keep this setting, which processes that are started inherit; they inherit no
+    handler.
     """
     return [number for number in _STOPPING if signal.getsignal(number) is not signal.SIG_IGN]
 

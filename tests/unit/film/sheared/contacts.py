@@ -1,4 +1,4 @@
-"""Contacts, temperature profiles and traction for the tests of sheared films, and for a figure of the guide."""
+"""Contacts, temperature profiles and traction, for tests of sheared films and a figure of the guide."""
 
 from dataclasses import dataclass, replace
 
