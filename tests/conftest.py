@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from ehlectric import Case, solve
 from tests.helpers.share import THOROUGH
@@ -16,7 +16,9 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 # How long an example takes depends on what else the machine does. A run draws the same examples each time, so
 # that it fails for what was changed; a thorough one draws others.
-settings.register_profile("repeated", deadline=None, derandomize=not THOROUGH)
+settings.register_profile(
+    "repeated", deadline=None, derandomize=not THOROUGH, suppress_health_check=[HealthCheck.too_slow]
+)
 settings.load_profile("repeated")
 
 # Long tests that every change must pass, by what they would catch.

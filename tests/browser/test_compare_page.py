@@ -6,6 +6,7 @@ import pytest
 
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.row import amount
+from tests.browser.driving import seen
 from tests.browser.outputs import address_of, summary_by_command
 from tests.helpers.places import EXAMPLES
 
@@ -25,7 +26,7 @@ def by_command(table, folder):
 
 def cells(page, name):
     """Cells of a result: name, A, B, and the effect."""
-    row = page.get_by_test_id(f"effect-{name}")
+    row = seen(page, f"effect-{name}")
     row.wait_for()
     return row.evaluate("row => [...row.cells].map(cell => cell.innerText)")
 

@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from tests.browser.driving import complete, wait_for_number
+from tests.browser.driving import complete, seen, wait_for_number
 from tests.browser.outputs import address_of, downloaded, fits
 from tests.browser.test_contact_page import wait_until_solved
 from tests.browser.test_drive import AT_PEAK, short, simulate
 from tests.browser.test_first_page import capacitance
 from tests.browser.test_sweep_page import run, sweep, wait_for_points
-from tests.helpers.processes import PATIENCE
+from tests.helpers.processes import PATIENCE, wait_until
 
 # Largest picture [bytes], and the number of its colours.
 _MOST, _COLOURS = 250_000, 128
@@ -57,9 +57,9 @@ def swept(page):
 
 
 def compared(page):
-    page.get_by_test_id("effect-margin").wait_for()
+    seen(page, "effect-margin").wait_for()
     # Critical speeds follow the first answer.
-    page.get_by_test_id("effect-critical-speed").wait_for(state="attached")
+    assert wait_until(lambda: page.get_by_test_id("effect-critical-speed").count() > 0)
 
 
 # Name of the picture: address of the page, and what waits until it is complete.

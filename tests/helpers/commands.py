@@ -16,6 +16,10 @@ from pathlib import Path
 
 from tests.helpers.preloaded import NAMES
 
+# Time after which a command that hangs is killed [s]; a busy machine takes several times as long as an idle
+# one.
+_PATIENCE = 900.0
+
 COMMAND = Path(sys.executable).with_name("ehlectric")
 
 _server = multiprocessing.get_context("forkserver")
@@ -72,7 +76,7 @@ class Begun:
     def send_signal(self, number):
         os.kill(self.pid, number)
 
-    def communicate(self, timeout=300):
+    def communicate(self, timeout=_PATIENCE):
         """Output and errors, once it has ended; a command that hangs is killed."""
         self._process.join(timeout)
         if self.returncode is None:
@@ -81,7 +85,7 @@ class Begun:
         return tuple(path.read_text("utf-8") if path.exists() else "" for path in self._files)
 
 
-def run_command(*words, cwd, timeout=300):
+def run_command(*words, cwd, timeout=_PATIENCE):
     """Run the command in a folder.
 
     Parameters

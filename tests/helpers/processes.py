@@ -26,6 +26,18 @@ def tree(number):
     return found
 
 
+def workers_of(number):
+    """Numbers of the worker processes that a process has started; the tracker of their resources is none."""
+    found = []
+    for child in tree(number)[1:]:
+        try:
+            words = Path(f"/proc/{child}/cmdline").read_bytes()
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+        found += [child] if b"spawn_main" in words else []
+    return found
+
+
 def memory_of(numbers):
     """Memory of processes [bytes]; what they share counts once."""
     total = 0
