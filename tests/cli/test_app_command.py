@@ -13,7 +13,7 @@ import pytest
 
 from tests.helpers.app_server import AppServer
 from tests.helpers.each import each
-from tests.helpers.processes import alive, wait_until
+from tests.helpers.processes import PATIENCE, alive, wait_until
 
 # Status of a process that a signal ended, as shells tell it.
 _TERMINATED = 128 + signal.SIGTERM
@@ -28,7 +28,7 @@ def server(tmp_path_factory):
 
 def ask(server, path, method="GET", body=None, **headers):
     """Status, headers and text of a response; the path is sent as it is."""
-    with closing(http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)) as connection:
+    with closing(http.client.HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE)) as connection:
         connection.putrequest(method, path, skip_host="host" in headers)
         for name, value in headers.items():
             connection.putheader(name.replace("_", "-"), value)
@@ -50,7 +50,7 @@ def test_a_server_ends_with_all_its_processes(tmp_path, number, status):
     # The address is told when the server answers, and not before.
     assert ask(server, "/")[0] == 200
     # The fork server, its tracker, and a process of quick answers at least.
-    assert wait_until(lambda: len(server.processes()) >= 4, seconds=60.0)
+    assert wait_until(lambda: len(server.processes()) >= 4)
     processes = server.processes()
     assert server.stop(number) == status
     assert wait_until(lambda: not any(map(alive, processes)))
@@ -70,7 +70,7 @@ def test_a_long_path_of_temporary_files_is_no_obstacle(tmp_path):
     folder = tmp_path / ("long" * 20)
     folder.mkdir()
     server = AppServer(folder)
-    assert wait_until(lambda: len(server.processes()) >= 4, seconds=60.0)
+    assert wait_until(lambda: len(server.processes()) >= 4)
     assert server.stop() == 0
     assert server.log.read_text() == ""
     assert not list(server.temporary.iterdir())

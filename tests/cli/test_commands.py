@@ -5,7 +5,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -16,6 +15,7 @@ from tests.cli.conftest import CASE
 from tests.helpers.commands import COMMAND
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES, SURFACES
+from tests.helpers.processes import PATIENCE, wait_until
 
 FIGURES = {"film.png", "field_strength.png", "field_profiles.png", "field_deviation.png"}
 DATA = {"summary.json", "result.nc", "film.csv"}
@@ -144,10 +144,10 @@ def test_any_title_is_printed_and_drawn(ehlectric, case_file, tmp_path, title):
 @pytest.mark.slow
 def test_termination_leaves_no_stray_files(case_file, tmp_path):
     process = subprocess.Popen([COMMAND, "run", case_file, "-o", tmp_path / "out"], stderr=subprocess.PIPE)
-    while not (tmp_path / "out" / "summary.json").exists() and process.poll() is None:
-        time.sleep(0.01)
+    summary = tmp_path / "out" / "summary.json"
+    assert wait_until(lambda: summary.exists() or process.poll() is not None, every=0.01)
     process.terminate()
-    process.communicate(timeout=60)
+    process.communicate(timeout=PATIENCE)
     assert not [path for path in (tmp_path / "out").iterdir() if path.name.startswith(".")]
 
 

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 from threading import Event, Thread
 
 import numpy as np
@@ -122,8 +123,9 @@ def test_a_map_is_drawn_while_a_sweep_runs_and_two_maps_wait(stored, tmp_path, m
 @pytest.mark.slow
 def test_a_second_moving_run_does_not_touch_the_first(tmp_path):
     """Neither its motion.nc nor its steps; a kill releases the folder, and the run is resumed."""
-    # Long enough for a second command to start meanwhile, on a busy machine too.
     process = begun(tmp_path, text=LONG.replace("passes = 20.0\nrecord = 400", "passes = 8.0\nrecord = 100"))
+    # It is held, so that it still has the folder when the second command comes, on a busy machine too.
+    process.send_signal(signal.SIGSTOP)
     second = ("run", "case.toml", "-o", "out", "--no-plots")
     done = run_command(*second, cwd=tmp_path)
     assert (done.returncode, done.stdout) == (2, "")
@@ -137,6 +139,16 @@ def test_a_second_moving_run_does_not_touch_the_first(tmp_path):
     assert found.attrs["complete"] == 1
     np.testing.assert_array_equal(found["thickness"].values[: len(saved)], saved)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["motion.nc", "summary.json"]
+
+
+def holder_of(lock):
+    """Number of the process that has locked a file; None while there is none."""
+    try:
+        file = str(lock.stat().st_ino)
+    except FileNotFoundError:
+        return None
+    rows = [line.split() for line in Path("/proc/locks").read_text().splitlines()]
+    return next((int(row[4]) for row in rows if row[1] == "FLOCK" and row[5].endswith(f":{file}")), None)
 
 
 TWO = """
@@ -161,6 +173,15 @@ def test_two_runs_at_once_leave_one_result(tmp_path):
     for name in "ab":
         command = [sys.executable, "-m", "ehlectric", "run", f"{name}.toml", "-o", "out", "-q", "--no-plots"]
         processes[name] = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    # That which has the folder is held until the other one has come.
+    assert wait_until(lambda: holder_of(tmp_path / "out" / RESULT_LOCK))
+    (held,) = [
+        process for process in processes.values() if process.pid == holder_of(tmp_path / "out" / RESULT_LOCK)
+    ]
+    held.send_signal(signal.SIGSTOP)
+    (other,) = [process for process in processes.values() if process is not held]
+    assert wait_until(lambda: other.poll() is not None)
+    held.send_signal(signal.SIGCONT)
     errors = {name: process.communicate(timeout=300)[1] for name, process in processes.items()}
     ended = {process.returncode for process in processes.values()}
     assert ended == {0, 2}, errors

@@ -22,7 +22,7 @@ def words(text):
 
 
 def printed_by(*arguments, cwd):
-    done = run_command(*arguments, cwd=cwd, timeout=400)
+    done = run_command(*arguments, cwd=cwd)
     assert done.returncode == 0, done.stderr
     return words(done.stdout)
 

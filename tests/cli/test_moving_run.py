@@ -18,7 +18,7 @@ from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.stored_run import MotionRun, read_motion
 from tests.helpers.commands import COMMAND, Begun, run_command
 from tests.helpers.each import each
-from tests.helpers.processes import wait_until
+from tests.helpers.processes import PATIENCE, wait_until
 
 CASE = """\
 title = "Bump"
@@ -232,13 +232,13 @@ def begun(folder, frames=3, text=LONG):
     """A long run with some instants kept, still running."""
     (folder / "case.toml").write_text(text)
     process = Begun("run", "case.toml", "-o", "out", "--no-plots", cwd=folder)
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline:
+
+    def enough():
         assert process.poll() is None, process.communicate()
-        if kept(folder) >= frames:
-            return process
-        time.sleep(0.05)
-    raise AssertionError("nothing is kept")
+        return kept(folder) >= frames
+
+    assert wait_until(enough), "nothing is kept"
+    return process
 
 
 def kept(folder):
@@ -261,7 +261,7 @@ def kept(folder):
 def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
     process = begun(tmp_path)
     process.send_signal(number)
-    out, errors = process.communicate(timeout=30)
+    out, errors = process.communicate()
     assert (process.returncode, out) == (128 + number, "")
     found = read_motion(tmp_path / "out")
     steps, frames = found.sizes["step"] - 1, found.sizes["frame"]
@@ -272,7 +272,7 @@ def test_a_run_that_is_stopped_says_what_is_saved_and_goes_on(tmp_path, number):
     assert files(tmp_path / "out") == ["motion.nc"]
     again = begun(tmp_path, frames + 1)
     again.send_signal(number)
-    assert again.communicate(timeout=30)[1].startswith("interrupted; ")
+    assert again.communicate()[1].startswith("interrupted; ")
     more = read_motion(tmp_path / "out")
     # Without a gap: each step once, in equal times.
     assert more.sizes["step"] - 1 > steps
@@ -288,12 +288,12 @@ def test_a_run_after_nohup_outlives_its_terminal(tmp_path):
     with subprocess.Popen(
         words, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     ) as process:
-        assert wait_until(lambda: kept(tmp_path) >= 2, seconds=60.0)
+        assert wait_until(lambda: kept(tmp_path) >= 2)
         process.send_signal(signal.SIGHUP)
         saved = kept(tmp_path)
-        assert wait_until(lambda: kept(tmp_path) > saved + 1, seconds=60.0)
+        assert wait_until(lambda: kept(tmp_path) > saved + 1)
         process.send_signal(signal.SIGTERM)
-        assert process.wait(30.0) == 128 + signal.SIGTERM
+        assert process.wait(PATIENCE) == 128 + signal.SIGTERM
 
 
 def test_stopped_before_anything_is_kept(typed, monkeypatch, case_file):
@@ -316,7 +316,7 @@ def test_kills_lose_nothing_that_was_kept(tmp_path):
         process = begun(tmp_path, kept(tmp_path) + 1, LONG.replace("20.0", "3.0"))
         time.sleep(moment.uniform(0.0, 0.3))
         os.kill(process.pid, signal.SIGKILL)
-        process.communicate(timeout=30)
+        process.communicate()
         found = read_motion(tmp_path / "out")
         assert found.sizes["step"] - 1 >= steps
         steps = found.sizes["step"] - 1

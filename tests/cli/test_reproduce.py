@@ -12,6 +12,7 @@ import pytest
 
 from ehlectric.paper.contacts import table_3
 from tests.helpers.commands import COMMAND
+from tests.helpers.processes import PATIENCE, alive, wait_until, workers_of
 
 PNG = b"\x89PNG"
 
@@ -103,10 +104,7 @@ def started(tmp_path, *, group=False):
         [COMMAND, "reproduce", "-o", "out"],
         cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=group,
     )  # fmt: skip
-    deadline = time.monotonic() + 60.0
-    while not children(process.pid) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    time.sleep(1.0)
+    assert wait_until(lambda: workers_of(process.pid))
     return process
 
 
@@ -124,19 +122,8 @@ def children(pid):
 
 
 def gone(pids):
-    deadline = time.monotonic() + 30.0
-    while time.monotonic() < deadline:
-        if not any(Path(f"/proc/{pid}").exists() and not zombie(pid) for pid in pids):
-            return True
-        time.sleep(0.1)
-    return False
-
-
-def zombie(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
-    except OSError:
-        return True
+    """Whether processes come to be gone."""
+    return wait_until(lambda: not any(map(alive, pids)))
 
 
 @pytest.mark.slow
@@ -149,7 +136,7 @@ def test_a_study_that_is_stopped_stops(tmp_path, number):
     for _ in range(2):
         os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
         time.sleep(0.2)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=PATIENCE)
     # The second may meet an interpreter that is leaving and handles nothing any more; a shell says the same.
     assert process.returncode in (128 + number, -number)
     assert "Traceback" not in errors
@@ -162,5 +149,5 @@ def test_workers_do_not_outlive_a_study_that_is_killed(tmp_path):
     process = started(tmp_path)
     workers = children(process.pid)
     process.kill()
-    process.communicate(timeout=30)
+    process.communicate(timeout=PATIENCE)
     assert gone(workers)

@@ -11,10 +11,10 @@ import sys
 import time
 from collections import Counter
 from contextlib import closing
-from pathlib import Path
 
 import pytest
 import xarray as xr
+from distributed import Client
 
 from ehlectric import read_sweep
 from ehlectric.errors import CODES
@@ -23,6 +23,7 @@ from tests.cli.test_reproduce import children, gone
 from tests.helpers.commands import Begun
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
+from tests.helpers.processes import PATIENCE, wait_until, workers_of
 
 SWEEP = """\
 case = "case.toml"
@@ -174,17 +175,14 @@ def begun(folder, *options, points=1, group=False):
 
 
 def wait_for_points(folder, points, process):
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline:
+    def enough():
         assert process.poll() is None, process.communicate()
-        if (folder / "sweep.sqlite").exists():
-            try:
-                if len(saved(folder)) >= points:
-                    return
-            except sqlite3.OperationalError:
-                pass  # its tables are being made
-        time.sleep(0.02)
-    raise AssertionError("nothing is saved")
+        try:
+            return (folder / "sweep.sqlite").exists() and len(saved(folder)) >= points
+        except sqlite3.OperationalError:
+            return False  # its tables are being made
+
+    assert wait_until(enough, every=0.02), "nothing is saved"
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
@@ -194,7 +192,7 @@ def test_a_sweep_that_is_stopped_says_what_is_saved(tmp_path, swept, number):
     workers = children(process.pid)
     assert workers
     os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
-    out, errors = process.communicate(timeout=30)
+    out, errors = process.communicate()
     assert (process.returncode, out) == (128 + number, "")
     count = len(saved(tmp_path / "out"))
     assert errors == "interrupted; " + told(count)
@@ -212,7 +210,7 @@ def test_a_second_sweep_in_the_same_folder_is_refused(ehlectric, tmp_path, swept
     assert second.stderr == line
     assert process.poll() is None
     process.terminate()
-    process.communicate(timeout=30)
+    process.communicate()
 
 
 @pytest.mark.slow
@@ -228,7 +226,7 @@ def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
         workers = children(process.pid)
         before = saved(tmp_path / "out")
         process.kill()
-        process.communicate(timeout=30)
+        process.communicate()
         after = saved(tmp_path / "out")
         assert rows.items() <= before.items() <= after.items()
         assert gone(workers)
@@ -247,12 +245,8 @@ def test_no_row_is_lost_or_doubled_by_kills(ehlectric, tmp_path, swept):
 def test_a_worker_that_is_killed_costs_no_point(tmp_path, swept):
     swept(LONG.replace("count = 100", "count = 12"))
     process = begun(tmp_path, "--workers", "2", "-q", points=4)
-    # The tracker of resources is a child as well, and no worker.
-    workers = [
-        pid for pid in children(process.pid) if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()
-    ]
-    os.kill(workers[0], signal.SIGKILL)
-    _, errors = process.communicate(timeout=100)
+    os.kill(workers_of(process.pid)[0], signal.SIGKILL)
+    _, errors = process.communicate()
     assert (process.returncode, failures(errors)) == (0, "")
     assert [point.status for point in read_sweep(tmp_path / "out").points] == ["solved"] * 144
 
@@ -281,16 +275,17 @@ def cluster(tmp_path):
         return processes[-1]
 
     scheduler = start("scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(address))
-    deadline = time.monotonic() + 60.0
     # The scheduler writes the file while it is looked for.
-    while not (address.exists() and "}" in address.read_text()) and time.monotonic() < deadline:
-        time.sleep(0.1)
+    assert wait_until(lambda: address.exists() and "}" in address.read_text())
     where = json.loads(address.read_text())["address"]
     start("worker", where, "--nworkers", "1", "--nthreads", "1", "--local-directory", str(tmp_path))
+    # It answers in the time that a sweep waits for it once it has answered before.
+    with Client(where, timeout=PATIENCE, set_as_default=False) as client:
+        client.wait_for_workers(1, timeout=PATIENCE)
     yield where, scheduler
     for process in reversed(processes):
         process.terminate()
-        process.wait(timeout=30)
+        process.wait(timeout=PATIENCE)
 
 
 @pytest.mark.slow
@@ -300,7 +295,7 @@ def test_a_scheduler_that_dies_loses_nothing(ehlectric, tmp_path, swept, cluster
     process = begun(tmp_path, "--scheduler", address, points=5)
     scheduler.kill()
     scheduler.wait()
-    out, errors = process.communicate(timeout=60)
+    out, errors = process.communicate()
     assert (process.returncode, out) == (3, "")
     rows = saved(tmp_path / "out")
     assert len(rows) >= 5
@@ -337,7 +332,7 @@ def test_a_local_cluster_from_python(tmp_path, swept):
         "            results = ehlectric.run_sweep(sweep, 'out', executor)\n"
         "    print([point.status for point in results.points])\n"
     )
-    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=600)
     assert (done.returncode, failures(done.stderr)) == (0, "")
     assert done.stdout == f"{['solved'] * 4}\n"
 
@@ -347,6 +342,6 @@ def test_a_script_without_a_main_guard_sweeps(tmp_path, swept):
     swept(SWEEP)
     script = tmp_path / "script.py"
     script.write_text("import ehlectric\nprint('run')\nehlectric.run_sweep('sweep.toml', 'out', workers=2)\n")
-    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=600)
     assert (done.returncode, done.stdout, failures(done.stderr)) == (0, "run\n", "")
     assert {point.status for point in read_sweep(tmp_path / "out").points} == {"solved"}

@@ -5,9 +5,10 @@ import json
 import os
 import re
 import signal
+import time
 from contextlib import suppress
 from dataclasses import replace
-from threading import Thread, Timer
+from threading import Thread
 
 import h5netcdf
 import h5py
@@ -492,9 +493,15 @@ def held(path):
     return reader
 
 
-def test_who_looks_at_a_run_does_not_end_it(tmp_path, whole, stopped):
-    reader = held(stopped(8))
-    Timer(0.3, reader.close).start()
+def test_who_looks_at_a_run_does_not_end_it(tmp_path, monkeypatch, whole, stopped):
+    reader, sleep = held(stopped(8)), time.sleep
+
+    def close_and_sleep(seconds):
+        """The reader closes the file once it is waited for."""
+        reader.close()
+        sleep(seconds)
+
+    monkeypatch.setattr(netcdf_files.time, "sleep", close_and_sleep)
     assert run(CASE, tmp_path) == [of_step(8), of_step(12)]
     same(read_motion(tmp_path), whole)
 

@@ -122,7 +122,7 @@ def test_a_script_needs_no_main_guard(tmp_path):
         "    print(one.number, one.result.converged)\n",
         encoding="utf-8",
     )
-    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=600)
     assert (done.returncode, done.stderr) == (0, "")
     assert sorted(done.stdout.splitlines()) == ["0 True", "1 True", "run"]
 
@@ -140,7 +140,7 @@ def test_tables_may_have_values_of_classes_of_the_script(tmp_path):
         "    print(one.result.converged, one.error)\n",
         encoding="utf-8",
     )
-    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=600)
     assert (done.returncode, done.stderr, done.stdout) == (0, "", "True None\n" * 2)
 
 
