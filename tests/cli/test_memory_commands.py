@@ -99,19 +99,19 @@ def workers_of(pid):
 
 
 def killing(folder, *arguments, times):
-    """Run a command, and kill so many of its workers, each as soon as it computes."""
+    """Run a command, and kill so many of its workers, each as soon as it has begun."""
     process = subprocess.Popen(
         [*RUN, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     killed = set()
     while process.poll() is None and len(killed) < times:
         for pid, seconds in workers_of(process.pid).items():
-            # It has begun: its imports take about as long.
-            if seconds > 0.8 and pid not in killed and len(killed) < times:
+            # Far from the end of its first task: it still imports what it computes with.
+            if seconds > 0.1 and pid not in killed and len(killed) < times:
                 with suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
                 killed.add(pid)
-        time.sleep(0.02)
+        time.sleep(0.005)
     out, err = process.communicate(timeout=900)
     return process.returncode, out, err, len(killed)
 
