@@ -26,7 +26,7 @@ def test_the_script_of_the_guide_runs_as_a_file(tmp_path):
     (tmp_path / named).write_text(case.to_toml(), encoding="utf-8")
     (tmp_path / "script.py").write_text(script, encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True, timeout=120
+        [sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
