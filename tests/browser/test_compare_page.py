@@ -37,7 +37,7 @@ def assert_effects(page, first, second):
         ("capacitance-of-the-bearing", "capacitance", "F"),
         ("shaft-voltage", "shaft_voltage", "V"),
         ("minimum-lambda-ratio", "lambda_ratio", ""),
-        ("margin", "margin", ""),
+        ("margin-first-breakdown-shaft-voltage", "margin", ""),
     ):
         _, left, right, words = cells(page, name)
         for text, numbers in ((left, first), (right, second)):

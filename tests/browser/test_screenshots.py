@@ -57,7 +57,7 @@ def swept(page):
 
 
 def compared(page):
-    seen(page, "effect-margin").wait_for()
+    seen(page, "effect-margin-first-breakdown-shaft-voltage").wait_for()
     # Critical speeds follow the first answer.
     assert wait_until(lambda: page.get_by_test_id("effect-critical-speed").count() > 0)
 

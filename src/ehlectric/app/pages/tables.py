@@ -57,7 +57,7 @@ def _effects(effects: Iterable[Effect]) -> str:
         if either.group != group:
             group = either.group
             body += f"<tr class=grouped><th colspan=4 scope=rowgroup>{escape(group)}</th></tr>"
-        test = f"effect-{file_title(either.name.partition(' (')[0])}"
+        test = f"effect-{file_title(either.name)}"
         differs = "" if effect.words == "no change" else " class=differs"
         body += (
             f"<tr{differs} data-testid={_quoted(test)}><th scope=row>{escape(either.name)}</th>"
