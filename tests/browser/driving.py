@@ -29,6 +29,13 @@ def complete(page):
     page.get_by_role("button", name="About Radial load").wait_for(state="attached")
 
 
+def wait_for_address(page, text):
+    """Wait until the address of a page has a text: then the server has taken over the inputs."""
+    page.wait_for_function(
+        "text => decodeURIComponent(location.search.replaceAll('+', ' ')).includes(text)", arg=text
+    )
+
+
 def type_into(page, key, text):
     """Type a text into the field of a dotted key, and leave the field."""
     box = field(page, key)

@@ -1,7 +1,5 @@
 """Page of a bearing: its numbers are those of the command for the case that it downloads."""
 
-from urllib.parse import unquote_plus
-
 import pytest
 
 from ehlectric.app.fields import BEARING_GROUPS
@@ -12,6 +10,7 @@ from tests.browser.driving import (
     number,
     seen,
     type_into,
+    wait_for_address,
     wait_for_any_number,
     wait_for_number,
 )
@@ -75,7 +74,7 @@ def test_keys_and_a_mouse_on_a_slider_change_the_answer(page, tmp_path):
     load = field_of_load.from_slider(float(slider.input_value()) / float(slider.get_attribute("max")))
     page.mouse.up()
     # The place where the slider was left has come to the server when the address of the page has its load.
-    assert wait_until(lambda: load in unquote_plus(page.url))
+    wait_for_address(page, load)
     wait_for_command(page, bearing_by_command(page, tmp_path))
 
 
@@ -198,7 +197,7 @@ def test_undo_and_redo_by_buttons_and_keys(page):
     wait_for_number(page, "capacitance", capacitance("900 N"))
     page.keyboard.press("Control+Shift+z")
     wait_for_number(page, "capacitance", capacitance("2700 N"))
-    assert "2700" in page.url
+    wait_for_address(page, "2700")
 
 
 @pytest.mark.slow

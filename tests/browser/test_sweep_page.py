@@ -13,7 +13,7 @@ from scipy.io import loadmat
 
 from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.words import in_field_unit
-from tests.browser.driving import seen, type_into, wait_for_number
+from tests.browser.driving import seen, type_into, wait_for_address, wait_for_number
 from tests.browser.outputs import address_of, command, downloaded
 from tests.helpers.places import EXAMPLES
 from tests.helpers.processes import PATIENCE, alive, wait_until
@@ -129,7 +129,7 @@ def test_a_sweep_that_was_stopped_at_once_does_not_show_the_one_before_as_its_ow
     type_into(page, "vary.1.count", "20")
     page.get_by_test_id("plan").filter(has_text="40 points").wait_for()
     type_into(page, "vary.1.to", "7 kN")
-    assert wait_until(lambda: "7+kN" in page.url)
+    wait_for_address(page, "7 kN")
     wait_for_points(page, "The inputs have changed")
     run(page)
     seen(page, "cancel").click()
