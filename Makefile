@@ -145,9 +145,9 @@ docs: $(VENV)/.docs
 	$(BIN)/python -m sphinx -W --keep-going -n -q -b html docs docs/_build/html
 	@echo "The documentation is in $(CURDIR)/docs/_build/html/index.html"
 
-# The same without running the scripts of the gallery.
+# The same without what takes minutes: the scripts of the gallery, and figures and tables of solved cases.
 pages: $(VENV)/.docs
-	EHLECTRIC_GALLERY=skip $(BIN)/python -m sphinx -W --keep-going -n -q -b html docs docs/_build/pages
+	EHLECTRIC_PAGES=only $(BIN)/python -m sphinx -W --keep-going -n -q -b html docs docs/_build/pages
 
 figures: $(VENV)/.test
 	$(BIN)/ehlectric run examples/line_contact.toml -o $(RESULTS) --quiet

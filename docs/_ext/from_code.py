@@ -17,11 +17,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal, get_args, get_origin
 
-import numpy as np
 import typer
 from oil_tables import oil_pages
 from result_keys import summary_pages
-from scipy.constants import epsilon_0
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
@@ -42,8 +40,6 @@ from ehlectric.commands.app import app as commands
 from ehlectric.errors import CODES
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
-from ehlectric.paper.contacts import CONTACTS
-from ehlectric.paper.reproduce import reproduce
 from ehlectric.sweep import inputs as sweep_inputs
 
 _TABLES = {**TABLES, "sweep": sweep_inputs.Sweep}
@@ -71,7 +67,7 @@ def _row(cells: Iterable[str]) -> str:
     return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
 
 
-def _table(head: list[str], rows: Iterable[list[str]]) -> str:
+def table_text(head: list[str], rows: Iterable[list[str]]) -> str:
     return "\n".join([_row(head), _row(["---"] * len(head)), *map(_row, rows)]) + "\n"
 
 
@@ -184,7 +180,7 @@ def _command(name: str, command: Any) -> Iterator[str]:
         # Words in place of a default that the machine decides.
         default = p.show_default if isinstance(getattr(p, "show_default", None), str) else default
         rows.append([written, getattr(p, "help", None) or "", "on" if p.default is True else default])
-    yield _table(["argument or option", "what it does", "default"], rows)
+    yield table_text(["argument or option", "what it does", "default"], rows)
 
 
 def _write(app: Sphinx) -> None:
@@ -193,10 +189,10 @@ def _write(app: Sphinx) -> None:
     head = ["key", "meaning", "expected value", "default"]
     pages = {}
     for table, model in _TABLES.items():
-        pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + _table(
+        pages[f"keys_{table.replace('.', '_')}"] = "```{rst-class} keys\n```\n\n" + table_text(
             head, _keys(table, model)
         )
-    pages["generators"] = _table(
+    pages["generators"] = table_text(
         ["generator", "required keys", "optional keys"],
         [
             [f'`"{name}"`', *(", ".join(f"`{key}`" for key in keys) or "–" for keys in rows)]
@@ -217,7 +213,7 @@ def _write(app: Sphinx) -> None:
     pages["catalogue_sources"] = _catalogue_sources()
     for name, file in (("bearing", "bearing_6208"), ("motion", "moving_roughness")):
         pages[f"{name}_example"] = _example(Path(app.srcdir).parent / "examples" / f"{file}.toml")
-    pages["warning_codes"] = _table(
+    pages["warning_codes"] = table_text(
         ["code", "severity", "what it means"],
         [[f"`{code}`", cause.severity, cause.meaning] for code, cause in CODES.items()],
     )
@@ -252,7 +248,7 @@ def _moved(case: Case) -> Any:
 
 def _variables(dataset: Any) -> str:
     """Variables of a dataset."""
-    return _table(
+    return table_text(
         ["variable", "over", "meaning", "unit"],
         [
             [
@@ -281,7 +277,7 @@ def _library(kind: str) -> str:
         values = ", ".join(f"{key.replace('_', ' ')} {_value(v)}" for key, v in table[kind[:-1]].items())
         source = table["source"]
         rows.append([f'`"{name}"`', values, source["citation"], source.get("assumption", "\N{EN DASH}")])
-    return _table(["name", "values", "source", "assumption"], rows)
+    return table_text(["name", "values", "source", "assumption"], rows)
 
 
 def _catalogue() -> str:
@@ -296,7 +292,7 @@ def _catalogue() -> str:
         cells += [f"{1e3 * bearing.pitch_diameter:.5g}", angle]
         rows.append([*cells, *_ratings(bearing), bearing.internal_kind or ""])
     head = ["name", "bore", "outer", "width", "elements", "pitch", "angle", "$C$", "$C_0$", "elements are"]
-    return _table(head, rows)
+    return table_text(head, rows)
 
 
 def _ratings(bearing: CatalogueBearing) -> list[str]:
@@ -338,70 +334,13 @@ def _catalogue_sources() -> str:
         ]
         for source, given in sorted(names.items(), key=lambda item: -len(item[1]))
     ]
-    return _table(["bearings", "values", "kind", "source", "note"], rows)
+    return table_text(["bearings", "values", "kind", "source", "note"], rows)
 
 
 def _value(value: Any) -> str:
     return (
         str(value).lower() if isinstance(value, bool) else str(value).replace("^3", "\N{SUPERSCRIPT THREE}")
     )
-
-
-def _paper(app: Sphinx) -> None:
-    """The paper's study, where the code is newer than what was made of it."""
-    folder = Path(app.srcdir) / "_generated"
-    page = folder / "extra" / "reproduced" / "report.html"
-    made_of = [Path(__file__), *Path(ehlectric.__file__).parent.rglob("*.*")]
-    newest = max(path.stat().st_mtime for path in made_of)
-    if page.exists() and page.stat().st_mtime > newest:
-        return
-    made = reproduce(page.parent)
-    if not made.converged:
-        raise ExtensionError("a film of the paper's study did not converge")
-    tables = {f"paper_{name}": _table(list(table.heads), table.shown) for name, table in made.tables.items()}
-    for name, text in (tables | {"capacitances": _capacitances()}).items():
-        page = folder / f"{name}.md"
-        page.write_text("```{rst-class} paper\n```\n\n" + text, encoding="utf-8")
-
-
-def _capacitances() -> str:
-    """Capacitance of the paper's eight contacts as a ratio to parallel plates, and its parts."""
-    rows = []
-    for contact in CONTACTS:
-        case = contact.case(discharge={})
-        result = solve(case, require_convergence=True)
-        found = result.discharge
-        steady = solve(case.replace({"lubricant.permittivity_law": "constant"})).discharge
-        assert found is not None
-        assert steady is not None
-        filled = (found.capacitance_outlet_fingers, found.capacitance_outlet_layers)
-        poorer = [found.capacitance - found.capacitance_outlet_full + outlet for outlet in filled]
-        ratios = [c / found.capacitance_plate for c in (found.capacitance, *poorer)]
-        ratios += [steady.capacitance_ratio, found.capacitance_ratio / steady.capacitance_ratio]
-        ratios.append(found.capacitance_hertz / _uniform_film(result))
-        rows.append(
-            [
-                contact.name.replace(" ", "\N{NO-BREAK SPACE}"),
-                f"{found.capacitance * 1e9:.2f}",
-                *(f"{r:.3f}" for r in ratios),
-            ]
-        )
-    head = ["contact", "C [nF/m]", "C / plate value", "fingers", "layers", "constant ε_r"]
-    head += ["effect of pressure on ε_r", "Hertz zone / uniform film"]
-    return _table(head, rows)
-
-
-def _uniform_film(result: Any) -> float:
-    """Capacitance of a film of h(0) under the Hertz pressure, in the Hertz zone [F/m].
-
-    By the midpoint rule over t, with X = cos(t) and p = p_h sin(t).
-    """
-    sines = np.sin(np.pi * (np.arange(1000) + 0.5) / 1000)
-    oil, b = result.case.oil, result.conditions.half_width
-    pressure = result.conditions.max_pressure * sines
-    permittivity = oil.permittivity(pressure, oil.density_ratio(pressure)[0])
-    width = np.pi * b * float(np.mean(permittivity * sines))
-    return float(epsilon_0 * width / result.film.central_thickness)
 
 
 def _check_tests(app: Sphinx) -> None:
@@ -529,6 +468,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.setup_extension("sphinx.ext.autodoc")  # it defines the event
     app.connect("autodoc-process-signature", _shortened)
     app.connect("builder-inited", _write, priority=100)
-    app.connect("builder-inited", _paper, priority=100)
     app.connect("builder-inited", _check_tests, priority=50)  # before figures are drawn
     return {"parallel_read_safe": True}
