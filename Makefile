@@ -25,7 +25,7 @@ help:
 	@echo "make coverage  run the tests and print the lines that none of them runs"
 	@echo "make format  format the code"
 	@echo "make docs    build the documentation, run its gallery; warnings are errors"
-	@echo "make pages   build the documentation without running its gallery"
+	@echo "make pages   build the documentation without its gallery and the figures of solved cases"
 	@echo "make figures draw the figures of the README again"
 	@echo "make screenshots  take the pictures of the web app for the documentation again"
 	@echo "make bench   run the benchmarks and print their tables"
