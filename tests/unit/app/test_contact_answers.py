@@ -22,6 +22,7 @@ from ehlectric.app.fields.rules import changed
 from ehlectric.app.fields.words import written_text
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import contact_start
+from ehlectric.cases.quantity import to_si
 from ehlectric.contact.solver import solve
 from ehlectric.errors import CODES, InputError
 from ehlectric.report.light import light_of
@@ -95,10 +96,16 @@ def test_solved_answer_is_that_of_the_command(name, tmp_path):
     expected = [(row.name, row.text) for row in result_rows(outcome.result) if row.name != "computing time"]
     assert [(row.name, row.text) for row in view.rows if row.name != "computing time"] == expected
     film, field = outcome.summary["film"], outcome.summary["field"]
-    assert float(number(view, "minimum-film").text) == pytest.approx(
-        film["minimum_thickness"] * 1e6, rel=1e-3
-    )
-    assert float(number(view, "max-field").text) == pytest.approx(field["max_strength"] / 1e6, rel=1e-3)
+    capacitance = ("capacitance_per_length", "F/m") if name == "line_contact" else ("capacitance", "F")
+    shown = {
+        "minimum-film": (film["minimum_thickness"], "m"),
+        "max-pressure": (film["max_pressure"], "Pa"),
+        "max-field": (field["max_strength"], "V/m"),
+        "capacitance": (field[capacitance[0]], capacitance[1]),
+    }
+    for key, (value, unit) in shown.items():
+        one = number(view, key)
+        assert to_si(f"{one.text} {one.unit}", unit) == pytest.approx(value, rel=1e-3), key
     assert {path.name for path in (tmp_path / "app").iterdir()} >= {"summary.json", "result.nc", "film.csv"}
     assert told[-1] == (0, 0, "drawing")
     assert view_of(load(tmp_path / "app")).numbers == view.numbers
