@@ -54,6 +54,8 @@
     });
     show(first);
   };
-  const wait = (left) => (ready() ? begin() : left > 0 && setTimeout(() => wait(left - 1), 50));
+  // A busy browser draws late: the slider is there for as long as the page shows the movie.
+  const wait = (left) =>
+    ready() ? begin() : (at(slider) || left > 0) && setTimeout(() => wait(left - 1), 50);
   wait(200);
 })
