@@ -105,7 +105,7 @@ def test_solved_answer_is_that_of_the_command(name, tmp_path):
     }
     for key, (value, unit) in shown.items():
         one = number(view, key)
-        assert to_si(f"{one.text} {one.unit}", unit) == pytest.approx(value, rel=1e-3), key
+        assert to_si(f"{one.text} {one.unit}", unit) == pytest.approx(value, rel=1e-3, abs=0.0), key
     assert {path.name for path in (tmp_path / "app").iterdir()} >= {"summary.json", "result.nc", "film.csv"}
     assert told[-1] == (0, 0, "drawing")
     assert view_of(load(tmp_path / "app")).numbers == view.numbers
