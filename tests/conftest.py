@@ -14,6 +14,9 @@ from tests.helpers.share import THOROUGH
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# By default pytest.approx also allows 1e-12 in any unit, which is more than a capacitance in farads.
+type(pytest.approx(0.0)).DEFAULT_ABSOLUTE_TOLERANCE = 0.0
+
 # How long an example takes depends on what else the machine does. A run draws the same examples each time, so
 # that it fails for what was changed; a thorough one draws others.
 settings.register_profile(

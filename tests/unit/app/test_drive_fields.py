@@ -54,8 +54,9 @@ def test_every_key_is_one_of_a_drive_file_and_is_described(key):
 def test_units_and_sliders_are_those_of_the_key(key):
     field, kind = FIELDS[key], number_of(input_field(key))
     if isinstance(kind, Quantity) and field.unit not in ("", "%", "degC"):
+        # Numbers of the form have twelve digits.
         expected = units.factor(field.unit, kind.unit)
-        assert in_unit(f"1 {field.unit}", si_unit(field.unit)) == pytest.approx(expected, rel=1e-12)
+        assert in_unit(f"1 {field.unit}", si_unit(field.unit)) == pytest.approx(expected, rel=5e-12)
     for place in (0.0, 0.37, 1.0):
         written = field.from_slider(place)
         if isinstance(kind, Quantity):

@@ -38,6 +38,9 @@ RISES, FALLS = range(2)
 # Steps of the search for a crossing, and the part of the level within which it is found.
 _STEPS, _CLOSE = 200, 1e-13
 
+# Spacing of floating-point numbers at 1, relative: the least step in time that moves it.
+_EPSILON = float(np.finfo(float).eps)
+
 
 class Circuits(NamedTuple):
     """Modes of all states of a circuit, as in ``circuit.modes.Modes``, and the rate of the ringing."""
@@ -206,7 +209,7 @@ def crossing(piece: Complex, film: int, start: float, end: float, level: float, 
             if abs(v) - level <= _CLOSE * level:
                 return t
             step = _safe_step(abs(v) - level, math.copysign(1.0, v) * rate, bound)
-        t += max(step, 1e-15 * end)
+        t += max(step, _EPSILON * t)
         if t >= end:
             return -1.0
     return t
