@@ -66,6 +66,11 @@ _OF_SQUARE, _OF_MODE, _ORDER, _GONE = 4.0, 7.4, 21.0, 40.0
 POINTS, WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
 
 
+# Voltages are measured as parabolas. While an arc burns, these differ from straight lines by this part of the
+# larger voltage at the start, and at least by that part of the tolerance of all other times. A parabola that
+# turns back is taken as straight where it bends by less than a part of the tolerance.
+_OF_ARC, _LEAST, _STRAIGHT = 8e-3, 0.05, 0.01
+
 # Part of the voltage of extinction above which an arc is taken as fed again, and not as just gone out.
 _FED = 1.0 + 1e-9
 
@@ -104,6 +109,43 @@ def _burn(course: Course, films: Films, state: State, t: float, h: float, first:
         state.event[b, CHARGE] += h * linear / films.arc[b]
         state.event[b, ENERGY] += h * square / films.arc[b]
         state.event[b, PEAK] = max(state.event[b, PEAK], largest / films.arc[b])
+
+
+@inner
+def _bend(course: Course, b: int, middle: float, first: float, last: float) -> float:
+    """Height of the straight line from first to last over the voltage across film b in its middle [V]."""
+    return 0.5 * (first + last) - course_at(course, b, middle)
+
+
+@inner
+def _measure(meters: Meters, rough: float, piece: Complex, course: Course, source: Source, now: float,
+             t: float, end: float, first: tuple[float, float], last: tuple[float, float]
+             ) -> None:  # fmt: skip
+    """Measure the voltages between t and end of a piece that began at ``now``, as parabolas.
+
+    Each of them differs from its straight line by ``rough`` [V] at the most.
+    """
+    while t < end:
+        h = _panel(piece, t, end - t, rough)
+        # A parabola that turns back within its panel is parted, down to straight ones.
+        while True:
+            after, then = end, last
+            if t + h < end:
+                after, then = t + h, (course_at(course, 0, t + h), course_at(course, 1, t + h))
+            bend = (_bend(course, 0, 0.5 * (t + after), first[0], then[0]),
+                    _bend(course, 1, 0.5 * (t + after), first[1], then[1]))  # fmt: skip
+            turns = max(_turn(bend[0], first[0], then[0]), _turn(bend[1], first[1], then[1]))
+            if turns <= _STRAIGHT * rough:
+                break
+            h = 0.5 * (after - t)
+        measure(meters, now + t, after - t, source.level + source.slope * t, first, then, bend)
+        t, first = after, then
+
+
+@inner
+def _turn(bend: float, first: float, last: float) -> float:
+    """Bend [V] of a parabola that turns back between its ends, zero for another one."""
+    return abs(bend) if 4.0 * abs(bend) > abs(last - first) else 0.0
 
 
 @inner
@@ -146,8 +188,7 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
     begin(circuits, c, state.x, source, piece)
     t, what, film = 0.0, _NOTHING, 0
     burns = burns_in(state, 0) or burns_in(state, 1)
-    if burns:
-        unfold(piece, left, course)
+    unfold(piece, left, course)
     move(piece, 0.0)
     first = (voltage(piece, 0), voltage(piece, 1))
     while t < left and what == _NOTHING:
@@ -159,12 +200,14 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
         if what != _NOTHING:
             move(piece, end)
             last = (voltage(piece, 0), voltage(piece, 1))
-        measure(meters, now + t, end - t, source.level + source.slope * t, first, last)
+        rough = meters.rough[0]
+        if burns:
+            _burn(course, films, state, t, end - t, first)
+            rough = max(_OF_ARC * max(abs(first[0]), abs(first[1])), _LEAST * rough)
+        _measure(meters, rough, piece, course, source, now, t, end, first, last)
         for b in range(2):
             if state.phase[b] == TOUCHING:
                 meters.touching[b] = max(meters.touching[b], abs(first[b]), abs(last[b]))
-        if burns:
-            _burn(course, films, state, t, end - t, first)
         t, first = end, last
     volts[0], volts[1] = first
     move(piece, t)

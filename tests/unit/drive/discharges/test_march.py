@@ -95,6 +95,38 @@ def test_charge_and_energy_of_an_arc_balance(threshold, extinction, resistance, 
     assert event[OFF] - event[ON] == pytest.approx(resistance * whole * math.log(start / end), rel=1e-9)
 
 
+@settings(max_examples=40)
+@given(
+    threshold=st.floats(1.0, 9.0),
+    extinction=st.floats(0.01, 0.9),
+    resistance=st.floats(0.1, 1e3),
+    duration=st.floats(0.1, 100.0),
+    limit=st.floats(0.05, 0.95),
+)
+def test_voltages_are_measured_while_an_arc_burns(threshold, extinction, resistance, duration, limit):
+    """At a constant source the voltage falls as V exp(-t/(R C)) to that of extinction v, where it stays.
+
+    Its square adds up to (V^2 - v^2) R C/2 and v^2 for the rest; it is above u for R C ln(V/u).
+    """
+    circuit, bearings = motor(), [element(breakdown=threshold), element(1e-10)]
+    whole, winding = total(circuit, bearings)
+    high = 1.0001 * threshold * whole / winding
+    breakdown = arc(extinction_voltage=extinction * threshold, arc_resistance=resistance)
+    tau, start, end = resistance * whole, 1.0001 * threshold, extinction * threshold
+    burns = tau * math.log(start / end)
+    jump = Segments(
+        np.array([1e-9, (1.0 + duration) * burns]),
+        np.array([0.0, high]),
+        np.zeros(2),
+        np.zeros(2, dtype=complex),
+    )
+    level = end + limit * (start - end)
+    record = march(circuit, bearings, breakdown, jump, limits=(level,))
+    square = 0.5 * tau * (start**2 - end**2) + end**2 * duration * burns
+    assert record.rms[0] ** 2 * record.duration == pytest.approx(square, rel=5e-4)
+    assert record.above[0, 0] == pytest.approx(tau * math.log(start / level), rel=1e-3, abs=1e-3 * tau)
+
+
 def test_charge_and_energy_with_leak_and_inductance_balance():
     """Over the first event: what the arc takes is what the states say, by an independent integration."""
     from scipy.integrate import solve_ivp

@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
+from ehlectric.drive.circuit.motor import states_of
 from ehlectric.drive.discharges.record import ON, VOLTAGE
 from tests.helpers.drives import arc, element, march, motor, square
 
@@ -68,3 +70,100 @@ def test_the_trace_is_at_the_begin_where_nothing_discharges():
                    trace=2.0 * PERIOD, at_event=True)  # fmt: skip
     assert record.trace[0, 0] == 0.0
     assert record.trace[-1, 0] < 2.0 * PERIOD
+
+
+def random_circuit(seed):
+    """Motor, bearings, arc and square wave, all drawn, and the time constant of the faster arc [s]."""
+    random = np.random.default_rng(seed)
+    inductances = {}
+    if random.random() < 0.5:
+        inductances = {"common_mode_inductance": random.uniform(1e-7, 1e-6), "common_mode_resistance": 10.0}
+    circuit = motor(**inductances)
+    bearings = [
+        element(
+            random.uniform(1e-10, 5e-10),
+            breakdown=random.uniform(3.0, 6.0),
+            conductance=random.uniform(0.0, 1e-4),
+        )
+        for _ in range(2)
+    ]
+    resistance = random.uniform(100.0, 1000.0)
+    tau = resistance * 1e-9
+    breakdown = arc(
+        arc_resistance=resistance,
+        extinction_voltage=random.uniform(0.1, 2.0),
+        recovery_time=random.uniform(0.0, 0.5) * tau,
+    )
+    voltage = random.uniform(150.0, 400.0)
+    return (
+        circuit,
+        bearings,
+        breakdown,
+        square(voltage, 20.0 * tau, random.integers(4, 24) * tau / 8.0, 2),
+        tau,
+    )
+
+
+class Steps:
+    """Voltages of both films in small steps of time, and arcs that begin and end at them."""
+
+    def __init__(self, circuit, bearings, breakdown, dt):
+        systems = states_of(circuit, bearings, breakdown, touches=False)
+        self.rotor = systems[0].potential("rotor")
+        self.jump = [system.jump for system in systems]
+        self.breakdown, self.dt = breakdown, dt
+        self.limits = [one.breakdown[0] for one in bearings]
+        self.moves = []
+        for system in systems:
+            n = system.force.size
+            whole = np.zeros((n + 2, n + 2))
+            whole[:n, :n], whole[:n, n], whole[n, n + 1] = system.rates, system.force, 1.0
+            self.moves.append(expm(whole * dt))
+
+    def run(self, segments):
+        """Absolute voltage of the rotor at all steps."""
+        x, burning, recovers = np.zeros(self.rotor.size), [False, False], [np.inf, np.inf]
+        found = []
+        for duration, level, slope in zip(segments.duration, segments.level, segments.slope, strict=True):
+            for k in range(round(duration / self.dt)):
+                state = 2 * burning[0] + burning[1]
+                u = level + slope * k * self.dt
+                v = abs(self.rotor @ (x - self.jump[state] * u))
+                found.append(v)
+                for b in range(2):
+                    self.switch(b, v, burning, recovers)
+                move = self.moves[2 * burning[0] + burning[1]]
+                x = (move @ np.concatenate([x, [u, slope]]))[: x.size]
+        return np.array(found)
+
+    def switch(self, b, v, burning, recovers):
+        lowest = self.breakdown.lowest_voltage
+        if not burning[b]:
+            burning[b], recovers[b] = v >= max(self.limits[b], lowest), np.inf
+        elif recovers[b] < np.inf:
+            recovers[b] -= self.dt
+            if recovers[b] <= 0.0:
+                burning[b], recovers[b] = v > lowest, np.inf
+        elif v <= lowest:
+            recovers[b] = self.breakdown.recovery_time
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(10))
+def test_arcs_in_small_steps_of_time(seed):
+    """Root mean square, time above limits and histogram beside steps of 1/4000 of the arc's time constant."""
+    circuit, bearings, breakdown, wave, tau = random_circuit(seed)
+    v = Steps(circuit, bearings, breakdown, tau / 4000.0).run(wave)
+    limits = tuple(float(part) for part in np.array([0.1, 0.3, 0.6, 0.9]) * np.max(v))
+    record = march(circuit, bearings, breakdown, wave, limits=limits)
+    assert len(record.events) >= 3
+    assert record.rms == pytest.approx(np.full(2, np.sqrt(np.mean(v**2))), rel=1e-3)
+    for above in record.above:
+        expected = [np.mean(v > limit) * record.duration for limit in limits]
+        assert above == pytest.approx(expected, rel=1e-3, abs=1e-3 * tau)
+    # Time below each edge of a bin, to 0.1 % of the time or of the highest voltage.
+    half = record.histogram.shape[1] // 2
+    below = np.cumsum(record.histogram[0, half:] + record.histogram[0, half - 1 :: -1]) / record.duration
+    for edge, share in zip(record.edges[half + 1 :], below, strict=True):
+        low, high = (np.mean(v < edge + sign * 1e-3 * np.max(v)) for sign in (-1.0, 1.0))
+        assert low - 1e-3 <= share <= high + 1e-3
