@@ -131,12 +131,13 @@ class Watch:
 
 
 @pytest.fixture
-def open_page(browser, request):
+def open_page(browser, own_server, request):
     """Function that opens a page of a server in a browser context of its own.
 
     A page that has an error in its console, or asks another host, fails the test; ``watch.wrong`` may be
-    cleared by a test that provokes errors.
+    cleared by a test that provokes errors. Servers of the test end after its pages, which would miss them.
     """
+    del own_server
     watches, contexts = [], []
 
     def opened(server, path="/", *, width=1280, height=900, **options):
