@@ -247,7 +247,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "surfaces-touch": Cause("The surfaces of the computed film would touch in places."),
         "asperities-touch": Cause("Asperities touch, carry a part of the load and conduct."),
         "load-share-unresolved": Cause("The load share of asperities changes with the grid."),
-        "oil-not-conserved": Cause("The film makes or loses above 10 % of the oil that flows through it."),
+        "oil-not-conserved": Cause("The film makes or loses above 0.1 % of the oil that flows through it."),
         "thinner-than-atom": Cause("The film is thinner than an atom in places."),
         "refine-not-reached": Cause("The error of the film that was asked for was not reached."),
         "error-unknown": Cause("The discretisation error of a rough contact's film is unknown."),

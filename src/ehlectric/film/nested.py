@@ -12,16 +12,18 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import PchipInterpolator, RegularGridInterpolator
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.mixed.conserving import Conserving
 from ehlectric.film.mixed.course import mixed_film
 from ehlectric.film.newton import newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
+from ehlectric.film.starved.reformed import conserving_films, forms_again, with_inlet
 from ehlectric.film.state import GridSolution, Progress, State
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
@@ -46,6 +48,10 @@ _WARM_TOLERANCE = 1e-2
 
 # Multiple of the boundary film above which a smooth film that did not converge is not taken to be pierced.
 _THICK = 10.0
+
+# Multiple of the largest number of Newton steps of a film that conserves the mass of the oil in its cavities,
+# whose ends move by few nodes in each step.
+_CONSERVING = 3
 
 # Multiple of the largest number of Newton steps from each start of a film whose surfaces may touch, on the
 # finest grid and on the coarser ones.
@@ -78,29 +84,77 @@ def nested_iteration(
     pressure. Where the surfaces touch on a grid, the next finer grid starts from this film at once.
     """
     solutions = list(known)
-    # Where rough surfaces may touch, a dry contact is a better start than the Hertz pressure.
-    rough = problem.added_gap is not None and problem.boundary_film > 0.0
     for levels in reversed(_grids(problem, solved=known[-1].level.nodes if known else 0)):
         coarse = solutions[-1] if solutions and solutions[-1].status == "converged" else None
-        best = None
-        if coarse is not None and not coarse.touches:
-            best = _from_coarser(problem, levels, coarse, progress)
-        # A solution that nearly converged does not start again.
-        if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
-            *warm_up, restarted = _from_hertz(problem, levels, progress)
-            solutions.extend(warm_up)
-            attempts = [restarted] if best is None else [restarted, best]
-            *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
-            solutions.extend(others)
+        found = _full_film(problem, levels, coarse, progress)
+        best = found[-1] if found else None
+        solutions.extend(found)
         if problem.boundary_film > 0.0 and (best is None or _is_pierced(problem, best)):
-            solutions += [] if best is None else [best]
-            *others, best = sorted(
-                _mixed(problem, levels, coarse, best, progress), key=lambda solution: -solution.final.norm
-            )
-            solutions.extend(others)
-        assert best is not None
-        solutions.append(best)
+            solutions.extend(_mixed(problem, levels, coarse, best, progress))
     return solutions
+
+
+def _full_film(
+    problem: FilmProblem, levels: list[Level], coarse: GridSolution | None, progress: Progress | None
+) -> list[GridSolution]:
+    """Solutions on one grid with surfaces apart, the best one last.
+
+    ``coarse`` is the converged solution on the next coarser grid, if there is one. There are none where the
+    surfaces touch on this grid.
+    """
+    # Where rough surfaces may touch, a dry contact is a better start than the Hertz pressure.
+    rough = problem.added_gap is not None and problem.boundary_film > 0.0
+    found: list[GridSolution] = []
+    apart = coarse is not None and not coarse.touches
+    if coarse is not None and apart and coarse.fraction is not None:
+        found.extend(_conserving(problem, levels, [_filled_from(levels[0], coarse)], progress))
+        if found[-1].status == "converged" and forms_again(found[-1].final.full_film):
+            return found
+    best = None
+    if coarse is not None and apart:
+        best = _from_coarser(problem, levels, coarse, progress)
+    # A solution that nearly converged does not start again.
+    if coarse is None or (not rough and (best is None or best.final.norm > NESTED_TOLERANCE)):
+        *warm_up, restarted = _from_hertz(problem, levels, progress)
+        found.extend(warm_up)
+        attempts = [restarted] if best is None else [restarted, best]
+        *others, best = sorted(attempts, key=lambda solution: -solution.final.norm)
+        found.extend(others)
+    if best is None:
+        return found
+    found.append(best)
+    missed = best.status != "converged" and problem.added_gap is not None
+    if missed or (best.status == "converged" and forms_again(best.final.full_film)):
+        start = best.state, best.final.full_film
+        found.extend(_conserving(problem, levels, [start], progress, times=1 if missed else _CONSERVING))
+        if missed and found[-1].status == "converged" and not forms_again(found[-1].final.full_film):
+            # Nothing forms again, so that the film of the other scheme is close.
+            found.append(_solve_grid(problem, levels, found[-1].state, progress, spike=True))
+    return found
+
+
+def _conserving(
+    problem: FilmProblem,
+    levels: list[Level],
+    starts: list[tuple[State, Mask]],
+    progress: Progress | None,
+    times: int = _CONSERVING,
+) -> Iterator[GridSolution]:
+    """Solutions on one grid that conserve the mass of the oil in cavities.
+
+    ``times`` multiplies the largest number of Newton steps of a film.
+    """
+    finest = levels[0].nodes == problem.nodes
+    direct = problem.width is None and levels[0].nodes <= DIRECT
+    yield from conserving_films(
+        problem.fluid,
+        levels[:1] if direct else levels,
+        starts,
+        order=problem.wedge_order,
+        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        max_iterations=times * problem.max_iterations,
+        progress=progress,
+    )
 
 
 def _is_pierced(problem: FilmProblem, solution: GridSolution) -> bool:
@@ -123,27 +177,48 @@ def _mixed(
     coarse: GridSolution | None,
     full_film: GridSolution | None,
     progress: Progress | None,
-) -> Iterator[GridSolution]:
-    """Solutions with surfaces that touch, from a converged solution first, if there is one."""
+) -> list[GridSolution]:
+    """Solutions with surfaces that may touch, the best one last, from a converged solution first.
+
+    The last one carries the oil through its cavities, unless it does not form again behind one.
+    """
     level, near = levels[0], None
     if full_film is not None and full_film.status == "converged":
         near = full_film.state
     elif coarse is not None:
         near = interpolated_state(level, coarse)
-    dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
     finest = level.nodes == problem.nodes
-    yield from mixed_film(
+    tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
+    most = (_MIXED if finest else _MIXED_COARSE) * problem.max_iterations
+
+    conserving = Conserving(
+        problem.fluid, levels, problem.asperities, problem.wedge_order, tolerance, most, progress
+    )
+    found: list[GridSolution] = []
+    if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
+        found.append(conserving.near(near, _filled_from(level, coarse)[1]))
+        if found[-1].status == "converged":
+            return found
+    dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
+    counted_full = mixed_film(
         problem.fluid,
         levels,
         dry,
         asperities=problem.asperities,
         film_guess=problem.thickness_guess,
-        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
-        max_iterations=(_MIXED if finest else _MIXED_COARSE) * problem.max_iterations,
+        tolerance=tolerance,
+        max_iterations=most,
         progress=progress,
         near=near,
         thorough=finest,
     )
+    found.extend(sorted(counted_full, key=lambda solution: -solution.final.norm))
+    full = found[-1]
+    if full.status == "converged" and forms_again(full.final.full_film):
+        *others, best = conserving.from_full(full, thorough=finest)
+        # A film that makes oil is better than none, and a warning says so.
+        found += [*others, best] if best.status == "converged" else [*others, best, full]
+    return found
 
 
 def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
@@ -283,6 +358,23 @@ def interpolated_state(level: Level, coarse: GridSolution) -> State:
     contact = np.asarray(coarse.state.contact_pressure)
     contact = np.clip(_finer(level, coarse.level.mesh, contact), 0.0, pressure)
     return State.of(level, pressure, coarse.state.h00, contact)
+
+
+def _filled_from(level: Level, coarse: GridSolution) -> tuple[State, Mask]:
+    """State and filled nodes of a solution on a coarser grid, interpolated to a grid."""
+    state = interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
+    return state, filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
+
+
+def filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
+    """Filled nodes on a mesh, from those on a coarser mesh of the same domain by linear interpolation."""
+    if coarse.y.size == 1:
+        part = np.interp(mesh.x, coarse.x, filled[:, 0])[:, np.newaxis]
+    else:
+        at = np.stack(np.meshgrid(mesh.x, np.minimum(mesh.y, coarse.y[-1]), indexing="ij"), axis=-1)
+        part = RegularGridInterpolator((coarse.x, coarse.y), filled.astype(float))(at)
+    on_mesh: Mask = part > 0.5
+    return on_mesh
 
 
 def _finer(level: Level, of: Mesh, values: Array) -> Array:

@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import sparse
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Flow
@@ -89,6 +90,31 @@ def _neighbours(q: int, p: int) -> tuple[tuple[slice, slice], tuple[slice, slice
     here = tuple(slice(max(0, -step), -step if step > 0 else None) for step in (q, p))
     there = tuple(slice(max(0, step), step if step < 0 else None) for step in (q, p))
     return (here[0], here[1]), (there[0], there[1])
+
+
+def without_columns(stencil: Stencil, columns: Mask) -> Stencil:
+    """Stencil with zero coefficients of the neighbours where the mask ``columns`` is True."""
+    kept = stencil.coefficients.copy()
+    for row, (q, p) in zip(kept, OFFSETS, strict=False):
+        here, there = _neighbours(q, p)
+        row[here][columns[there]] = 0.0
+    return Stencil(kept)
+
+
+def stencil_matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:
+    """Sparse matrix of a stencil over the nodes of a mask (nx, ny)."""
+    number = np.full(nodes.shape, -1)
+    number[nodes] = np.arange(int(nodes.sum()))
+    rows, columns, values = [], [], []
+    for row, (q, p) in zip(stencil.coefficients, OFFSETS, strict=False):
+        here, there = _neighbours(q, p)
+        both = nodes[here] & nodes[there]
+        rows.append(number[here][both])
+        columns.append(number[there][both])
+        values.append(row[here][both])
+    n = int(nodes.sum())
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    return sparse.csc_array(entries, shape=(n, n))
 
 
 # Mass rho H at the face i+1/2 from the nodes i-1, i and i+1, by the order of the wedge term: that of the

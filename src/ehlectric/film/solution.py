@@ -16,6 +16,7 @@ from ehlectric.film.accuracy.starved import Starvation, StarvedSolution
 from ehlectric.film.estimates import inlet_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
+from ehlectric.film.starved.reformed import oil_fraction
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
 from ehlectric.film.thermal.result import HeatedFilm
 from ehlectric.runtime.values import Values
@@ -72,8 +73,11 @@ class FilmSolution(Values):
         Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
         highest peak of the pressure. None if there is no estimate.
     film_fraction : ndarray or None
-        Part of the gap that oil fills, 0 to 1. None where the supply of oil is not given, or fills the gap as
-        it does in a flooded contact.
+        Part of the gap that oil fills, 0 to 1. None of a flooded film that does not form again behind a
+        cavity.
+    mass_residual : float or None
+        Largest amount of oil that appears or is lost up to any position along entrainment, over the mean flow
+        through the Hertz zone. None of a film that does not carry its oil through cavities.
     starvation : Starvation or None
         Supply of oil, meniscus and flooded film. None where the supply of oil is not given.
     heated : HeatedFilm or None
@@ -98,6 +102,7 @@ class FilmSolution(Values):
     inlet_deficit: float | None = None
     max_pressure_error: float | None = None
     film_fraction: Array | None = None
+    mass_residual: float | None = None
     starvation: Starvation | None = None
     heated: HeatedFilm | None = None
 
@@ -154,7 +159,7 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
     scales, coarser = problem.scales, found.coarser
     steps = tuple(step for solution in found.solutions for step in solution.steps)
     x, values = _nodal(found, shaped)
-    touching, supplied = values.pop("contact_pressure"), _supplied(found, shaped)
+    touching, fraction = values.pop("contact_pressure"), values.pop("film_fraction")
     return FilmSolution(
         x=scales.length * x,
         **values,
@@ -178,32 +183,44 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
             whole.final.coefficients.density * whole.state.thickness,
         ),
         max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
-        **supplied,
+        film_fraction=None if found.fraction is None else fraction,
+        mass_residual=None if found.fraction is None else mass_residual(found),
+        starvation=found.starvation if isinstance(found, StarvedSolution) else None,
     )
 
 
-def _supplied(found: RefinedSolution, shaped: Shaped) -> dict[str, Any]:
-    """Content and supply of oil by the names of their attributes; empty where the supply is not given."""
-    if not isinstance(found, StarvedSolution):
-        return {}
-    fraction = found.fraction
-    return {
-        "film_fraction": None if fraction is None else shaped(fraction),
-        "starvation": found.starvation,
-    }
+def mass_residual(found: RefinedSolution) -> float:
+    """Oil that a film makes or loses up to any position along entrainment, over the flow of its Hertz zone.
+
+    The residual of the Reynolds equation is the oil that leaves a node in excess of what enters it.
+    """
+    last, mesh = found.last, found.last.level.mesh
+    zone = found.problem.geometry.dry_pressure(mesh.x, mesh.y) > 0.0
+    mass = last.final.coefficients.density * last.state.thickness
+    width = float(np.max(np.sum(np.broadcast_to(zone, mesh.shape) * mesh.weights, axis=1))) / mesh.dx
+    made = np.where(last.final.full_film, last.final.reynolds, 0.0) * mesh.weights
+    flows = np.cumsum(np.sum(made, axis=1))
+    return float(np.max(np.abs(flows)) / (np.mean(mass[np.broadcast_to(zone, mesh.shape)]) * width))
 
 
 def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any]]:
     """Positions X along entrainment, and nodal values of the film by the names of its attributes."""
     scales, finest, patch = found.problem.scales, found.last, found.patch
+    fluid, order = found.problem.fluid, found.problem.wedge_order
     if patch is None:
         values = _values(scales, finest, 0.0)
+        values["film_fraction"] = (
+            np.ones(finest.level.mesh.shape) if found.fraction is None else found.fraction
+        )
         return finest.level.mesh.x, {name: shaped(each) for name, each in values.items()}
     mesh = finest.level.mesh
     joined = patch.join(mesh)
     outer = patch.outer_deflection(patch.times(mesh))(mesh.x, mesh.y)
     fine = _values(scales, finest, outer)
     coarse = _values(scales, patch.coarse, 0.0)
+    for values, grid in ((coarse, patch.coarse), (fine, finest)):
+        # The content of oil is known on both grids, or of none.
+        values["film_fraction"] = oil_fraction(fluid, grid, order)
     added = patch.problem.added_gap
     if added is None:
         return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}

@@ -143,6 +143,8 @@ class GridSolution:
         Newton steps that led to the last iterate.
     status : str
         "converged", "stalled" or "diverged".
+    fraction : ndarray, shape (nx, ny), or None
+        Part of the gap that oil fills; None where the film does not carry its content of oil.
     """
 
     level: Level
@@ -150,6 +152,7 @@ class GridSolution:
     final: Residual
     steps: tuple[NewtonStep, ...]
     status: Status
+    fraction: Array | None = None
 
     @property
     def touches(self) -> bool:

@@ -49,8 +49,8 @@ _OIL: Keys = {
     ),
     "oil_lost": ResultKey("part of mass_error that enters spots and does not leave them"),
     "oil_made": ResultKey(
-        "part of mass_error that appears where cavitated gaps fill again, as a stationary film counts them "
-        "as full; each refilling along a streamline counts, so that it may be above 1"
+        "part of mass_error that appears where cavitated gaps fill again; where they count as full, each "
+        "refilling along a streamline counts, so that it may be above 1"
     ),
 }
 _FILM: Keys = {

@@ -1,9 +1,10 @@
 """Balance of the oil of a solved stationary contact: what its spots swallow, and what its valleys make.
 
-A stationary film lets a cavitated gap count as full in its wedge term (``ehlectric.film.cavitation``). Behind
-an outlet this has no effect on the film. Where a cavitated gap ends at a node that oil fills, the oil that
-would fill the gap goes on, although less of it has come. The residual of the Reynolds equation of these nodes
-is the oil that appears.
+A film that forms again behind a cavity carries the content of oil through the cavity
+(``ehlectric.film.starved.reformed``), and its residual is what is left over. Where no such film was found, a
+cavitated gap counts as full in the wedge term (``ehlectric.film.cavitation``). Where it ends at a node that
+oil fills, the oil that would fill the gap goes on, although less of it has come. The residual of the Reynolds
+equation of these nodes is the oil that appears.
 """
 
 from __future__ import annotations
@@ -73,6 +74,8 @@ def oil_balance(
     OilBalance or None
         Oil lost and made; None where the nodes are not equidistant, as those of a film with a patch.
     """
+    if film.mass_residual is not None:
+        return OilBalance(film.mass_residual, oil_lost=0.0, oil_made=film.mass_residual)
     if any(float(np.ptp(np.diff(axis))) > _UNIFORM * float(axis[1] - axis[0]) for axis in film.axes):
         return None
     order, law = SCHEMES[case.grid.wedge]
@@ -82,12 +85,12 @@ def oil_balance(
     oil = ((film.pressure - touching) / conditions.max_pressure).reshape(mesh.shape)
     gap = np.where(film.contact, np.maximum(film.thickness, conditions.boundary_film), film.thickness)
     thickness = (gap / conditions.thickness_scale).reshape(mesh.shape)
-    r = _residual(fluid, law, order, mesh, oil, thickness)
     zone, contact = _in_zone(conditions, mesh), film.contact.reshape(mesh.shape)
     full = oil - fluid.ambient_pressure > _ROUNDING
+    carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
+    r = _residual(fluid, law, order, mesh, oil, thickness)
     made = _refilled(full & zone) & (zone | contact) & (r > 0.0)
     lost = contact & (r < 0.0)
-    carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
     parts = [abs(float(np.vdot(mesh.weights, np.where(part, r, 0.0)))) / carried for part in (lost, made)]
     return OilBalance(mass_error=sum(parts), oil_lost=parts[0], oil_made=parts[1])
 

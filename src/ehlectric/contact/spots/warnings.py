@@ -18,7 +18,7 @@ from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 
 # Oil that a film may make or lose without a warning, over the mean flow through its contact.
-MASS_ERROR = 0.1
+MASS_ERROR = 1e-3
 
 _ROUNDING = 1e-9
 
@@ -87,6 +87,10 @@ def spot_warnings(
             "the surfaces touch at the edge of the domain, where asperities carry nothing in this solution; "
             "lower grid.inlet or raise grid.outlet" + (" or grid.side" if film.thickness.ndim == 2 else ""),
         )
+    if case.roughness or np.any(film.contact):
+        balance = oil_balance(case, conditions, film)
+        if balance is not None and balance.mass_error > MASS_ERROR:
+            yield _not_conserved(balance)
     if not np.any(film.contact):
         return
     spots = spots_of(film)
@@ -99,9 +103,6 @@ def spot_warnings(
         "the load: the film conducts there, and the minimum film, the maximum field, the capacitance and a "
         "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
     )
-    balance = oil_balance(case, conditions, film)
-    if balance is not None and balance.mass_error > MASS_ERROR:
-        yield _not_conserved(balance)
     if before is None:
         grids = "is not known on a coarser grid"
     elif abs(share - before) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
@@ -128,7 +129,7 @@ def _not_conserved(balance: OilBalance) -> ResultWarning:
     return ResultWarning(
         "oil-not-conserved",
         f"the film does not keep its oil: {made} of the mean flow through the contact appears where "
-        f"cavitated gaps fill again, since they count as full in a stationary film, and {lost} is lost in "
-        "spots; the film is then rather too thick and the load share of the asperities too low; [motion] "
-        "keeps the oil",
+        f"cavitated gaps fill again, and {lost} is lost in spots, since no film that carries its oil through "
+        "cavities was found; the film is rather too thick and the load share of the asperities too low; use "
+        "more grid.nodes, or [motion]",
     )

@@ -81,6 +81,7 @@ FILM_NUMBERS = (
     "discretisation_error",
     "inlet_deficit",
     "max_pressure_error",
+    "mass_residual",
 )
 FIELD_NUMBERS = (
     "voltage",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from ehlectric.arrays import Array
 from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.nested import nested_iteration
@@ -43,6 +44,11 @@ class RefinedSolution:
     def whole(self) -> GridSolution:
         """Solution on the last grid over the whole domain."""
         return self.last if self.patch is None else self.patch.coarse
+
+    @property
+    def fraction(self) -> Array | None:
+        """Part of the gap that oil fills on the last grid, shape (nx, ny); None if it is not carried."""
+        return self.last.fraction
 
     @cached_property
     def error(self) -> float | None:

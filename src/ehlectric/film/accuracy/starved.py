@@ -6,14 +6,20 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.accuracy.adaptive import UNKNOWN, RefinedSolution, refined_solution
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.estimates import inlet_deficit, richardson, side_deficit
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.nested import DIRECT, NESTED_TOLERANCE, interpolated_state, levels_of, nested_iteration
+from ehlectric.film.nested import (
+    DIRECT,
+    NESTED_TOLERANCE,
+    filled_on,
+    interpolated_state,
+    levels_of,
+    nested_iteration,
+)
 from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.starved.course import Course, StarvedFilm, at_centre_line
 from ehlectric.film.starved.ratio import film_of_ratio, taken_layer
@@ -298,10 +304,4 @@ def _near(course: Course, last: StarvedFilm) -> tuple[State, Mask]:
     """State and filled nodes of a coarser grid, interpolated to the grid of a course."""
     state = interpolated_state(course.level, last.solution)
     state = state.lifted(0.5 * float(last.solution.state.thickness.min()))
-    coarse, mesh = last.solution.level.mesh, course.level.mesh
-    if coarse.y.size == 1:
-        part = np.interp(mesh.x, coarse.x, last.content.filled[:, 0])[:, np.newaxis]
-    else:
-        at = np.stack(np.meshgrid(mesh.x, np.minimum(mesh.y, coarse.y[-1]), indexing="ij"), axis=-1)
-        part = RegularGridInterpolator((coarse.x, coarse.y), last.content.filled.astype(float))(at)
-    return state, part > 0.5
+    return state, filled_on(course.level.mesh, last.solution.level.mesh, last.content.filled)

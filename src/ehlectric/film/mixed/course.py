@@ -21,7 +21,7 @@ from ehlectric.film.mixed.touching import Asperities
 from ehlectric.film.state import GridSolution, Progress, State
 
 # Damping of the first step from a state that is likely to be close.
-_NEAR_DAMPING = 0.1
+NEAR_DAMPING = 0.1
 
 # Multiple of the largest number of Newton steps from each start, for the film that is followed in time.
 _IN_TIME = 8
@@ -89,7 +89,7 @@ def mixed_film(
         if levels[0].mesh.y.size > 1:
             close.insert(0, relieved(levels[0], near, asperities.boundary_film))
         for start in close:
-            yield (found := solved(start, _NEAR_DAMPING))
+            yield (found := solved(start, NEAR_DAMPING))
             if found.status == "converged":
                 return
         if not thorough:

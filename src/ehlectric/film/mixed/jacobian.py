@@ -3,7 +3,8 @@
 The unknowns are the sum Q of the pressures of oil and asperities at all nodes, the pressure P of the oil
 where the surfaces touch, and H00. The rows of the nodes in contact ask for H = H_s. The pressure of the oil
 there follows from its own Reynolds equation by a sparse factorisation and is eliminated, so that the unknowns
-are those of a film without contact.
+are those of a film without contact. Where oil is carried through cavities, its mass in them is eliminated
+with the pressure of the oil.
 
 The difference of the rows of two neighbours in contact is the wedge term of an incompressible film through
 which no pressure drives oil, dH/dX = 0. Written in this form, the rows of a spot are like those of the Hertz
@@ -15,16 +16,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import DIPOLE, Level
-from ehlectric.film.mixed.touching import Touching
+from ehlectric.film.mixed.touching import Carried, Touching
 from ehlectric.film.multigrid import Linearised, cycled, resolved_nodes
-from ehlectric.film.reynolds import OFFSETS, Stencil, linearise, poiseuille_weight
+from ehlectric.film.reynolds import Stencil, linearise, poiseuille_weight, stencil_matrix, without_columns
+from ehlectric.film.starved.content import of_filled
+from ehlectric.film.starved.jacobian import behind_cavities, with_row_before
 
 
 @dataclass(frozen=True)
@@ -34,13 +36,21 @@ class TouchingJacobian:
     Attributes
     ----------
     levels : list of Linearised
-        Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch.
+        Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch. Rows
+        behind cavities contain the last row of the cavity.
+    finest : Linearised
+        Jacobian for Q and H00 on the finest grid without this.
     oil_by_p, oil_by_h : Stencil
         Derivatives of the Reynolds residual by P and by H, of all nodes that oil fills.
     contact, oil : ndarray of bool, shape (nx, ny)
         Nodes in contact, and those among them that oil fills.
+    rest : ndarray of bool, shape (nx, ny)
+        Nodes of ``oil``, and cavitated nodes whose mass is carried to filled ones.
+    by_rest : Stencil
+        Derivative of the Reynolds residual of all these and of the filled nodes by P of the first and by the
+        mass of the second.
     factors : SuperLU or None
-        Factorisation of the derivative of their Reynolds residual by their P; None where there are none.
+        Factorisation of ``by_rest`` between the nodes of ``rest``; None where there are none.
     open_nodes : ndarray of bool, shape (nx, ny)
         Nodes apart from contact where the Poiseuille term dominates.
     open_factors : SuperLU or None
@@ -48,10 +58,13 @@ class TouchingJacobian:
     """
 
     levels: list[Linearised]
+    finest: Linearised
     oil_by_p: Stencil
     oil_by_h: Stencil
     contact: Mask
     oil: Mask
+    rest: Mask
+    by_rest: Stencil
     factors: SuperLU | None
     open_nodes: Mask
     open_factors: SuperLU | None
@@ -67,29 +80,43 @@ class TouchingJacobian:
         numpy.linalg.LinAlgError
             Where the oil of some nodes has no flow, as in gaps that are far from a solution.
         """
-        level, contact, full_film = levels[0], now.contact, now.full_film
+        level, contact, full_film, carried = levels[0], now.contact, now.full_film, now.carried
         plastic = now.plastic
-        by_p, by_h = _damped(level, now.flow, now.thickness, damping)
-        oil_by_p, oil_by_h = by_p.on_rows(full_film), without_columns(by_h.on_rows(full_film), plastic)
+        by_p, by_h = _damped(level, now.flow, now.thickness, damping, carried)
         oil = contact & full_film
-        factors = _factored(oil_by_p, oil) if oil.any() else None
+        hollow = np.zeros_like(oil) if carried is None else carried.hollow
+        rows = full_film | hollow
+        oil_by_p, oil_by_h = by_p.on_rows(rows), without_columns(by_h.on_rows(rows), plastic)
+        rest, by_rest = oil | hollow, _by_mass(level, oil_by_p, hollow, damping)
+        factors = _factored(by_rest, rest) if rest.any() else None
         masks: tuple[Mask, ...] = (full_film, contact, plastic)
-        jacobians = [_linearised(level, (by_p, by_h), now.flow, now.thickness, masks)]
+        jacobians = [_linearised(level, (by_p, by_h), now.flow, now.thickness, masks, carried)]
+        finest = jacobians[0]
+        if carried is not None:
+            finest = _linearised(level, (by_p, by_h), now.flow, now.thickness, masks, None)
         pressure, thickness = oil_pressure, now.thickness
         for coarse in levels[1:]:
             pressure, thickness = coarse.inject(pressure), coarse.inject(thickness)
             masks = tuple(coarse.inject(mask.astype(float)) > 1.0 - 1e-9 for mask in masks)
+            carried = None if carried is None else carried.on(coarse)
             at_faces = flow(fluid, pressure, thickness, coarse.mesh)
-            stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate)
-            jacobians.append(_linearised(coarse, stencils, at_faces, thickness, masks))
+            stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate, carried)
+            jacobians.append(_linearised(coarse, stencils, at_faces, thickness, masks, carried))
         opened = full_film & ~contact & (jacobians[0].poiseuille > level.rate)
         opened_factors = _factored(oil_by_p, opened) if opened.any() and contact.any() else None
-        return cls(jacobians, oil_by_p, oil_by_h, contact, oil, factors, opened, opened_factors)
-
-    @property
-    def finest(self) -> Linearised:
-        """Jacobian for Q and H00 on the finest grid."""
-        return self.levels[0]
+        return cls(
+            levels=jacobians,
+            finest=finest,
+            oil_by_p=oil_by_p,
+            oil_by_h=oil_by_h,
+            contact=contact,
+            oil=oil,
+            rest=rest,
+            by_rest=by_rest,
+            factors=factors,
+            open_nodes=opened,
+            open_factors=opened_factors,
+        )
 
     def right_side(self, now: Touching, to_ambient: Array, given: Array) -> tuple[Array, Array]:
         """Right sides of the rows of Q (nx, ny), and of the rows of the oil (nx, ny).
@@ -99,13 +126,17 @@ class TouchingJacobian:
         """
         dh = self.finest.level.deflection(given)
         oil = -now.reynolds - self.oil_by_p(to_ambient)
-        rest = oil - self.oil_by_h(dh) - self.oil_by_p(self.oil_of(oil, np.zeros_like(dh), dh))
+        rest = oil - self.oil_by_h(dh) - self.by_rest(self.rest_of(oil, np.zeros_like(dh), dh))
         contact = self.finest.by_h(np.where(now.contact & ~now.plastic, now.missing - dh, 0.0))
         free = now.full_film & ~now.contact
         return np.where(now.plastic, 0.0, np.where(now.contact, contact, np.where(free, rest, 0.0))), oil
 
     def oil_of(self, oil: Array, dq: Array, dh: Array) -> Array:
-        """Change of P of the oil where the surfaces touch, zero elsewhere, shape (nx, ny).
+        """Change of P of the oil where the surfaces touch, zero elsewhere, (nx, ny); see ``rest_of``."""
+        return np.where(self.oil, self.rest_of(oil, dq, dh), 0.0)
+
+    def rest_of(self, oil: Array, dq: Array, dh: Array) -> Array:
+        """Change of P of the oil where the surfaces touch, and of the mass in cavities, shape (nx, ny).
 
         Parameters
         ----------
@@ -118,7 +149,7 @@ class TouchingJacobian:
         if self.factors is not None:
             elsewhere = np.where(self.contact, 0.0, dq)
             right = oil - self.oil_by_p(elsewhere) - self.oil_by_h(dh)
-            change[self.oil] = self.factors.solve(right[self.oil])
+            change[self.rest] = self.factors.solve(right[self.rest])
         return change
 
     def image(self, change: Array) -> Array:
@@ -128,8 +159,8 @@ class TouchingJacobian:
         dh, load = finest.gap.change(dq, float(change[-1]))
         r = finest.by_p(dq) + finest.by_h(dh)
         if self.factors is not None:
-            by_oil = self.oil_by_p(self.oil_of(np.zeros_like(dq), dq, dh))
-            r += np.where(self.contact, 0.0, by_oil)
+            by_rest = self.by_rest(self.rest_of(np.zeros_like(dq), dq, dh))
+            r += np.where(finest.full_film & ~self.contact, by_rest, 0.0)
         return np.append(finest.scale * r, load)
 
     def precondition(self, image: Array) -> Array:
@@ -146,16 +177,32 @@ class TouchingJacobian:
         return change
 
 
-def _damped(level: Level, at_faces: Flow, thickness: Array, damping: float) -> tuple[Stencil, Stencil]:
+def _damped(
+    level: Level, at_faces: Flow, thickness: Array, damping: float, carried: Carried | None
+) -> tuple[Stencil, Stencil]:
     """Derivatives of the Reynolds residual by P and by H, as in a time step of length 1/(damping rate).
 
     The mass that a node gains in the step adds to the residual; at the state itself it adds nothing.
     """
-    by_p, by_h = linearise(at_faces, level.wedge, thickness, level.mesh)
+    wedge = level.wedge
+    if carried is not None:
+        at_faces = of_filled(at_faces, carried.filled)
+        wedge = carried.supply.wedge(level.mesh, carried.filled)
+    by_p, by_h = linearise(at_faces, wedge, thickness, level.mesh)
     k, inner = at_faces.coefficients, level.mesh.inner
     by_p.coefficients[2][inner] += damping * level.rate * (k.density_p * thickness)[inner]
     by_h.coefficients[2][inner] += damping * level.rate * k.density[inner]
     return by_p, by_h
+
+
+def _by_mass(level: Level, by_p: Stencil, hollow: Mask, damping: float) -> Stencil:
+    """Stencil by P whose columns of cavitated nodes are by the mass that they pass to the node behind."""
+    if not hollow.any():
+        return by_p
+    c = without_columns(by_p, hollow).coefficients
+    c[2][hollow] = (1.0 + damping) * level.rate
+    c[1][1:][hollow[:-1]] = -level.rate
+    return Stencil(c)
 
 
 def _linearised(
@@ -164,6 +211,7 @@ def _linearised(
     at_faces: Flow,
     thickness: Array,
     masks: tuple[Mask, ...],
+    carried: Carried | None,
 ) -> Linearised:
     """Jacobian for Q and H00 on one grid; P where the surfaces touch does not change.
 
@@ -172,6 +220,9 @@ def _linearised(
     full_film, contact, plastic = masks
     free = full_film & ~contact
     gap = Gap(level, thickness)
+    if carried is not None:
+        behind = behind_cavities(carried.filled) & free
+        stencils = with_row_before(stencils[0], behind), with_row_before(stencils[1], behind)
     by_p = without_columns(stencils[0].on_rows(free), contact)
     by_h = without_columns(stencils[1].on_rows(free), plastic)
     by_h = _with_contact_rows(level, by_h, contact & ~plastic)
@@ -190,15 +241,6 @@ def _linearised(
         resolved=resolved_nodes(level, at_faces.coefficients.eps, unknown),
         log_viscosity=at_faces.coefficients.log_viscosity,
     )
-
-
-def without_columns(stencil: Stencil, columns: Mask) -> Stencil:
-    """Stencil with zero coefficients of the neighbours where the mask ``columns`` is True."""
-    kept = stencil.coefficients.copy()
-    for row, (q, p) in zip(kept, OFFSETS, strict=False):
-        here, there = _shifted(q, p)
-        row[here][columns[there]] = 0.0
-    return Stencil(kept)
 
 
 def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
@@ -222,26 +264,3 @@ def _factored(stencil: Stencil, nodes: Mask) -> SuperLU:
         return splu(stencil_matrix(stencil, nodes))
     except RuntimeError as error:
         raise np.linalg.LinAlgError("the flow of the oil has a singular matrix") from error
-
-
-def stencil_matrix(stencil: Stencil, nodes: Mask) -> sparse.csc_array:
-    """Sparse matrix of a stencil over the nodes of a mask (nx, ny)."""
-    number = np.full(nodes.shape, -1)
-    number[nodes] = np.arange(int(nodes.sum()))
-    rows, columns, values = [], [], []
-    for row, (q, p) in zip(stencil.coefficients, OFFSETS, strict=False):
-        here, there = _shifted(q, p)
-        both = nodes[here] & nodes[there]
-        rows.append(number[here][both])
-        columns.append(number[there][both])
-        values.append(row[here][both])
-    n = int(nodes.sum())
-    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sparse.csc_array(entries, shape=(n, n))
-
-
-def _shifted(q: int, p: int) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
-    """Index of the nodes that have a neighbour q steps along x and p across it, and of these neighbours."""
-    here = tuple(slice(max(0, -step), -step if step > 0 else None) for step in (q, p))
-    there = tuple(slice(max(0, step), step if step < 0 else None) for step in (q, p))
-    return (here[0], here[1]), (there[0], there[1])

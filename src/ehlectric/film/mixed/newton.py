@@ -11,8 +11,9 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Fluid
 from ehlectric.film.levels import Level
 from ehlectric.film.mixed.jacobian import TouchingJacobian
-from ehlectric.film.mixed.touching import Asperities, Touching, assess_touching, projected
+from ehlectric.film.mixed.touching import Asperities, Carried, Touching, assess_touching, projected
 from ehlectric.film.newton import ROUNDING, flexible_gmres, linear_tolerance
+from ehlectric.film.starved.newton import Seen
 from ehlectric.film.state import GridSolution, NewtonStep, Progress, Residual, State, Status
 
 # Largest change of Q in a Newton step.
@@ -53,6 +54,7 @@ def mixed_newton(
     max_iterations: int,
     first_damping: float = 1.0,
     progress: Progress | None = None,
+    carried: Carried | None = None,
 ) -> GridSolution:
     """Solve the film equations on the first of ``levels`` where surfaces may touch.
 
@@ -75,6 +77,8 @@ def mixed_newton(
         step stands for.
     progress : callable, optional
         Function that is called with (nodes, Newton step, residual) before every step.
+    carried : Carried, optional
+        Nodes that oil fills in the initial guess, where the oil in cavities is carried through them.
 
     Returns
     -------
@@ -84,7 +88,7 @@ def mixed_newton(
     level = levels[0]
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
-    now = assess_touching(fluid, level, state, asperities)
+    now, seen = assess_touching(fluid, level, state, asperities, carried), Seen()
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
@@ -102,6 +106,10 @@ def mixed_newton(
             status = "diverged"
             break
         state = step.state
+        if now.carried is not None and assessed.carried is not None and not assessed.settled:
+            filled, moved = now.carried.filled, assessed.carried.filled
+            supply = seen.calmed(assessed.carried.supply, filled, moved)
+            assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
         better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
         damping = damping if assessed.norm > _NEAR else 0.0
@@ -177,7 +185,8 @@ def newton_step(
     length = _length(level, now, step, asperities.boundary_film)
     state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
     record = NewtonStep(level.nodes, now.norm, step.krylov)
-    return Stepped(state, assess_touching(fluid, level, state, asperities), length, record)
+    assessed = assess_touching(fluid, level, state, asperities, now.carried)
+    return Stepped(state, assessed, length, record)
 
 
 @dataclass(frozen=True)
@@ -210,7 +219,7 @@ def _moved(level: Level, state: State, contact: Mask, step: _Step, length: float
 
 def is_solved(now: Touching, tolerance: float) -> bool:
     """Whether all equations hold within a tolerance, those of the oil where surfaces touch within 1e-6."""
-    return now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
+    return now.settled and now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
 
 
 def grid_solution(
@@ -229,7 +238,7 @@ def grid_solution(
         load=now.load,
         norm=now.norm,
     )
-    return GridSolution(level, state, final, tuple(steps), status)
+    return GridSolution(level, state, final, tuple(steps), status, now.fraction)
 
 
 def _direction(

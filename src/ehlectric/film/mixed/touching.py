@@ -17,7 +17,7 @@ contact (``ehlectric.film.cavitation``).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +28,8 @@ from ehlectric.film.gap import Gap
 from ehlectric.film.levels import DIPOLE, Level
 from ehlectric.film.newton import LOAD_WEIGHT
 from ehlectric.film.reynolds import poiseuille_weight, residual
+from ehlectric.film.starved.content import Runs, Supply, content, unreduced
+from ehlectric.film.starved.newton import OVERFLOW, TENSION
 from ehlectric.film.state import State
 
 
@@ -61,6 +63,10 @@ class Touching:
         Largest scaled residual of all equations but those of the oil where the surfaces touch.
     oil_norm : float
         Largest scaled residual of the oil where the surfaces touch. Both are pressures over p_h.
+    carried : Carried or None
+        Oil that is carried through cavities; None where a cavitated gap counts as full.
+    settled : bool
+        Whether the nodes that oil fills are those at which its mass was carried.
     """
 
     flow: Flow
@@ -76,6 +82,47 @@ class Touching:
     load: float
     norm: float
     oil_norm: float
+    carried: Carried | None = None
+    settled: bool = True
+
+    @property
+    def fraction(self) -> Array | None:
+        """Part of the gap that oil fills, shape (nx, ny); None where it is not carried."""
+        if self.carried is None:
+            return None
+        full = self.flow.coefficients.density * self.thickness
+        return np.where(self.carried.filled, 1.0, np.clip(self.carried.mass / full, 0.0, 1.0))
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Oil that is carried through cavities of a stationary film.
+
+    Attributes
+    ----------
+    supply : Supply
+        Oil at the inlet edge and order of the wedge term.
+    filled : ndarray of bool, shape (nx, ny)
+        Nodes that oil fills, those of the inlet edge among them.
+    mass : ndarray, shape (nx, ny), or float
+        Mass of oil at the nodes.
+    """
+
+    supply: Supply
+    filled: Mask
+    mass: Array | float = 0.0
+
+    @property
+    def hollow(self) -> Mask:
+        """Cavitated nodes (nx, ny) from which oil flows to a filled node on their line."""
+        ahead = np.logical_or.accumulate(self.filled[::-1], axis=0)[::-1]
+        hollow: Mask = ~self.filled & ahead
+        return hollow
+
+    def on(self, level: Level) -> Carried:
+        """Filled nodes and supply on the next coarser grid, for its equations only."""
+        filled = level.inject(self.filled.astype(float)) > 1.0 - 1e-9
+        return Carried(self.supply.injected(level), filled)
 
 
 def own_compliance(level: Level) -> float:
@@ -120,7 +167,9 @@ def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: M
     return plastic
 
 
-def assess_touching(fluid: Fluid, level: Level, state: State, asperities: Asperities) -> Touching:
+def assess_touching(
+    fluid: Fluid, level: Level, state: State, asperities: Asperities, carried: Carried | None = None
+) -> Touching:
     """Residual of the film equations at a state whose surfaces may touch.
 
     Parameters
@@ -133,6 +182,8 @@ def assess_touching(fluid: Fluid, level: Level, state: State, asperities: Asperi
         Pressure, contact pressure, H00 and film thickness.
     asperities : Asperities
         Boundary film and hardness.
+    carried : Carried, optional
+        Nodes that oil fills, and its supply, where the oil in cavities is carried.
 
     Returns
     -------
@@ -145,15 +196,21 @@ def assess_touching(fluid: Fluid, level: Level, state: State, asperities: Asperi
     oil, thickness = state.oil_pressure, np.maximum(state.thickness, boundary_film)
     at_faces = flow(fluid, oil, thickness, mesh)
     k = at_faces.coefficients
-    r = residual(at_faces, level.wedge, thickness, mesh) - level.source
     poiseuille = poiseuille_weight(at_faces, mesh)
     excess = oil - fluid.ambient_pressure - level.edge_excess
-    full_film = full_film_nodes(
-        excess, r, poiseuille=poiseuille, rate=level.rate, thickness=thickness, inner=mesh.inner
-    )
-    if level.distribution is DIPOLE:
-        # A surplus of oil at the edge of a spot is carried through the whole spot at once.
-        full_film |= with_refilled_nodes(full_film, r) & contact
+    settled = True
+    if carried is None:
+        r = residual(at_faces, level.wedge, thickness, mesh) - level.source
+        full_film = full_film_nodes(
+            excess, r, poiseuille=poiseuille, rate=level.rate, thickness=thickness, inner=mesh.inner
+        )
+        if level.distribution is DIPOLE:
+            # A surplus of oil at the edge of a spot is carried through the whole spot at once.
+            full_film |= with_refilled_nodes(full_film, r) & contact
+    else:
+        before = carried.filled
+        carried, r = _filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
+        full_film, settled = carried.filled & mesh.inner, bool(np.array_equal(carried.filled, before))
     compliance = own_compliance(level)
     moving = np.where(contact, k.density_p * thickness, k.density * compliance)
     diagonal = poiseuille + moving * level.rate
@@ -178,7 +235,40 @@ def assess_touching(fluid: Fluid, level: Level, state: State, asperities: Asperi
         load=load,
         norm=norm,
         oil_norm=oil_norm,
+        carried=carried,
+        settled=settled,
     )
+
+
+def _filled_anew(
+    level: Level, at_faces: Flow, thickness: Array, poiseuille: Array, excess: Array, carried: Carried
+) -> tuple[Carried, Array]:
+    """Oil carried with the nodes that it fills at a state, and the rows (nx, ny) of the filled nodes."""
+    r, mass = carried_rows(level, at_faces, thickness, carried)
+    full = at_faces.coefficients.density * thickness
+    surplus = ((1.0 + OVERFLOW) * full - mass) / level.mesh.dx
+    moved = full_film_nodes(
+        excess + TENSION * carried.filled,
+        np.where(carried.filled, r, surplus),
+        poiseuille=poiseuille,
+        rate=level.rate,
+        thickness=thickness,
+        inner=level.mesh.inner,
+    )
+    moved[0] = True
+    if not np.array_equal(moved, carried.filled):
+        carried = replace(carried, filled=moved)
+        r, mass = carried_rows(level, at_faces, thickness, carried)
+    return replace(carried, mass=mass), r
+
+
+def carried_rows(level: Level, at_faces: Flow, thickness: Array, carried: Carried) -> tuple[Array, Array]:
+    """Rows of the filled nodes, zero elsewhere, and the mass of the carried oil, both (nx, ny)."""
+    runs, filled = Runs.of(carried.filled), carried.filled
+    rows = unreduced(level, at_faces, thickness, filled, carried.supply)
+    full = at_faces.coefficients.density * thickness
+    mass = carried.supply.at_rupture(filled, content(runs, rows, full, level.mesh.dx))
+    return np.where(filled & level.mesh.inner, runs.reduced(rows), 0.0), mass
 
 
 def projected(fluid: Fluid, state: State, contact: Mask) -> State:

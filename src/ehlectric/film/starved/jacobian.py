@@ -11,9 +11,8 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
-from ehlectric.film.mixed.jacobian import stencil_matrix, without_columns
 from ehlectric.film.multigrid import Linearised, cycled, resolved_nodes
-from ehlectric.film.reynolds import Stencil, linearise, poiseuille_weight
+from ehlectric.film.reynolds import Stencil, linearise, poiseuille_weight, stencil_matrix, without_columns
 from ehlectric.film.starved.content import Runs, Supply, of_filled
 from ehlectric.film.state import Residual, State
 
@@ -148,10 +147,8 @@ def _linearised(
     full_film, gap = filled & level.mesh.inner, Gap(level, thickness)
     poiseuille = poiseuille_weight(at_faces, level.mesh)
     diagonal = poiseuille + gap.elastic_weight(at_faces.coefficients.density)
-    behind = full_film.copy()
-    behind[1:] &= ~filled[:-1]
-    behind[0] = False
-    by_p, by_h = (_with_row_before(part, behind).on_rows(full_film) for part in stencils)
+    behind = behind_cavities(filled) & full_film
+    by_p, by_h = (with_row_before(part, behind).on_rows(full_film) for part in stencils)
     return Linearised(
         gap=gap,
         by_p=by_p,
@@ -165,7 +162,15 @@ def _linearised(
     )
 
 
-def _with_row_before(stencil: Stencil, rows: Mask) -> Stencil:
+def behind_cavities(filled: Mask) -> Mask:
+    """Mask of the filled nodes (nx, ny) whose node before is not filled."""
+    behind = filled.copy()
+    behind[1:] &= ~filled[:-1]
+    behind[0] = False
+    return behind
+
+
+def with_row_before(stencil: Stencil, rows: Mask) -> Stencil:
     """Stencil to whose ``rows`` (nx, ny) the row of the node before is added.
 
     A neighbour of the node before is one step further upstream; the one three steps upstream and those across

@@ -30,7 +30,7 @@ from ehlectric.film.state import GridSolution, NewtonStep, Progress, Residual, S
 _UNSETTLED = 1e-2
 
 # Excess of the content over the full gap, relative, and pressure below ambient over p_h, that are rounding.
-_OVERFLOW, _TENSION = 1e-10, 1e-13
+OVERFLOW, TENSION = 1e-10, 1e-13
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ def starved_newton(
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
     now = assess_content(fluid, level, state, filled, supply)
-    settled, seen = False, _Seen()
+    settled, seen = False, Seen()
     status: Status = "stalled"
     while not (settled and now.norm <= tolerance) and len(steps) < max_iterations:
         if progress is not None:
@@ -137,7 +137,7 @@ def starved_newton(
     return GridSolution(level, state, now.residual, tuple(steps), status), now
 
 
-class _Seen:
+class Seen:
     """Memory of the masks of filled nodes of an iteration, to find out where it goes round in circles.
 
     The order of the wedge term depends on the nodes that are filled. It may happen that a node overflows as a
@@ -204,8 +204,8 @@ def next_filled(fluid: Fluid, level: Level, state: State, now: Content) -> Mask:
     holds is filled. The nodes on the edges stay as ``assess_content`` found them.
     """
     full = now.residual.coefficients.density * state.thickness
-    under = state.pressure - fluid.ambient_pressure < -_TENSION
-    over = now.mass > (1.0 + _OVERFLOW) * full
+    under = state.pressure - fluid.ambient_pressure < -TENSION
+    over = now.mass > (1.0 + OVERFLOW) * full
     moved = np.where(now.filled, ~under, over | _backed_up(now, full))
     # On the inlet edge the layer and the gap say which nodes are filled, whatever the pressure is.
     return np.where(level.mesh.inner, moved, now.filled)

@@ -1,0 +1,123 @@
+"""Flooded films that form again behind a cavity, as between the peaks of a rough surface.
+
+The wedge term of ``ehlectric.film.newton`` counts a cavitated gap as full. That is exact where no oil fills
+the gap any more behind a cavity. Elsewhere it makes the oil that is missing in the cavity. There the content
+of oil is carried through the cavity, as in a starved film (``ehlectric.film.starved.content``) whose inlet is
+flooded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.flow import Fluid
+from ehlectric.film.levels import Level
+from ehlectric.film.starved.content import Supply
+from ehlectric.film.starved.newton import assess_content, starved_newton
+from ehlectric.film.state import GridSolution, Progress, State
+
+# Largest number of Newton steps from a solution whose scheme has lower order at some nodes.
+_AGAIN = 15
+
+
+def forms_again(full_film: Mask) -> bool:
+    """Whether oil fills a node behind a cavitated one on its line along entrainment, inside of the domain.
+
+    Examples
+    --------
+    Behind the exit the film is cavitated up to the end of the domain; in the second film it forms again:
+
+    >>> once = np.array([[False], [True], [True], [False], [False], [False]])
+    >>> again = np.array([[False], [True], [False], [True], [False], [False]])
+    >>> forms_again(once), forms_again(again)
+    (False, True)
+    """
+    inner = full_film[1:-1]
+    behind = np.logical_or.accumulate(~inner, axis=0)
+    return bool(np.any(inner & behind))
+
+
+def conserving_films(
+    fluid: Fluid,
+    levels: list[Level],
+    starts: Iterable[tuple[State, Mask]],
+    *,
+    order: int,
+    tolerance: float,
+    max_iterations: int,
+    progress: Progress | None = None,
+) -> Iterator[GridSolution]:
+    """Films that conserve the mass of the oil, from one start after the other until one converges.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    levels : list of Level
+        Grids from the one to solve on to the coarsest.
+    starts : iterable of (State, ndarray)
+        Initial guesses, and the nodes (nx, ny) that oil fills in each of them.
+    order : int
+        Order of the wedge term where oil fills the gap.
+    tolerance : float
+        Residual at which to stop, a pressure over p_h.
+    max_iterations : int
+        Largest number of Newton steps from each start.
+    progress : callable, optional
+        Function that is called with (nodes, Newton step, residual) before every step.
+
+    Yields
+    ------
+    GridSolution
+        Last iterate from each start, with its oil fraction.
+    """
+    supply = flooded_inlet(levels[0], order)
+
+    def solved(state: State, filled: Mask, most: int) -> GridSolution:
+        found, content = starved_newton(
+            fluid,
+            levels,
+            replace(state, contact_pressure=0.0),
+            with_inlet(filled),
+            supply=supply,
+            tolerance=tolerance,
+            max_iterations=most,
+            progress=progress,
+        )
+        return replace(found, fraction=content.fraction(found.state.thickness))
+
+    for state, filled in starts:
+        found = solved(state, filled, max_iterations)
+        if found.status == "converged":
+            # Nodes that went round in circles have an upwind difference, which the solution may not need.
+            again = solved(found.state, found.final.full_film, _AGAIN)
+            if again.status == "converged":
+                found = replace(again, steps=found.steps + again.steps)
+        yield found
+        if found.status == "converged":
+            return
+
+
+def flooded_inlet(level: Level, order: int) -> Supply:
+    """Supply of more oil than any gap takes, at the lines of a grid."""
+    return Supply(np.full(level.mesh.y.size, np.inf), order)
+
+
+def with_inlet(filled: Mask) -> Mask:
+    """Mask of filled nodes (nx, ny) with the nodes of the inlet edge."""
+    flooded = filled.copy()
+    flooded[0] = True
+    return flooded
+
+
+def oil_fraction(fluid: Fluid, solution: GridSolution, order: int) -> Array:
+    """Part of the gap that oil fills, shape (nx, ny), also of a solution that does not carry it."""
+    if solution.fraction is not None:
+        return solution.fraction
+    level, state = solution.level, solution.state
+    filled = with_inlet(solution.final.full_film)
+    return assess_content(fluid, level, state, filled, flooded_inlet(level, order)).fraction(state.thickness)
