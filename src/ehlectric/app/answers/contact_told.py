@@ -22,6 +22,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Contact
         "regime": _FILM,
         "radius-large": (),
+        "modulus-low": (),
         "ambient-pressure": _HERTZ,
         "plastic-deformation": _HERTZ,
         "hardness-low": _HERTZ,

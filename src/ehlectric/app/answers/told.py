@@ -75,6 +75,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Contact
         "regime": _FILM,
         "radius-large": (),
+        "modulus-low": (),
         "ambient-pressure": (),
         "plastic-deformation": _FILM,
         "hardness-low": _FILM,
