@@ -345,7 +345,9 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "film-decays": Cause("The film halves soon if no oil returns to its track.", "note"),
         "shaft-leaks": Cause("The oil discharges the shaft within a period of the inverter."),
         "coating-breakdown": Cause("The shaft voltage is above the breakdown voltage of the coating."),
-        "current-density-high": Cause("The apparent current density is above published limits."),
+        "current-density-high": Cause(
+            "The apparent current density is above the lowest of the published limits."
+        ),
         "capacitance-bound": Cause("The capacitance of a bearing with ceramic elements is an upper bound."),
         "weibull-voltage": Cause("Breakdown voltages are those at a probability of 63.2 %.", "note"),
         "speed-left-out": Cause("The figures over speed leave out a speed that cannot be computed."),

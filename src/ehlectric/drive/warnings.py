@@ -11,7 +11,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount
-from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
+from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS, beside_limits
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.motor import oscillations
 from ehlectric.drive.solution import DriveSolution
@@ -142,13 +142,12 @@ def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
 
 
 def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
-    """Warning of largest currents whose density is above published limits."""
-    low, high = (1e-6 * CURRENT_DENSITY_LIMITS[k] for k in (0, -1))
+    """Warning of largest currents whose density is above the lowest of the published limits."""
     for b, (end, one) in enumerate(zip(ENDS, solution.elements, strict=True)):
         density = solution.largest_current(b) / one.hertz_area if one.hertz_area else 0.0
         if density > CURRENT_DENSITY_LIMITS[0]:
             yield ResultWarning(
                 "current-density-high",
                 f"{end}: the apparent current density is {1e-6 * density:.3g} A/mm², the largest current "
-                f"over the Hertz areas; published limits for bearings are {low:g} to {high:g} A/mm²",
+                f"over the Hertz areas: {beside_limits(density)}",
             )
