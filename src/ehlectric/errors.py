@@ -344,6 +344,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "supply-low": Cause("The supply of oil leaves less than half of the flooded film."),
         "film-decays": Cause("The film halves soon if no oil returns to its track.", "note"),
         "shaft-leaks": Cause("The oil discharges the shaft within a period of the inverter."),
+        "coating-assumed": Cause("Thickness or permittivity of a coating are assumed.", "note"),
         "coating-breakdown": Cause("The shaft voltage is above the breakdown voltage of the coating."),
         "current-density-high": Cause(
             "The apparent current density is above the lowest of the published limits."

@@ -303,12 +303,20 @@ def _takes(key: str, field: FieldInfo | None, model: type[Table]) -> str:
 
 def _unknown(key: str, model: type[Table]) -> InputError:
     """Error of an unknown key: advice for a key that users look for, else the nearest known key."""
-    advice = model.ADVICE.get(key)
+    advice = _advice(key, model)
     return (
         InputError.worded(key, f"unknown key; {advice}")
         if advice
         else InputError.unknown(key, nearest_key(key, model))
     )
+
+
+def _advice(key: str, model: type[Table]) -> str | None:
+    """Advice for an unknown key, of the table or of one within it, such as a bearing in a drive."""
+    first, _, rest = key.partition(".")
+    field = model.known_keys().get(first)
+    inner = None if field is None else table_of(field.annotation)
+    return model.ADVICE.get(key) or (None if inner is None else inner.ADVICE.get(rest))
 
 
 def _shown_key(key: str) -> str:

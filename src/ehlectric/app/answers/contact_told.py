@@ -111,6 +111,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "supply-low": _FILM,
         "film-decays": _FILM,
         "shaft-leaks": (),
+        "coating-assumed": (),
         "coating-breakdown": (),
         "current-density-high": (),
         "capacitance-bound": ("capacitance",),

@@ -164,6 +164,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "supply-low": _FILM,
         "film-decays": _FILM,
         "shaft-leaks": _SPARK,
+        "coating-assumed": ("shaft-voltage",),
         "coating-breakdown": ("shaft-voltage",),
         "current-density-high": (),
         "capacitance-bound": ("capacitance", "shaft-voltage"),
@@ -193,6 +194,7 @@ DRIVE_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "arc-burns-on": ("discharges",),
         "few-discharges": ("discharges",),
         "current-density-high": ("current-density",),
+        "coating-assumed": ("at-peak", "peak"),
         "coating-breakdown": ("at-peak", "peak"),
     }
 )

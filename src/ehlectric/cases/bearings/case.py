@@ -79,6 +79,12 @@ _ROUNDING = 1e-9
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length",)
 
+# Advice for an insulated ring.
+_COATED = (
+    "give coating = 'alumina', a coating of the library, or the table [bearing.coating] with base or with "
+    "ring, thickness and relative_permittivity"
+)
+
 # Advice for unknown keys that belong to another table, or have another name.
 _ADVICE = {
     "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
@@ -86,6 +92,11 @@ _ADVICE = {
     "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
     "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
     "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "bearing.coating_thickness": _COATED,
+    "bearing.coating_material": _COATED,
+    "bearing.insulation": _COATED,
+    "bearing.insulated": _COATED,
+    "bearing.coated": _COATED,
     "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
 }
 
