@@ -377,6 +377,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "record-repeated": Cause("A measured waveform is repeated, with a jump from its end to its start."),
         "circuit-undamped": Cause("An oscillation of the circuit of a drive is hardly damped."),
         "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
+        "edges-faster-than-oil": Cause("The edges of a drive are faster than its oil conducts.", "note"),
         "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
         "arc-burns-on": Cause("After breakdowns, films of a drive conduct for much of the time."),
         "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),

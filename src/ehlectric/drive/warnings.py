@@ -25,6 +25,10 @@ MOSTLY = 0.2
 # a hundred periods.
 _UNDAMPED = 300.0
 
+# An oil that discharges the films within so many periods of the inverter is expected to have an effect, and
+# one that takes so many times an edge has none at the edge.
+_PERIODS, _SLOWER = 10.0, 10.0
+
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     """Warnings of both bearings, each with its end, and those of the simulation.
@@ -86,6 +90,24 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
             "measure them, or see what half and double of them change",
         )
     yield from _of_oscillations(case, bearings)
+    yield from _of_conduction(case, bearings)
+
+
+def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
+    """Note of an oil that conducts within some periods of the inverter, but not within its edges."""
+    source = case.running_source
+    rise, frequency = source.rise_time, source.switching_frequency or source.fundamental_frequency
+    if not rise or not frequency:
+        return
+    times = [float(np.min(one.capacitance)) / one.conductance for one in bearings if one.conductance > 0.0]
+    if times and _SLOWER * rise < min(times) < _PERIODS / frequency:
+        shortest = min(times)
+        yield ResultWarning(
+            "edges-faster-than-oil",
+            f"the oil discharges a film in {amount(shortest, 's')}, {shortest / rise:.2g} times the "
+            f"{amount(rise, 's')} of an edge: its conductivity lowers no voltage that an edge puts across "
+            f"the films, only what is left of it later, in a period of {amount(1.0 / frequency, 's')}",
+        )
 
 
 def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
