@@ -378,6 +378,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "circuit-undamped": Cause("An oscillation of the circuit of a drive is hardly damped."),
         "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
         "edges-faster-than-oil": Cause("The edges of a drive are faster than its oil conducts.", "note"),
+        "both-ends-discharge": Cause("Both bearings of a drive discharge at the same edges.", "note"),
         "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
         "arc-burns-on": Cause("After breakdowns, films of a drive conduct for much of the time."),
         "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),

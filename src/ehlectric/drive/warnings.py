@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.drives.case import ENDS, DriveCase
@@ -14,6 +15,7 @@ from ehlectric.cases.row import amount
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS, beside_limits
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.motor import oscillations
+from ehlectric.drive.discharges.record import FILM, ON
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import FEW
 from ehlectric.errors import ResultWarning
@@ -28,6 +30,10 @@ _UNDAMPED = 300.0
 # An oil that discharges the films within so many periods of the inverter is expected to have an effect, and
 # one that takes so many times an edge has none at the edge.
 _PERIODS, _SLOWER = 10.0, 10.0
+
+# Time constants after which an arc has drained the shaft, and share of the discharges from which both ends
+# are said to discharge at once.
+_DRAINED, _TOGETHER = 5.0, 0.1
 
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -48,6 +54,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     yield from _of_threshold(solution)
     yield from _of_time(solution)
     yield from _of_arcs(solution)
+    yield from _of_both_ends(solution)
     yield from _of_currents(solution)
 
 
@@ -161,6 +168,32 @@ def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
                 "which no further discharges are counted: the source feeds their arcs, or "
                 "breakdown.recovery_time is long",
             )
+
+
+def _of_both_ends(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Note of discharges at both ends at once, by edges that are faster than an arc drains the shaft."""
+    events = solution.record.events
+    first, second = (np.sort(events[events[:, FILM] == end, ON]) for end in (0, 1))
+    if min(len(first), len(second)) < FEW:
+        return
+    circuit = solution.case.circuit.capacitances
+    shaft = sum(circuit.get(key, 0.0) for key in ("winding_rotor_capacitance", "rotor_frame_capacitance"))
+    shaft += sum(float(np.mean(one.capacitance)) for one in solution.elements)
+    drains = solution.case.breakdown.arc_resistance * shaft
+    share = float(np.mean(_distance(first, second) < _DRAINED * drains))
+    if share > _TOGETHER:
+        yield ResultWarning(
+            "both-ends-discharge",
+            f"at {100.0 * share:.3g} % of the discharges of the drive end the other end discharges, too: an "
+            f"arc drains the shaft in about {amount(drains, 's')}, and edges raise its voltage faster; with "
+            "slower edges the first arc spares the other bearing, and both share the discharges",
+        )
+
+
+def _distance(times: Array, others: Array) -> Array:
+    """Distance of each time to the nearest of other times, both sorted, in their unit."""
+    at = np.clip(np.searchsorted(others, times), 1, len(others) - 1)
+    return np.minimum(np.abs(times - others[at - 1]), np.abs(times - others[at]))
 
 
 def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
