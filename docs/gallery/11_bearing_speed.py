@@ -36,7 +36,7 @@ for temperature in (50, 70, 90):
     margins = []
     for speed in speeds:
         changes = {"bearing.temperature": f"{temperature} degC", "bearing.inner_speed": f"{speed} rpm"}
-        margins.append(ehlectric.solve(bearing.replace(changes)).breaks()["margin"])
+        margins.append(ehlectric.solve(bearing.replace(changes)).margin)
     ax.plot(speeds, margins, "o-", ms=4, label=f"{temperature} °C")
 ax.axhline(1.0, color="black", lw=0.8, ls=":")
 ax.set(xlabel="speed of the inner ring [rpm]", ylabel="margin (first breakdown / shaft voltage)")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import reprlib
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 # Largest length of a value in a message, and of an error's key, which may be a path, and text [characters].
 _MOST_SHOWN, _LONGEST_LINE = 80, 2000
@@ -111,6 +111,8 @@ class InputError(ValueError):
         Value of the input, or the text in its place; None if the line has neither.
     takes : str or None
         Values that are allowed; None if the line does not state them.
+    several : tuple of InputError
+        Errors that the line joins; empty for the error of one input.
 
     Examples
     --------
@@ -127,6 +129,7 @@ class InputError(ValueError):
     text: str
     got: object
     takes: str | None
+    several: tuple[InputError, ...] = ()
 
     def __init__(
         self, key: object = None, says: str | None = None, /, *, got: object = None, takes: str | None = None
@@ -163,6 +166,27 @@ class InputError(ValueError):
         """Copy of the error with another key and text, but the same ``got`` and ``takes``."""
         return self.worded(key, text, got=self.got, takes=self.takes)
 
+    @classmethod
+    def together(cls, errors: Sequence[InputError]) -> InputError:
+        """Error with the key of the first of several errors, whose line also has what the others say.
+
+        Examples
+        --------
+        >>> wrong = InputError("contact.load", got="'20 V'", takes="a force")
+        >>> print(InputError.together([wrong, InputError.missing("lubricant", "a table")]))
+        contact.load: got '20 V'; expected a force; also missing: lubricant
+        """
+        each = [one for error in errors for one in error.several or (error,)]
+        first, *others = several = {(error.key, error.text): error for error in each}.values()
+        missing = [error.key or "" for error in others if error.text.startswith("missing")]
+        further = [str(error) for error in others if not error.text.startswith("missing")]
+        text = first.text + "".join(f"; also {line}" for line in further)
+        if missing:
+            text += f"; also missing: {', '.join(dict.fromkeys(missing))}"
+        joined = first.retold(first.key, text)
+        joined.several = tuple(several) if others else ()
+        return joined
+
     def under(self, table: str) -> Self:
         """Copy of the error with its key in a table; an error without a key gets the table as its key.
 
@@ -171,6 +195,9 @@ class InputError(ValueError):
         >>> str(InputError("width", got="2 m", takes="less").under("roughness"))
         'roughness.width: got 2 m; expected less'
         """
+        if self.several:
+            joined: Any = self.together([error.under(table) for error in self.several])
+            return joined  # type: ignore[no-any-return]
         return self.retold(".".join(filter(None, [table, self.key])) or None, self.text)
 
 
@@ -228,6 +255,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         # Contact, known before its film is computed
         "regime": Cause("The lubrication regime is outside the validity of most film formulas."),
         "radius-large": Cause("A radius above 1 m was probably given in the wrong unit."),
+        "modulus-low": Cause("A modulus of rubber was probably given in the wrong unit."),
         "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
         "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
         "hardness-low": Cause("The hardness of the surfaces is below the Hertz pressure."),
@@ -316,8 +344,11 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "supply-low": Cause("The supply of oil leaves less than half of the flooded film."),
         "film-decays": Cause("The film halves soon if no oil returns to its track.", "note"),
         "shaft-leaks": Cause("The oil discharges the shaft within a period of the inverter."),
+        "coating-assumed": Cause("Thickness or permittivity of a coating are assumed.", "note"),
         "coating-breakdown": Cause("The shaft voltage is above the breakdown voltage of the coating."),
-        "current-density-high": Cause("The apparent current density is above published limits."),
+        "current-density-high": Cause(
+            "The apparent current density is above the lowest of the published limits."
+        ),
         "capacitance-bound": Cause("The capacitance of a bearing with ceramic elements is an upper bound."),
         "weibull-voltage": Cause("Breakdown voltages are those at a probability of 63.2 %.", "note"),
         "speed-left-out": Cause("The figures over speed leave out a speed that cannot be computed."),
@@ -346,6 +377,8 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "record-repeated": Cause("A measured waveform is repeated, with a jump from its end to its start."),
         "circuit-undamped": Cause("An oscillation of the circuit of a drive is hardly damped."),
         "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
+        "edges-faster-than-oil": Cause("The edges of a drive are faster than its oil conducts.", "note"),
+        "both-ends-discharge": Cause("Both bearings of a drive discharge at the same edges.", "note"),
         "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
         "arc-burns-on": Cause("After breakdowns, films of a drive conduct for much of the time."),
         "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),

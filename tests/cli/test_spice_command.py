@@ -93,3 +93,11 @@ def test_a_drive_is_written_with_its_inverter(ehlectric, tmp_path):
         done = ehlectric("spice", "drive.toml", *words)
         assert done.returncode == 2
         assert done.stderr.startswith(f"error: {words[0]}: got it beside a drive file; expected ")
+
+
+@pytest.mark.slow
+def test_a_drive_without_its_bench_says_so(ehlectric):
+    """Inverter and motor, for which a drive file is taken, stand in the bench alone."""
+    assert ehlectric("init", "drive.toml", "--kind", "drive", "--no-schema").returncode == 0
+    without = ehlectric("spice", "drive.toml", "--contacts", "formula", "-o", "b.lib")
+    assert "--bench" in without.stderr

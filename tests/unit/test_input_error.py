@@ -145,7 +145,7 @@ def test_every_error_is_one_line_that_starts_with_its_key(
             ("grid.wedge", "'third'", ["third-order", "second-order", "first-order"]),
         ),
         ("grid", {"node": 4}, ("grid.node", None, ["grid.nodes"])),
-        ("lubricant", {}, ("lubricant.viscosity_law", None, ["value"])),
+        ("lubricant", {}, ("lubricant.viscosity_law", None, ["roelands", "barus"])),
         (
             "lubricant",
             {"base": "tar"},

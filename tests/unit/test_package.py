@@ -46,3 +46,14 @@ def test_public_names():
     assert callable(ehlectric.solve)
     with pytest.raises(AttributeError, match="nonsense"):
         _ = ehlectric.nonsense
+
+
+def test_help_of_cases_is_about_their_own_methods():
+    """Pydantic's methods made ``help`` of a bearing 650 lines; a screen has about 50."""
+    import pydoc
+
+    for case in (ehlectric.BearingCase, ehlectric.DriveCase, ehlectric.Case):
+        text = pydoc.render_doc(case, renderer=pydoc.plaintext)
+        assert {"model_validate", "schema_json", "from_written"}.isdisjoint(text.split())
+        assert all(f"{name}(" in text for name in ("replace", "from_toml", "from_dict", "to_toml"))
+    assert len(pydoc.render_doc(ehlectric.BearingCase, renderer=pydoc.plaintext).splitlines()) < 160

@@ -114,6 +114,17 @@ class BearingResult(Shown):
         return breaks(self.solution)
 
     @property
+    def margin(self) -> float | None:
+        """Margin: shaft voltage of the first breakdown over the shaft voltage, dimensionless.
+
+        Below 1 breakdown is expected. None without a shaft voltage or without a breakdown voltage, as
+        without ``[motor]`` or a dielectric strength. Its range and its critical speed are those of
+        ``margin_analysis``.
+        """
+        margin: float | None = self.breaks()["margin"]
+        return margin
+
+    @property
     def warnings(self) -> tuple[ResultWarning, ...]:
         """Warnings that tell where the result is unreliable, each once."""
         return tuple(bearing_warnings(self.solution))

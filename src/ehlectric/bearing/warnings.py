@@ -229,7 +229,20 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
 
 
 def _coating_warnings(solution: BearingSolution, shaft: float | None) -> Iterator[ResultWarning]:
-    """Warning of a coating that a shaft voltage [V] breaks down, alone after the films have broken down."""
+    """Warnings of a coating: assumed values, and a shaft voltage [V] that breaks it down.
+
+    The coating breaks down alone after the films have broken down.
+    """
+    coating = solution.case.bearing.coating
+    assumed = {} if coating is None else coating.assumed
+    if coating is not None and assumed:
+        shown = {"thickness": f"{1e6 * coating.thickness:.4g} µm"}
+        values = ", ".join(f"{key} {shown.get(key, f'{value:.4g}')}" for key, value in assumed.items())
+        yield ResultWarning(
+            "coating-assumed",
+            f"the coating {coating.base!r} has assumed values, {values}; give those of your data sheet in "
+            "[bearing.coating]",
+        )
     withstands = shaft_path(solution).coating_breakdown
     if withstands is not None and shaft is not None and withstands < shaft:
         yield ResultWarning(

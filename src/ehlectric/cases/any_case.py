@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearings.recognition import bearing_key
 from ehlectric.cases.case import Case
 from ehlectric.cases.roughness import find_files
 from ehlectric.cases.table import read_toml
@@ -15,7 +16,7 @@ AnyCase = Case | BearingCase
 
 
 def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
-    """Make a bearing case from tables with the key ``bearing``, else a case of a contact.
+    """Make a bearing case from tables with a key of bearing files, else a case of a contact.
 
     Parameters
     ----------
@@ -34,7 +35,7 @@ def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
     InputError
         If the tables are not valid; the message names the key, its value, and what is allowed.
     """
-    model = BearingCase if "bearing" in table else Case
+    model = BearingCase if "bearing" in table or bearing_key(table) is not None else Case
     return model.from_written(table) if written else model.from_dict(table)
 
 

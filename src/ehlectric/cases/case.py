@@ -17,6 +17,7 @@ from ehlectric.cases.changes import displace_alternatives, drop_geometry, flatte
 from ehlectric.cases.contact import Contact, geometry_of
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
+from ehlectric.cases.doubts import warn_of
 from ehlectric.cases.films.inlet import Inlet
 from ehlectric.cases.films.physics import FilmPhysics, check_film
 from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
@@ -218,6 +219,11 @@ class Case(Tabled, Table):
         InputError
             If a key is unknown or missing, or a value is not allowed.
 
+        Warns
+        -----
+        UserWarning
+            If a radius or modulus is one that no machine has, probably for its unit.
+
         Examples
         --------
         >>> case = Case.line(
@@ -233,7 +239,10 @@ class Case(Tabled, Table):
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
         given |= tables(film=film, meter=meter, inlet=inlet, grid=grid, solver=solver)
         table = {"geometry": "line", **contact}
-        return LineCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
+        case = LineCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
+        # One call more is that of the decorator.
+        warn_of(case.contact, level=3)
+        return case
 
     @classmethod
     @takes(PointKeys)
@@ -276,6 +285,11 @@ class Case(Tabled, Table):
         InputError
             If a key is unknown or missing, or a value is not allowed.
 
+        Warns
+        -----
+        UserWarning
+            If a radius or modulus is one that no machine has, probably for its unit.
+
         Examples
         --------
         >>> ball = Case.point(
@@ -292,7 +306,9 @@ class Case(Tabled, Table):
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
         given |= tables(film=film, meter=meter, inlet=inlet, grid=grid, solver=solver)
         table = {"geometry": "point", **contact}
-        return PointCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
+        case = PointCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
+        warn_of(case.contact, level=3)
+        return case
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:

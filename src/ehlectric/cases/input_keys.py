@@ -37,7 +37,7 @@ from ehlectric.cases.oils.over_temperature import ConductivityTable, Permittivit
 from ehlectric.cases.oils.temperature import OilTemperature
 from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.cases.roughness import Roughness
-from ehlectric.cases.table import Table, nearest, nearest_key, table_of
+from ehlectric.cases.table import Table, any_of, meant, nearest, table_of
 from ehlectric.errors import InputError
 
 # Tables and keys that only a bearing file has.
@@ -254,20 +254,30 @@ def input_field(key: str) -> FieldInfo:
                 key, "is a list of tables", takes="a key of one of them, as roughness.1.rescale_rq"
             )
         within, names = names[1:2], [names[0], *names[2:]]
+        if int(within[0]) == 0:
+            first = ".".join(["roughness", "1", *names[1:]])
+            raise InputError(
+                key, got="the number 0", takes=f"numbers of rough surfaces from 1, as in {first}"
+            )
     field: FieldInfo | None = None
     inner: Any = model
     for name in names:
         field = None if inner is None else inner.known_keys().get(name)
         if field is None:
-            known = nearest_key(".".join(names), model).split(".")
-            known[1:1] = within if known[0] == "roughness" and len(known) > 1 else []
-            raise InputError.unknown(key, before + ".".join(known))
+            found = [before + _with_number(one, within) for one in meant(".".join(names), model)]
+            raise InputError.unknown(key, any_of(found))
         inner = table_of(field.annotation)
     if field is None or inner is not None:
         raise InputError(
             key, "is a table", takes=f"one of its keys, as {key}.{next(iter(inner.known_keys()))}"
         )
     return field
+
+
+def _with_number(key: str, within: list[str]) -> str:
+    """Known key with the number of its rough surface, if it is one of a rough surface."""
+    first, dot, rest = key.partition(".")
+    return ".".join([first, *within, rest]) if first == "roughness" and dot else key
 
 
 def _model_of(name: str) -> type[Table]:

@@ -327,6 +327,11 @@ class Quantities:
         each = self.each.__get_pydantic_json_schema__(core, handler)
         return {"type": "array", "items": each, "minItems": self.least}
 
+    @property
+    def takes(self) -> str:
+        """Description of the values that are allowed, for messages."""
+        return f"a list of {self.least} or more, each {self.each.takes}"
+
     def parse(self, entry: object, *, written: bool = False) -> tuple[float, ...]:
         """Convert an entry of a case to values in SI units.
 
@@ -349,9 +354,7 @@ class Quantities:
         """
         row = getattr(entry, "ndim", None) == 1
         if not (row or isinstance(entry, list | tuple)) or len(entry) < self.least:  # type: ignore[arg-type]
-            raise InputError(
-                got=shown(entry), takes=f"a list of {self.least} or more, each {self.each.takes}"
-            )
+            raise InputError(got=shown(entry), takes=self.takes)
         return tuple(self.each.parse(item, written=written) for item in entry)  # type: ignore[attr-defined]
 
 
@@ -382,6 +385,11 @@ class Count:
             "description": self.reason,
         }
 
+    @property
+    def takes(self) -> str:
+        """Description of the values that are allowed, for messages."""
+        return f"a whole number from {self.least} to {self.most}: {self.reason}"
+
     def parse(self, entry: object) -> int:
         """Check an entry of a case and return it as a whole number.
 
@@ -393,7 +401,5 @@ class Count:
         item = scalar(entry)
         whole = isinstance(item, numbers.Integral) and not isinstance(item, bool)
         if not (whole and self.least <= int(item) <= self.most):  # type: ignore[call-overload]
-            raise InputError(
-                got=shown(entry), takes=f"a whole number from {self.least} to {self.most}: {self.reason}"
-            )
+            raise InputError(got=shown(entry), takes=self.takes)
         return int(item)  # type: ignore[call-overload, no-any-return]

@@ -5,15 +5,17 @@ from __future__ import annotations
 import difflib
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from inspect import Parameter, Signature
 from pathlib import Path
 from types import UnionType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
 from pydantic.fields import FieldInfo
-from pydantic_core import CoreSchema, ErrorDetails
+from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
+from ehlectric.cases.aliases import ALIASES
 from ehlectric.cases.depth import refuse_deep, refuse_long_keys
 from ehlectric.cases.quantity import WRITTEN
 from ehlectric.errors import InputError, short, shown
@@ -24,10 +26,29 @@ _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")
     "ADVICE",
     "from_written",
     "known_keys",
+    "sign_of",
 }
 
 
-class Table(BaseModel):
+class _Unstated:
+    """Default of a key in a signature, where it would be longer than the rest of the line."""
+
+    def __repr__(self) -> str:
+        return "..."
+
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass as _Listed
+else:
+
+    class _Listed(type(BaseModel)):
+        """Class of tables, of which ``dir`` and ``help`` list what is theirs and not what is pydantic's."""
+
+        def __dir__(cls) -> list[str]:
+            return [name for name in super().__dir__() if name not in _HIDDEN and not name.startswith("_")]
+
+
+class Table(BaseModel, metaclass=_Listed):
     """Frozen table of a case file; unknown keys are errors."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -54,6 +75,17 @@ class Table(BaseModel):
 
         def __delattr__(self, name: str) -> None:
             raise _frozen(name)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """Give the class a signature of one line, without the annotations that pydantic reads."""
+        super().__pydantic_init_subclass__(**kwargs)
+        kind = Parameter.KEYWORD_ONLY
+        parameters = [
+            Parameter(name, kind, default=Parameter.empty if field.is_required() else _Unstated())
+            for name, field in cls.model_fields.items()
+        ]
+        cls.__signature__ = Signature(parameters)
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _HIDDEN]
@@ -120,6 +152,11 @@ class Table(BaseModel):
             return cls.model_validate(dict(table), context={WRITTEN: written})
         except ValidationError as error:
             raise first_error(error, cls) from None
+
+    @classmethod
+    def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
+        """Text that tells why a missing key is expected beside the given keys; empty by default."""
+        return ""
 
     @classmethod
     def known_keys(cls) -> dict[str, FieldInfo]:
@@ -195,20 +232,26 @@ def nearest(name: str, known: Iterable[str]) -> str:
 
 
 def first_error(error: ValidationError, model: type[Table]) -> InputError:
-    """Convert a validation error to an InputError about the first thing that the user should correct.
+    """Convert a validation error to one InputError, about everything that the user should correct.
 
     An unknown key comes before a missing key, because it is often the missing key with a wrong name.
     """
-    first, *others = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
-    wrong, more = _error(first, model), ""
-    if first["type"] == "missing":
-        table = first["loc"][:-1]
-        also = [other for other in others if other["type"] == "missing" and other["loc"][:-1] == table]
-        if also:
-            more = "; also missing: " + ", ".join(str(other["loc"][-1]) for other in also)
-        others = [other for other in others if other not in also]
-    more += f" (and {len(others)} more)" if others else ""
-    return wrong.retold(wrong.key, wrong.text + more)
+    # A default that is made from other keys says nothing beside the errors of these keys.
+    details = [detail for detail in error.errors() if detail["type"] != "default_factory_not_called"]
+    details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
+    return InputError.together([_error(detail, model) for detail in details])
+
+
+def with_further(error: ValidationError, loc: tuple[str, ...], further: InputError) -> ValidationError:
+    """Validation error with a further error of the table at a location."""
+    details = [
+        InitErrorDetails(
+            type=detail["type"], loc=detail["loc"], input=detail["input"], ctx=detail.get("ctx", {})
+        )
+        for detail in error.errors()
+    ]
+    details.append(InitErrorDetails(type="value_error", loc=loc, input=None, ctx={"error": further}))
+    return ValidationError.from_exception_data(error.title, details)
 
 
 def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
@@ -219,7 +262,7 @@ def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
         case "extra_forbidden":
             return _unknown(key, model)
         case "missing" if isinstance(detail["loc"][-1], str):
-            return _missing(key, model)
+            return _missing(key, model, detail["input"])
         case "value_error":
             # The error of a quantity has no key, and the error of a table lacks the name of the table.
             wrong = detail["ctx"]["error"]
@@ -238,25 +281,42 @@ def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
     return InputError(key, got=f"{value}, {detail['msg']}")
 
 
-def _missing(key: str, model: type[Table]) -> InputError:
-    """Error of a required key: what is expected where a few words tell it, else that it is required."""
+def _missing(key: str, model: type[Table], given: Any) -> InputError:
+    """Error of a required key, with the values that it takes."""
     field = _fields(model).get(key)
-    if _kind(key, model) == "table" or (field and get_origin(field.annotation) is Mapping):
-        return InputError.missing(key, "a table")
-    choices = get_args(field.annotation) if field and get_origin(field.annotation) is Literal else ()
-    if choices:
-        return InputError.missing(key, f"one of {', '.join(map(repr, choices))}")
-    return InputError.worded(key, "required", takes="a value")
+    sign = model.sign_of(key, given) if isinstance(given, Mapping) else ""
+    return InputError.missing(key, _takes(key, field, model) + sign)
+
+
+def _takes(key: str, field: FieldInfo | None, model: type[Table]) -> str:
+    """Values that a required key takes."""
+    if _kind(key, model) == "table" or field is None or get_origin(field.annotation) is Mapping:
+        return "a table"
+    if get_origin(field.annotation) is Literal:
+        return f"one of {', '.join(map(repr, get_args(field.annotation)))}"
+    for part in field.metadata:
+        # Quantities, whole numbers and names of laws say what they take.
+        if takes := getattr(part, "takes", None):
+            return str(takes)
+    return "a text" if field.annotation is str else "a list"
 
 
 def _unknown(key: str, model: type[Table]) -> InputError:
     """Error of an unknown key: advice for a key that users look for, else the nearest known key."""
-    advice = model.ADVICE.get(key)
+    advice = _advice(key, model)
     return (
         InputError.worded(key, f"unknown key; {advice}")
         if advice
         else InputError.unknown(key, nearest_key(key, model))
     )
+
+
+def _advice(key: str, model: type[Table]) -> str | None:
+    """Advice for an unknown key, of the table or of one within it, such as a bearing in a drive."""
+    first, _, rest = key.partition(".")
+    field = model.known_keys().get(first)
+    inner = None if field is None else table_of(field.annotation)
+    return model.ADVICE.get(key) or (None if inner is None else inner.ADVICE.get(rest))
 
 
 def _shown_key(key: str) -> str:
@@ -265,12 +325,40 @@ def _shown_key(key: str) -> str:
 
 
 def nearest_key(key: str, model: type[Table]) -> str:
-    """Known key that is nearest to an unknown key.
+    """Known keys that an unknown key may mean, as a text of a message; see ``meant``."""
+    return any_of(meant(key, model))
 
-    A key with the same name in another table comes first, then the most similar key in the same table.
+
+def any_of(keys: Sequence[str]) -> str:
+    """Keys as a text of a message.
+
+    Examples
+    --------
+    >>> any_of(["a", "b", "c"])
+    'a, b or c'
+    """
+    *first, last = keys
+    return f"{', '.join(first)} or {last}" if first else last
+
+
+def meant(key: str, model: type[Table]) -> list[str]:
+    """Known keys that an unknown key may mean.
+
+    Those of ``ALIASES`` come first, then a key with the same name in another table, then the most similar
+    key in the same table.
     """
     table, _, leaf = key.rpartition(".")
     known = list(_keys(model))
+    for before, name in (("", key), tuple(key.partition(".")[::2])):
+        prefix = f"{before}." if before else ""
+        alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]
+        if alias:
+            return alias
+    return [_nearest_of(key, table, leaf, known)]
+
+
+def _nearest_of(key: str, table: str, leaf: str, known: Sequence[str]) -> str:
+    """Known key with the same name as an unknown key in another table, else the most similar one."""
     elsewhere = [name for name in known if name.rpartition(".")[2] == leaf]
     if elsewhere:
         return elsewhere[0]

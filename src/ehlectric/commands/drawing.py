@@ -109,18 +109,18 @@ def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequen
     from ehlectric.figures.style import style as styled
     from ehlectric.figures.sweep.save import save_maps, save_speeds
     from ehlectric.figures.sweep.sensitivity import save_sensitivity
-    from ehlectric.sweep.breakdown_keys import main_value
+    from ehlectric.sweep.breakdown_keys import main_value, ranked_value
     from ehlectric.sweep.sensitivity import sensitivity
     from ehlectric.sweep.slices import take
     from ehlectric.sweep.warnings import sensitivity_warnings
 
-    value = main_value(results.case)
     if results.ranges:
-        indices = sensitivity(results, value)
+        indices = sensitivity(results, ranked_value(results.case))
         prepare(folder, in_formats([SENSITIVITY_FIGURE], formats))
         with styled(style):
             files = save_sensitivity(results, indices, folder / SENSITIVITY_FIGURE, formats)
         return tuple(files), tuple(sensitivity_warnings(indices))
+    value = main_value(results.case)
     x, y = _axes(results, home)
     taken = take(results, x, y, value)
     prepare(folder, in_formats((*map_files(value), *SPEED_FIGURE_FILES), formats))

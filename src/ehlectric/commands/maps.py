@@ -121,7 +121,8 @@ def sensitivity(
 ) -> None:
     """Show which inputs of a Sobol design contribute most to the spread of a value.
 
-    Writes sensitivity.json with the spread and the Sobol indices, and a figure of both.
+    Writes sensitivity.json with the spread and the Sobol indices, and a figure of both. By default the value
+    is the breakdown voltage of a contact, the margin of a bearing with a motor, or the rate of a drive.
     """
     with user_errors():
         look = figure_options(formats, style)
@@ -132,12 +133,12 @@ def sensitivity(
         from ehlectric.runs.folders import SENSITIVITY
         from ehlectric.runtime.files import write_json
         from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
-        from ehlectric.sweep.breakdown_keys import main_value
+        from ehlectric.sweep.breakdown_keys import ranked_value
         from ehlectric.sweep.sensitivity import sensitivity as sensitivity_of
         from ehlectric.sweep.store import read_sweep
 
         results = read_sweep(folder)
-        indices = sensitivity_of(results, value or main_value(results.case))
+        indices = sensitivity_of(results, value or ranked_value(results.case))
         names = in_formats([SENSITIVITY_FIGURE], look["formats"])
         with alone_in(output or folder, (SENSITIVITY, *names), locks=[FIGURE_LOCK]) as target, styled(style):
             write_json(target / SENSITIVITY, indices.to_dict())

@@ -52,11 +52,15 @@ def animate(
         ),
     ],
     output: Annotated[
-        Path,
+        Path | None,
         typer.Option(
-            "--output", "-o", metavar="FILE", help="Write this file, a GIF or an MP4 by its suffix."
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Write this file, a GIF or an MP4 by its suffix; by default motion.gif in DIR.",
+            show_default=False,
         ),
-    ] = Path("motion.gif"),
+    ] = None,
     fps: Annotated[
         int, typer.Option(metavar="N", help="Show this number of pictures per second.", min=1, max=50)
     ] = 25,
@@ -68,6 +72,7 @@ def animate(
         from ehlectric.motion.stored_run import read_motion
 
         dataset = read_motion(folder)
+        output = (folder if folder.is_dir() else folder.parent) / "motion.gif" if output is None else output
         with progress_bar(shown=not quiet) as progress:
             save_animation(dataset, output, fps=fps, progress=progress)
     if not quiet:

@@ -20,6 +20,7 @@ from ehlectric.errors import InputError, shown
 
 
 def reproduce(
+    words: Annotated[list[str] | None, typer.Argument(hidden=True)] = None,
     output: Output = Path("reproduced"),
     figure: Annotated[
         str | None,
@@ -39,6 +40,8 @@ def reproduce(
     The paper is Morris, Leighton and Morris, Lubricants 10 (2022) 87. The report is reproduced/report.html.
     """
     with user_errors():
+        if words:
+            raise InputError(words[0], "is no option", takes=_meant(words))
         from ehlectric.paper.reproduce import reproduce as reproduced
 
         look = figure_options(formats, style)
@@ -62,6 +65,16 @@ def reproduce(
     if not made.converged:
         typer.echo("error: not converged: some films of the study", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _meant(words: list[str]) -> str:
+    """Option that words on the command line mean, such as "table3" or "figure 5"."""
+    text = "".join(words).lower()
+    number = "".join(letter for letter in text if letter.isdigit())
+    name = "--table" if text.startswith("tab") else "--figure"
+    if number and text.startswith(("tab", "fig")):
+        return f"{name} {number}"
+    return "--figure NUMBER, --table NUMBER, or no word for the whole paper"
 
 
 def _number(name: str, text: str | None) -> int | None:

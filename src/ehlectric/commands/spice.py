@@ -126,6 +126,8 @@ def spice(
             print_rows(_rows(one), one.case.title)
         echo_files(files)
         warn(dict.fromkeys(warning for one in found for warning in one.warnings()))
+        if kind == "drive" and bench is None:
+            say("note: the bearings alone; --bench FILE.cir also writes the inverter and the motor", err=True)
         for note in dict.fromkeys(note for one in found for note in one.notes):
             say(f"note: {note}", err=True)
     if not all(result.converged for one in found for result in one.results):

@@ -28,6 +28,7 @@ from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.runtime.progress import Progress, silent
 
 if TYPE_CHECKING:
+    from ehlectric.sweep.inputs import Sweep
     from ehlectric.sweep.results import SweepResults
 
 
@@ -89,6 +90,8 @@ def sweep(
 
         expect(sweep_file, "sweep")
         asked = by_kind.read_sweep_file(sweep_file)
+        if not quiet:
+            _tell_what_lacks(asked)
         with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
             outcome = by_kind.RUNS["sweep"].run(asked, output, progress, **options)
         wanted = (plots or bool(formats)) and outcome.converged
@@ -104,6 +107,18 @@ def sweep(
     elif outcome.converged:
         warn(_in_short(outcome.result))
     refuse_failure(outcome)
+
+
+def _tell_what_lacks(sweep: Sweep) -> None:
+    """Warn, before points are solved, of a point of a sweep of drives that cannot be computed."""
+    from ehlectric.cases.drives.case import DriveCase
+    from ehlectric.sweep.preview import lacking_point
+    from ehlectric.sweep.run import planned_points
+
+    drives = isinstance(sweep.case, DriveCase)
+    lacking = lacking_point(sweep, planned_points(sweep)) if drives else None
+    if lacking is not None:
+        warn([f"{lacking}; points like it will fail"])
 
 
 def _drawn(folder: Path, look: Look) -> tuple[tuple[Path, ...], tuple[ResultWarning | str, ...]]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ehlectric.cases import library
 from ehlectric.cases.case import Case
+from ehlectric.cases.doubts import modulus_doubt, radius_doubt
 from ehlectric.cases.films.physics import CONSTANTS
 from ehlectric.cases.oils.resolution import viscosity_over_temperature
 from ehlectric.contact.conditions import Conditions, PointConditions
@@ -20,9 +21,6 @@ from ehlectric.lubricant.oil import Oil
 # Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
 LINE_PERMANENT = 4e9
 
-# Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
-_LARGEST = 1.0
-
 # The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
 # contact, this length is the following number divided by Moes' M.
 _RIGID_INLET = 14.0
@@ -33,7 +31,7 @@ POINT_PERMANENT = 4.2e9
 
 def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a line contact, known before it is solved."""
-    yield from radius_warnings("reduced_radius", conditions.reduced_radius)
+    yield from unit_warnings("reduced_radius", conditions.reduced_radius, conditions.reduced_modulus)
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
     yield from regime_warnings(conditions)
@@ -88,11 +86,10 @@ def hardness_warnings(conditions: Conditions | PointConditions) -> Iterator[Resu
         )
 
 
-def radius_warnings(key: str, radius: float) -> Iterator[ResultWarning]:
-    """Warning about a reduced radius [m], with its key, that no machine part has."""
-    if radius > _LARGEST:
-        text = f"{key} is {radius:.4g} m, more than machine parts have: is the unit of the radii right?"
-        yield ResultWarning("radius-large", text)
+def unit_warnings(key: str, radius: float, modulus: float) -> Iterator[ResultWarning]:
+    """Warnings about a reduced radius [m], with its key, or modulus [Pa] that no machine part has."""
+    yield from (ResultWarning("radius-large", text) for text in radius_doubt(key, radius))
+    yield from (ResultWarning("modulus-low", text) for text in modulus_doubt(modulus))
 
 
 def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
@@ -149,7 +146,7 @@ def pressure_warnings(
 
 def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
     """Warnings about the operating conditions of a point contact, known before it is solved."""
-    yield from radius_warnings("radius_x", conditions.radius_x)
+    yield from unit_warnings("radius_x", conditions.radius_x, conditions.reduced_modulus)
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
     yield from point_regime_warnings(conditions)

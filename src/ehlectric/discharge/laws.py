@@ -201,3 +201,17 @@ def relaxation_time(relative_permittivity: float, conductivity: float) -> float:
     21.25
     """
     return epsilon_0 * relative_permittivity / conductivity
+
+
+def beside_limits(density: float) -> str:
+    """Text that tells above which of the published limits an apparent current density [A/m^2] lies.
+
+    Examples
+    --------
+    >>> beside_limits(0.364e6)
+    'above 2 of the published limits for bearings, 0.1, 0.3 and 0.8 A/mm²'
+    """
+    *first, last = (f"{1e-6 * limit:g}" for limit in CURRENT_DENSITY_LIMITS)
+    above = sum(density > limit for limit in CURRENT_DENSITY_LIMITS)
+    part = "all" if above == len(CURRENT_DENSITY_LIMITS) else str(above) if above else "none"
+    return f"above {part} of the published limits for bearings, {', '.join(first)} and {last} A/mm²"

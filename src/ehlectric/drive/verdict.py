@@ -9,7 +9,7 @@ from typing import Any
 from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount, number_text
-from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
+from ehlectric.discharge.laws import beside_limits
 from ehlectric.discharge.verdict import (
     DOUBTS,
     STRENGTH_UNKNOWN,
@@ -172,11 +172,8 @@ def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
     densities = [end["current_density"] for end in ends if end["current_density"]]
     if not densities:
         return
-    low, high = (1e-6 * limit for limit in (CURRENT_DENSITY_LIMITS[0], CURRENT_DENSITY_LIMITS[-1]))
-    text = (
-        f"The largest current over the Hertz areas is {1e-6 * max(densities):.3g} A/mm², where published "
-        f"limits are {low:g} to {high:g} A/mm²"
-    )
+    most = max(densities)
+    text = f"The largest current over the Hertz areas is {1e-6 * most:.3g} A/mm², {beside_limits(most)}"
     if any(end["events"] for end in ends):
         arc = amount(case.breakdown.arc_resistance, "Ω")
         text += f"; energies and currents follow from an arc of {arc}, which is an assumption"

@@ -7,13 +7,15 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.row import amount
-from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
+from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS, beside_limits
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.motor import oscillations
+from ehlectric.drive.discharges.record import FILM, ON
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import FEW
 from ehlectric.errors import ResultWarning
@@ -24,6 +26,14 @@ MOSTLY = 0.2
 # Quality factor from which an oscillation of the circuit is said to be hardly damped: it rings for more than
 # a hundred periods.
 _UNDAMPED = 300.0
+
+# An oil that discharges the films within so many periods of the inverter is expected to have an effect, and
+# one that takes so many times an edge has none at the edge.
+_PERIODS, _SLOWER = 10.0, 10.0
+
+# Time constants after which an arc has drained the shaft, and share of the discharges from which both ends
+# are said to discharge at once.
+_DRAINED, _TOGETHER = 5.0, 0.1
 
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
@@ -44,6 +54,7 @@ def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
     yield from _of_threshold(solution)
     yield from _of_time(solution)
     yield from _of_arcs(solution)
+    yield from _of_both_ends(solution)
     yield from _of_currents(solution)
 
 
@@ -86,6 +97,24 @@ def machine_warnings(case: DriveCase, bearings: Sequence[BearingElement]) -> Ite
             "measure them, or see what half and double of them change",
         )
     yield from _of_oscillations(case, bearings)
+    yield from _of_conduction(case, bearings)
+
+
+def _of_conduction(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
+    """Note of an oil that conducts within some periods of the inverter, but not within its edges."""
+    source = case.running_source
+    rise, frequency = source.rise_time, source.switching_frequency or source.fundamental_frequency
+    if not rise or not frequency:
+        return
+    times = [float(np.min(one.capacitance)) / one.conductance for one in bearings if one.conductance > 0.0]
+    if times and _SLOWER * rise < min(times) < _PERIODS / frequency:
+        shortest = min(times)
+        yield ResultWarning(
+            "edges-faster-than-oil",
+            f"the oil discharges a film in {amount(shortest, 's')}, {shortest / rise:.2g} times the "
+            f"{amount(rise, 's')} of an edge: its conductivity lowers no voltage that an edge puts across "
+            f"the films, only what is left of it later, in a period of {amount(1.0 / frequency, 's')}",
+        )
 
 
 def _of_oscillations(case: DriveCase, bearings: Sequence[BearingElement]) -> Iterator[ResultWarning]:
@@ -141,14 +170,39 @@ def _of_arcs(solution: DriveSolution) -> Iterator[ResultWarning]:
             )
 
 
+def _of_both_ends(solution: DriveSolution) -> Iterator[ResultWarning]:
+    """Note of discharges at both ends at once, by edges that are faster than an arc drains the shaft."""
+    events = solution.record.events
+    first, second = (np.sort(events[events[:, FILM] == end, ON]) for end in (0, 1))
+    if min(len(first), len(second)) < FEW:
+        return
+    circuit = solution.case.circuit.capacitances
+    shaft = sum(circuit.get(key, 0.0) for key in ("winding_rotor_capacitance", "rotor_frame_capacitance"))
+    shaft += sum(float(np.mean(one.capacitance)) for one in solution.elements)
+    drains = solution.case.breakdown.arc_resistance * shaft
+    share = float(np.mean(_distance(first, second) < _DRAINED * drains))
+    if share > _TOGETHER:
+        yield ResultWarning(
+            "both-ends-discharge",
+            f"at {100.0 * share:.3g} % of the discharges of the drive end the other end discharges, too: an "
+            f"arc drains the shaft in about {amount(drains, 's')}, and edges raise its voltage faster; with "
+            "slower edges the first arc spares the other bearing, and both share the discharges",
+        )
+
+
+def _distance(times: Array, others: Array) -> Array:
+    """Distance of each time to the nearest of other times, both sorted, in their unit."""
+    at = np.clip(np.searchsorted(others, times), 1, len(others) - 1)
+    return np.minimum(np.abs(times - others[at - 1]), np.abs(times - others[at]))
+
+
 def _of_currents(solution: DriveSolution) -> Iterator[ResultWarning]:
-    """Warning of largest currents whose density is above published limits."""
-    low, high = (1e-6 * CURRENT_DENSITY_LIMITS[k] for k in (0, -1))
+    """Warning of largest currents whose density is above the lowest of the published limits."""
     for b, (end, one) in enumerate(zip(ENDS, solution.elements, strict=True)):
         density = solution.largest_current(b) / one.hertz_area if one.hertz_area else 0.0
         if density > CURRENT_DENSITY_LIMITS[0]:
             yield ResultWarning(
                 "current-density-high",
                 f"{end}: the apparent current density is {1e-6 * density:.3g} A/mm², the largest current "
-                f"over the Hertz areas; published limits for bearings are {low:g} to {high:g} A/mm²",
+                f"over the Hertz areas: {beside_limits(density)}",
             )

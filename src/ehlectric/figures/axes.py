@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
+from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
 from ehlectric.arrays import Array
@@ -53,12 +55,31 @@ def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
         return
     ax = axis.axes
     assert ax is not None
-    (ax.set_xscale if axis.axis_name == "x" else ax.set_yscale)("log")  # type: ignore[attr-defined]
+    along = axis is ax.xaxis
+    (ax.set_xscale if along else ax.set_yscale)("log")
     finite = values[np.isfinite(values)]
-    axis.set_major_locator(FixedLocator(list(_ticks(np.unique(finite)))))
+    ticks = _ticks(np.unique(finite))
+    axis.set_major_locator(FixedLocator(list(_apart(ticks, ax) if along else ticks)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
     axis.set_minor_formatter(NullFormatter())
+
+
+def _apart(ticks: Array, ax: Axes) -> Array:
+    """Ticks of a logarithmic x axis whose labels do not touch on the page; the largest ones stay."""
+    if len(ticks) < 2:
+        return ticks
+    size = FontProperties(size=mpl.rcParams["xtick.labelsize"]).get_size_in_points()
+    # Labels beside the curves take up to a third of the width from the axes.
+    width = 0.67 * 72.0 * figure_of(ax).get_figwidth() * ax.get_position().width
+    room = width / np.log(ticks[-1] / ticks[0])
+    kept = [float(ticks[-1])]
+    for tick in ticks[-2::-1]:
+        # A digit is about 0.64 of its size wide, and two labels are as far from each other.
+        letters = 0.5 * (len(f"{tick:g}") + len(f"{kept[0]:g}")) + 1.0
+        if np.log(kept[0] / tick) * room >= 0.64 * size * letters:
+            kept.insert(0, float(tick))
+    return np.array(kept)
 
 
 def _ticks(values: Array) -> Array:

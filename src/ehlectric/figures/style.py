@@ -14,7 +14,6 @@ from typing import Any, Protocol, TypeVar
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -346,7 +345,7 @@ def drawing_of(drawings: Mapping[str, D], name: str) -> D:
 
 
 def legend_above(
-    ax: Axes, handles: Sequence[Artist] | None = None, columns: int = 2, *, lift: float = 0.0, **options: Any
+    ax: Axes, handles: Sequence[Any] | None = None, columns: int = 2, *, lift: float = 0.0, **options: Any
 ) -> None:
     """Place a legend above the axes, of the given artists, or of all that have a label.
 
@@ -354,8 +353,8 @@ def legend_above(
     ----------
     ax : Axes
         Axes of the legend.
-    handles : sequence of Artist, optional
-        Artists in the legend; all that have a label if omitted.
+    handles : sequence of Artist or tuple of Artist, optional
+        Artists in the legend, those of a tuple drawn over each other; all that have a label if omitted.
     columns : int
         Columns of the legend; fewer where the page is too narrow for them.
     lift : float
@@ -363,7 +362,7 @@ def legend_above(
     **options
         Further options of a legend of matplotlib.
     """
-    entries = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
+    entries: list[Any] = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
     labels = options.get("labels") or [str(entry.get_label()) for entry in entries]
     ax.legend(
         handles=entries,

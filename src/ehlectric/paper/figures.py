@@ -24,6 +24,12 @@ from ehlectric.paper.study import Study, readings_differ_by, straight_line
 _COLOURS = ("#0072b2", "#009e73", "#cc79a7", "#e69f00")
 _MICRO = 1e6
 
+# Width of figures with two panels beside each other on the screen [inches].
+_SCREEN_WIDTH = 10.0
+
+# Height of the legend below two panels of a journal [inches].
+_LEGEND_HEIGHT = 0.9
+
 # Half of the height of sections that are compared, over the thickest central film.
 _AROUND = 0.9
 
@@ -76,7 +82,14 @@ def _speed(contact: PaperContact) -> str:
 
 
 def _title(ax: Axes, text: str) -> None:
-    ax.set_title(text, loc="left", weight="bold")
+    """Write the name of a panel over its left end; on narrow pages above what stands over its right end."""
+    above = _narrow(ax) and bool(ax.get_title(loc="right"))
+    ax.set_title(f"{text}\n " if above else text, loc="left", weight="bold")
+
+
+def _narrow(ax: Axes) -> bool:
+    """Whether the figure of a panel is narrower than on the screen, as in a journal."""
+    return figure_of(ax).get_figwidth() < _SCREEN_WIDTH
 
 
 def _compared(panels: Sequence[Axes], results: Iterable[Result]) -> Figure:
@@ -108,7 +121,7 @@ def potentials(study: Study) -> Figure:
 
 def _strengths(solved: dict[PaperContact, Result], gigapascal: int) -> Figure:
     """Draw the dimensionless field strength of the four contacts of a Hertz pressure, on the same scales."""
-    panels = new_panels(2, 2, (10.0, 6.8))
+    panels = new_panels(2, 2, (_SCREEN_WIDTH, 6.8))
     results = {contact: solved[contact] for contact in _of(gigapascal)}
     largest = max(float(np.max(r.field.strength)) * r.strength_scale for r in results.values())
     for ax, (contact, result) in zip(panels, results.items(), strict=True):
@@ -138,7 +151,10 @@ def _middle(
     ``scale`` gives the factor from V/m to the drawn unit; ``exits`` has the ranges of x/b at the exit that
     insets show, by Hertz pressure [GPa].
     """
-    panels = new_panels(1, 2, (10.0, 4.6))
+    panels = new_panels(1, 2, (_SCREEN_WIDTH, 4.6))
+    if _narrow(panels[0]):
+        figure = figure_of(panels[0])
+        figure.set_figheight(figure.get_figheight() + _LEGEND_HEIGHT)
     for ax, letter, gigapascal in zip(panels, "ab", (1, 2), strict=True):
         contacts = _of(gigapascal)
         difference = max(readings_differ_by(solved[contact]) for contact in contacts)
@@ -157,19 +173,28 @@ def _middle(
             ax.plot([], [], **_STRAIGHT, label="mid-film as a straight line")
         apart = "coincide" if coincide else f"differ by up to {100.0 * difference:.2g} %"
         _title(ax, f"({letter}) {gigapascal} GPa")
-        ax.set_title(f"both definitions of mid-film {apart}", loc="right")
+        ax.set_title(f"both definitions of mid-film{chr(10) if _narrow(ax) else ' '}{apart}", loc="right")
         ax.set(xlabel="$x/b$", ylabel=label, xlim=(-1.25, 1.25))
-        ax.legend(loc="upper left", ncols=2, frameon=False)
+        _legend_of_readings(ax)
     top = max(scale(r) * float(np.max(r.field.middle_strength)) for r in solved.values())
     for ax in panels:
-        ax.set_ylim(0.0, 1.35 * top)
+        # On narrow pages the legend is below the panel, and needs no room in it.
+        ax.set_ylim(0.0, (1.08 if _narrow(ax) else 1.35) * top)
         ax.label_outer()
     return figure_of(panels[0])
 
 
+def _legend_of_readings(ax: Axes) -> None:
+    """Legend of the curves at mid-film: in the panel, or below it where the panel is too narrow for it."""
+    if _narrow(ax):
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), frameon=False)
+    else:
+        ax.legend(loc="upper left", ncols=2, frameon=False)
+
+
 def _exit_inset(ax: Axes, zone: tuple[float, float]) -> Axes:
     """Axes of an inset that shows a range of x/b at the exit."""
-    inset = ax.inset_axes((0.27, 0.07, 0.42, 0.36))
+    inset = ax.inset_axes((0.27, 0.12 if _narrow(ax) else 0.07, 0.42, 0.36))
     inset.set(xlim=zone, ylim=(0.3, 1.05))
     inset.set_title("exit", fontsize=7.0, pad=2.0)
     inset.tick_params(labelsize=6.5)

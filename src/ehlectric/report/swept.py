@@ -22,7 +22,7 @@ from ehlectric.report.facts import cell_table, row_tables
 from ehlectric.report.limits import limits_of, references_of
 from ehlectric.report.part import Part, lead_of
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.breakdown_keys import breakdown_of, main_value
+from ehlectric.sweep.breakdown_keys import breakdown_of, main_value, ranked_value
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.results import SweepResults
@@ -121,7 +121,7 @@ def _sections(results: SweepResults) -> Iterator[Section]:
 
 def _sensitivity(results: SweepResults) -> Iterator[Block]:
     try:
-        indices = sensitivity(results, main_value(results.case))
+        indices = sensitivity(results, ranked_value(results.case))
     except InputError as error:
         yield Text(f"There are no sensitivity indices: {error.text}.")
         return

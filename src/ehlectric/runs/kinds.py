@@ -131,7 +131,12 @@ def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
         return "bearing"
     if "motion" in table:
         return "motion"
-    return "contact" if "contact" in table else None
+    if "contact" in table:
+        return "contact"
+    # Bearing files load the physics of bearings, which few files without a table of a kind need.
+    from ehlectric.cases.bearings.recognition import bearing_key
+
+    return None if bearing_key(table) is None else "bearing"
 
 
 def _refuse_result(path: Path) -> None:

@@ -280,6 +280,7 @@ def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
 @check.register
 def _check_sweep(sweep: Sweep) -> Meaning:
     from ehlectric.sweep.plan import plan
+    from ehlectric.sweep.preview import lacking_point
 
     started = time.perf_counter()
     planned = list(islice(plan(sweep), _MOST_CHECKED))
@@ -291,6 +292,8 @@ def _check_sweep(sweep: Sweep) -> Meaning:
     meaning = check(sweep.case.replace(first.inputs))
     seconds = time.perf_counter() - begun + each
     described = _described(sweep, planned, first)
+    lacking = lacking_point(sweep, planned)
+    described["lacking"] = None if lacking is None else str(lacking)
     rows = (*_sweep_rows(sweep, described, seconds), Row("first point:"), *meaning.rows)
     summary = {"sweep": described, "first_point": meaning.summary}
     return replace(meaning, title=sweep.title or meaning.title, rows=rows, summary=summary, verdict=None)
@@ -326,6 +329,8 @@ def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> I
     if described["points_refused"]:
         refused = f"of {described['points_checked']} checked points are no valid case: {described['reason']}"
         yield Row("  refused", str(described["points_refused"]), note=refused, alarm=True)
+    if described["lacking"] is not None:
+        yield Row("  points fail", note=described["lacking"], alarm=True)
     if isinstance(sweep.case, BearingCase) and sweep.case.contacts in QUICK:
         whole = sweep.size * seconds / cores()
         yield Row(

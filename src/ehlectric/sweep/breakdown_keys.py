@@ -111,6 +111,24 @@ def main_value(case: SweptCase) -> str:
     return breakdown_of(case).value or "drive.events_per_second"
 
 
+def ranked_value(case: SweptCase) -> str:
+    """Key of the summary to whose spread the inputs of a Sobol design are ranked.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Base case of the sweep.
+
+    Returns
+    -------
+    str
+        Margin of a bearing with a motor, of which the breakdown voltage is only a part; else ``main_value``.
+    """
+    if isinstance(case, BearingCase) and case.motor is not None and case.discharge.has_strength:
+        return breakdown_of(case).margin
+    return main_value(case)
+
+
 def breakdown_of(case: SweptCase, value: str | None = None) -> Breakdown:
     """Breakdown voltage that a value of a summary belongs to.
 

@@ -348,7 +348,7 @@ def _over(key: str, table: Mapping[str, Any], number: Quantity | Count, *, writt
     ends = []
     for name in ("from", "to"):
         if name not in table:
-            raise InputError.missing(f"{key}.{name}", _takes(number))
+            raise InputError.missing(f"{key}.{name}", number.takes)
         try:
             end = table[name]
             ends.append(
@@ -365,10 +365,3 @@ def _over(key: str, table: Mapping[str, Any], number: Quantity | Count, *, writt
     if spacing == "log" and start <= 0.0:
         raise InputError(f"{key}.from", got=shown(table["from"]), takes="more than 0 with spacing 'log'")
     return Range(start, stop, spacing)
-
-
-def _takes(number: Quantity | Count) -> str:
-    """Allowed values of a key, as text of an error."""
-    if isinstance(number, Quantity):
-        return number.takes
-    return f"a whole number from {number.least} to {number.most}"

@@ -102,7 +102,7 @@ def test_film_at_its_tolerance_is_that_of_a_smaller_one(table):
     exact = MixedFilm(problem, [last])
     assert found.converged
     assert exact.converged
-    assert exact.last.final.norm <= 1e-12
+    assert exact.last.final.norm < 2e-3 * problem.tolerance
     assert found.share == pytest.approx(exact.share, abs=1e-4)
     np.testing.assert_allclose(found.film_outside, exact.film_outside, rtol=1e-3)
 

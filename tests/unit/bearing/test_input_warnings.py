@@ -1,5 +1,6 @@
 """Warnings of inputs that a machine hardly has, and of inputs that stand for a range."""
 
+from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.warnings import input_warnings, library_viscosity
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
@@ -84,3 +85,15 @@ def test_a_grade_beside_the_viscosity_of_another_oil_says_the_index():
         "lubricant__temperature__viscosity_index": 100,
     }
     assert "index" not in told(**with_index)["viscosity-grade"]
+
+
+def test_a_coating_of_assumed_values_says_so():
+    """The name alone assumes 100 um and a permittivity of 9; both given, nothing is assumed."""
+    formula = bearing_case(BALLS).replace({"contacts": "formula", "bearing.outer_diameter": "80 mm"})
+    formula = formula.replace({"bearing.width": "18 mm"})
+    table = {"base": "alumina", "thickness": "150 um", "relative_permittivity": 8.0}
+    for coating, expected in (("alumina", ["100", "9"]), (table, [])):
+        told = solve_bearing(formula.replace({"bearing.coating": coating}), workers=1).warnings
+        texts = [one.text for one in told if one.code == "coating-assumed"]
+        assert len(texts) == bool(expected)
+        assert all(number in text for text in texts for number in expected)

@@ -13,6 +13,7 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio
 from ehlectric.bearing.solution import lambda_ratio, plate_capacitance
 from ehlectric.bearing.solver import solve_bearing
+from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.tables.bearing import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of, with_values
@@ -470,3 +471,14 @@ def test_the_fill_of_a_capacitance_is_oil_or_air():
     assert result.capacitance() == result.capacitance("air") < result.capacitance("oil")
     with pytest.raises(InputError, match=r"^fill: .*'water'.*'oil', 'air'.* 0 to 1"):
         result.capacitance("water")
+
+
+def test_margin_is_first_breakdown_over_shaft_voltage():
+    motor = {"common_mode_voltage": "300 V", "winding_rotor_capacitance": "20 pF"}
+    motor |= {"rotor_frame_capacitance": "1 nF"}
+    case = bearing_case(BALLS).replace({"contacts": "formula", "discharge.dielectric_strength": "15 V/um"})
+    with_one = solve_bearing(case.replace(motor=motor), workers=1)
+    first = with_one.breaks()["first_break"]
+    without = {key: table for key, table in case.to_dict().items() if key != "motor"}
+    assert with_one.margin == pytest.approx(first / with_one.shaft_voltage, rel=1e-12)
+    assert solve_bearing(BearingCase.from_dict(without), workers=1).margin is None

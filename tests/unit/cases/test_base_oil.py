@@ -102,3 +102,42 @@ def test_the_oil_of_a_table_is_made_once_for_each_temperature():
     assert lubricant.at(343.15).viscosity < 0.5 * cold.viscosity
     assert thin.at(313.15).viscosity < 0.8 * cold.viscosity
     assert lubricant.at(313.15).viscosity == cold.viscosity
+
+
+ROELANDS = {
+    "atmospheric_law": "roelands",
+    "reference_temperature": "40 degC",
+    "roelands_s0": 1.1,
+    "viscosity": "0.04 Pa s",
+}
+
+
+def test_a_law_with_the_viscosity_of_the_base_keeps_its_coefficient():
+    """Roelands' relation changes it with ln(viscosity) + 9.67 where the temperature does."""
+    oil = Lubricant.from_dict({"base": "paper", **ROELANDS})
+    assert oil.at(313.15).alpha == pytest.approx(22e-9, rel=1e-9)
+    hot = oil.at(353.15)
+    ratio = (math.log(hot.viscosity) + 9.67) / (math.log(0.04) + 9.67)
+    assert hot.alpha == pytest.approx(22e-9 * ratio, rel=1e-9)
+    without = {key: value for key, value in ROELANDS.items() if key != "viscosity"}
+    assert Lubricant.from_dict({"base": "paper", **without}).at(313.15).viscosity == pytest.approx(0.04)
+
+
+def test_a_coefficient_of_barus_changes_with_the_viscosity_too():
+    table = LAWS | ROELANDS | {"viscosity_law": "barus", "pressure_viscosity_coefficient": 2e-8}
+    hot = Lubricant.from_dict(table).at(353.15)
+    ratio = (math.log(hot.viscosity) + 9.67) / (math.log(0.04) + 9.67)
+    assert hot.alpha == pytest.approx(2e-8 * ratio, rel=1e-9)
+
+
+def test_values_of_the_base_stay_beside_a_viscosity_of_ones_own():
+    """Its type of base oil and thermal conductivity do; one of its viscosities beside one's own does not."""
+    sheet = {"kinematic_viscosity_40": "32 mm^2/s", "kinematic_viscosity_100": "5.35 mm^2/s"}
+    oil = Lubricant.from_dict({"base": "e-axle-fluid", "temperature": sheet})
+    assert (oil.temperature.base_oil, oil.temperature.density_15) == ("pao", 840.0)
+    assert oil.at(313.15).thermal_conductivity == 0.154
+    assert oil.at(313.15).alpha == pytest.approx(7.382e-9 * 32.0**0.1335, rel=1e-9)
+    single = {"viscosity": "10 mPa s", "pressure_viscosity_coefficient": "15 1/GPa", "roelands_z": 0.6}
+    assert Lubricant.from_dict({"base": "e-axle-fluid", **single}).at(313.15).thermal_conductivity == 0.154
+    with pytest.raises(InputError, match=r"^temperature.kinematic_viscosity_100: missing"):
+        Lubricant.from_dict({"base": "e-axle-fluid", "temperature": {"iso_vg": 32}})

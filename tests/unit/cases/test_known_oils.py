@@ -153,7 +153,7 @@ def test_values_of_the_base_keep_their_source_beside_those_of_a_user():
     named = named_oil({"base": "mobil-shc-320", "temperature": SHEET})
     assert named.source("temperature.density_15") is None
     assert named.source("density_c1").kind == "assumed"
-    assert named.source("temperature.expansion").citation == "default of ehlectric"
+    assert named.source("temperature.expansion").kind == "published"
     assert named_oil("mobil-shc-320").source("temperature.expansion").kind == "published"
 
 
@@ -247,3 +247,37 @@ def test_a_pole_of_the_permittivity_has_no_value_beyond_it():
     (warning,) = report.warnings
     assert "40 °C" in warning
     assert "lubricant.permittivity_law: 'clausius-mossotti'" in warning
+
+
+VOGEL = {"atmospheric_law": "vogel", "vogel_viscosity": "0.062 mPa s", "vogel_b": 1021.7, "vogel_c": 171.6}
+
+
+@pytest.mark.parametrize(
+    ("table", "stated"),
+    [
+        ({"base": "paper", **VOGEL}, "22 1/GPa"),
+        (
+            {
+                "base": "paper",
+                "atmospheric_law": "roelands",
+                "reference_temperature": "40 degC",
+                "roelands_s0": 1.1,
+            },
+            "reference_temperature",
+        ),
+    ],
+)
+def test_a_coefficient_by_the_relation_of_roelands_cites_it(table, stated):
+    """A coefficient that is not the given one has the relation as a source, which says what it replaces."""
+    lines = {line.of.name: line for line in oil_report(table).lines}
+    for name in ("pressure_viscosity_coefficient", "alpha_star"):
+        notes = [source.note for source in lines[name].sources if source.kind == "by rule"]
+        assert len(notes) == 1
+        assert stated in notes[0]
+
+
+def test_a_thermal_conductivity_of_the_base_keeps_its_source():
+    oil = {"base": "e-axle-fluid", "viscosity": "10 mPa s", "pressure_viscosity_coefficient": 15e-9}
+    lines = {line.of.name: line for line in oil_report(oil | {"roelands_z": 0.6}).lines}
+    assert lines["thermal_conductivity"].values == (0.154,)
+    assert "Larsson" in lines["thermal_conductivity"].sources[0].citation

@@ -74,3 +74,12 @@ def test_a_wrong_remedy_is_refused_before_anything_is_solved(drive, look, change
     remedies = [{"title": fine.title, "changes": fine.changes}, {"title": "wrong", "changes": changes}]
     with pytest.raises(InputError, match=message):
         look(drive.replace({"remedies": remedies}))
+
+
+@pytest.mark.parametrize(("conductivity", "told"), [("1 pS/m", False), ("1 uS/m", True), ("1 mS/m", False)])
+def test_an_oil_slower_than_the_edges_is_noted(drive, conductivity, told):
+    """2.4 eps0 over 1 uS/m is 21 us: a fifth of a period of 100 us, and 200 edges of 100 ns."""
+    conducting = drive.replace({"bearings.discharge.conductivity": conductivity, "drive.contacts": "formula"})
+    texts = [one.text for one in check(conducting).warnings if one.code == "edges-faster-than-oil"]
+    assert bool(texts) is told
+    assert all("21" in text and "100 ns" in text for text in texts)

@@ -12,6 +12,7 @@ from ehlectric.drive.result import solve_drive
 from ehlectric.drive.solver import prepare, solve
 from ehlectric.drive.spice.equivalent import equivalent_of
 from ehlectric.drive.warnings import bearing_warnings
+from tests.helpers.drives import small_drive
 from tests.helpers.places import EXAMPLES
 from tests.unit.cases.test_drive import TABLE
 
@@ -165,3 +166,11 @@ def test_surfaces_that_touch_are_told_as_a_drive_takes_them(case):
     found = {one.code: str(one) for one in bearing_warnings(ready.bearings)}
     assert set(found) == set(told)
     assert found["touching"] != told["touching"]
+
+
+@pytest.mark.parametrize(("rise", "together"), [("5 ns", True), ("100 ns", False)])
+def test_fast_edges_discharge_both_ends_at_once(rise, together):
+    """An arc of 10 ohm drains the 1 nF of the shaft in 10 ns: the other film is reached before, or never."""
+    drive = small_drive(**{"source.rise_time": rise, "drive.temperature": "80 degC"})
+    codes = {one.code for one in solve_drive(drive, workers=1).warnings}
+    assert ("both-ends-discharge" in codes) is together

@@ -22,6 +22,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Contact
         "regime": _FILM,
         "radius-large": (),
+        "modulus-low": (),
         "ambient-pressure": _HERTZ,
         "plastic-deformation": _HERTZ,
         "hardness-low": _HERTZ,
@@ -110,6 +111,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "supply-low": _FILM,
         "film-decays": _FILM,
         "shaft-leaks": (),
+        "coating-assumed": (),
         "coating-breakdown": (),
         "current-density-high": (),
         "capacitance-bound": ("capacitance",),

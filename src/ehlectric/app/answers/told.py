@@ -62,6 +62,8 @@ WITHOUT_PLACE = (
     "record-repeated",
     "circuit-undamped",
     "capacitances-estimated",
+    "edges-faster-than-oil",
+    "both-ends-discharge",
     "threshold-constant",
     "arc-burns-on",
     "few-discharges",
@@ -75,6 +77,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         # Contact
         "regime": _FILM,
         "radius-large": (),
+        "modulus-low": (),
         "ambient-pressure": (),
         "plastic-deformation": _FILM,
         "hardness-low": _FILM,
@@ -163,6 +166,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "supply-low": _FILM,
         "film-decays": _FILM,
         "shaft-leaks": _SPARK,
+        "coating-assumed": ("shaft-voltage",),
         "coating-breakdown": ("shaft-voltage",),
         "current-density-high": (),
         "capacitance-bound": ("capacitance", "shaft-voltage"),
@@ -188,10 +192,13 @@ DRIVE_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "record-repeated": ("source",),
         "circuit-undamped": ("at-peak", "peak"),
         "capacitances-estimated": ("machine", "at-peak"),
+        "edges-faster-than-oil": ("at-peak", "discharges"),
+        "both-ends-discharge": ("discharges",),
         "threshold-constant": ("first-break", "discharges"),
         "arc-burns-on": ("discharges",),
         "few-discharges": ("discharges",),
         "current-density-high": ("current-density",),
+        "coating-assumed": ("at-peak", "peak"),
         "coating-breakdown": ("at-peak", "peak"),
     }
 )

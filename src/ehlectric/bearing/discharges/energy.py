@@ -14,7 +14,13 @@ from ehlectric.bearing.shaft_voltage import film_voltage
 from ehlectric.bearing.solution import BearingSolution, RingState, capacitance, insulating
 from ehlectric.cases.bearings.bearing import ROLLERS
 from ehlectric.cases.discharge import Pit
-from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS, melted_volume, pit_diameter, stored_energy
+from ehlectric.discharge.laws import (
+    CURRENT_DENSITY_LIMITS,
+    beside_limits,
+    melted_volume,
+    pit_diameter,
+    stored_energy,
+)
 from ehlectric.errors import ResultWarning
 
 
@@ -152,13 +158,12 @@ def conducting_areas(solution: BearingSolution) -> Array:
 
 
 def current_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
-    """Warning of an apparent current density above published limits."""
+    """Warning of an apparent current density above the lowest of the published limits."""
     density = bearing_costs(solution).current_density
     if density is None or density <= CURRENT_DENSITY_LIMITS[0]:
         return
-    low, high = (1e-6 * CURRENT_DENSITY_LIMITS[k] for k in (0, -1))
     yield ResultWarning(
         "current-density-high",
-        f"the apparent current density is {1e-6 * density:.3g} A/mm², the peak current over the Hertz areas; "
-        f"published limits for bearings are {low:g} to {high:g} A/mm²",
+        f"the apparent current density is {1e-6 * density:.3g} A/mm², the peak current over the Hertz areas: "
+        f"{beside_limits(density)}",
     )

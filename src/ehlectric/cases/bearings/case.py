@@ -6,14 +6,21 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self, Unpack
 
-from pydantic import field_serializer, field_validator, model_validator
+from pydantic import (
+    ModelWrapValidatorHandler,
+    ValidationError,
+    field_serializer,
+    field_validator,
+    model_validator,
+)
 
 from ehlectric.cases import library
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.coating import COATING_ALTERNATIVES
 from ehlectric.cases.bearings.discharge import BearingDischarge
-from ehlectric.cases.bearings.heat import check_heat
+from ehlectric.cases.bearings.heat import check_heat, missing_conductivity
 from ehlectric.cases.bearings.motor import Motor
+from ehlectric.cases.bearings.recognition import bearing_key
 from ehlectric.cases.bearings.summits import SUMMIT_ALTERNATIVES
 from ehlectric.cases.bearings.ways import Contacts
 from ehlectric.cases.changes import Groups, displace, flattened, nested, set_keys
@@ -27,7 +34,7 @@ from ehlectric.cases.oils.alternatives import displace_oil
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.row import amount, value_at
-from ehlectric.cases.table import Table, read_toml
+from ehlectric.cases.table import Table, read_toml, with_further
 from ehlectric.cases.title import Title
 from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError
@@ -72,6 +79,12 @@ _ROUNDING = 1e-9
 # Keys of [discharge] that a bearing file may not have.
 _NOT_OF_BEARINGS = ("length",)
 
+# Advice for an insulated ring.
+_COATED = (
+    "give coating = 'alumina', a coating of the library, or the table [bearing.coating] with base or with "
+    "ring, thickness and relative_permittivity"
+)
+
 # Advice for unknown keys that belong to another table, or have another name.
 _ADVICE = {
     "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
@@ -79,6 +92,11 @@ _ADVICE = {
     "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
     "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
     "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "bearing.coating_thickness": _COATED,
+    "bearing.coating_material": _COATED,
+    "bearing.insulation": _COATED,
+    "bearing.insulated": _COATED,
+    "bearing.coated": _COATED,
     "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
 }
 
@@ -134,6 +152,25 @@ class BearingCase(Tabled, Table):
     motor: Motor | None = None
     solver: Solver = Solver()
     ranges: tuple[InputRange, ...] | None = None
+
+    @classmethod
+    def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:
+        """Text that tells by which key a file without the table of its bearing is that of a bearing."""
+        sign = bearing_key(given) if key == "bearing" else None
+        return "" if sign is None else f", [bearing], as the file looks like that of a bearing: it has {sign}"
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _with_heat(cls, tables: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Name what the film factor needs of the oil together with what else the oil lacks."""
+        try:
+            return handler(tables)
+        except ValidationError as error:
+            lacks = any(detail["loc"][:1] == ("lubricant",) for detail in error.errors())
+            further = missing_conductivity(tables) if lacks else None
+            if further is None:
+                raise
+            raise with_further(error, ("lubricant",), further) from None
 
     @field_validator("ranges", mode="plain")
     @classmethod

@@ -13,7 +13,7 @@ from ehlectric.cases import library
 from ehlectric.cases.oils.laws import library_name
 from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, shown
 
 _Thickness = Annotated[float, Quantity("m", above=0.0, most=1e-2, reason="of the coating")]
 _Permittivity = Annotated[float, Quantity("", least=1.0, most=1e3, reason="of the coating")]
@@ -24,6 +24,18 @@ _Resistance = Annotated[float, Quantity("ohm", above=0.0, most=1e18, reason="thr
 
 # Alternative keys of the coating: its breakdown voltage follows from its strength, or is given.
 COATING_ALTERNATIVES = (("coating.strength",), ("coating.breakdown_voltage",))
+
+
+def _named(name: str) -> str:
+    """Name of a coating of the library that stands in place of its table."""
+    names = library.coating_names()
+    if name not in names:
+        raise InputError(
+            got=shown(name),
+            takes=f"a name of the library: {', '.join(map(repr, names))}; or the table [bearing.coating] "
+            "with ring, thickness and relative_permittivity",
+        )
+    return name
 
 
 class Coating(Table):
@@ -41,7 +53,12 @@ class Coating(Table):
     @model_validator(mode="before")
     @classmethod
     def _from_base(cls, table: Any) -> Any:
-        """Values of the coating that ``base`` names in the library, replaced by those of the file."""
+        """Values of the coating that ``base`` names in the library, replaced by those of the file.
+
+        A text in place of the table is such a name.
+        """
+        if isinstance(table, str):
+            table = {"base": _named(table)}
         if not isinstance(table, Mapping) or table.get("base") is None:
             return table
         base = library.coating(library_name(table["base"], library.coating_names()))
@@ -56,6 +73,15 @@ class Coating(Table):
                 "strength", got="strength and breakdown_voltage together", takes="one of the two"
             )
         return self
+
+    @property
+    def assumed(self) -> dict[str, float]:
+        """Values by key, SI units, that the base in the library assumes and the file does not replace."""
+        if self.base is None:
+            return {}
+        names = library.tables("coating", self.base)["source"].get("assumed", ())
+        base = type(self).from_dict({"base": self.base}) if names else self
+        return {name: getattr(self, name) for name in names if getattr(self, name) == getattr(base, name)}
 
     @property
     def voltage(self) -> float | None:

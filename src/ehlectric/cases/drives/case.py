@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import Contacts
@@ -98,16 +98,9 @@ class DriveCase(Tabled, Table):
     circuit: Circuit
     breakdown: Breakdown
     drive_end: BearingCase
-    non_drive_end: BearingCase
+    # The bearing of the drive end is that of both, where only one is given.
+    non_drive_end: BearingCase = Field(default_factory=lambda given: given["drive_end"])
     remedies: tuple[Remedy, ...] = ()
-
-    @model_validator(mode="before")
-    @classmethod
-    def _complete(cls, tables: Any) -> Any:
-        """Take the bearing of the drive end for both, where only one is given."""
-        if isinstance(tables, Mapping) and "drive_end" in tables and "non_drive_end" not in tables:
-            return {**tables, "non_drive_end": tables["drive_end"]}
-        return tables
 
     @property
     def bearings(self) -> tuple[BearingCase, BearingCase]:

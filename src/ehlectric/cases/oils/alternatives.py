@@ -8,6 +8,11 @@ from typing import Any
 from ehlectric.cases.oils.laws import base_values, law_parameters
 from ehlectric.lubricant.atmospheric import ATMOSPHERIC_LAWS
 
+# Keys of a data sheet that give its viscosity: those of two oils are not mixed.
+_SHEET_VISCOSITY = frozenset(
+    ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
+)
+
 # Keys of a base that are left out where the case gives one of the keys before them.
 _REPLACED: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
     (("relative_permittivity", "permittivity_table"), ("relative_permittivity", "permittivity_table")),
@@ -19,9 +24,12 @@ def with_base(table: Any) -> Any:
     """Add to a table the values of the lubricant that ``base`` names in the library.
 
     Values of the table replace those of the library. Where the table says in another way how viscous the oil
-    is, the library's way is left out: a viscosity, a law over temperature, or a data sheet. With a law over
-    temperature or a data sheet, the parameters that follow from the viscosity are left out, too. The density
-    of a data sheet takes the place of the library's.
+    is, the library's way is left out: a viscosity, a law over temperature, or a data sheet. With a data sheet
+    or a law over temperature that has no viscosity as its parameter, the parameters that follow from the
+    viscosity are left out, too. The density of a data sheet takes the place of the library's.
+
+    Values of the library's data sheet stay unless the table replaces them: those whose keys a data sheet of
+    the table does not give, and the thermal conductivity beside every way to give the viscosity.
 
     Raises
     ------
@@ -32,7 +40,20 @@ def with_base(table: Any) -> Any:
     if not base or not isinstance(table, Mapping):
         return table
     left_out = _replaced(table) | _other_viscosity(table)
-    return {key: value for key, value in base.items() if key not in left_out} | dict(table)
+    kept = {key: value for key, value in base.items() if key not in left_out}
+    sheet, own = base.get("temperature"), table.get("temperature")
+    if isinstance(sheet, Mapping) and isinstance(own, Mapping):
+        return kept | {**table, "temperature": _with_sheet(sheet, own)}
+    if isinstance(sheet, Mapping) and "temperature" in left_out and "thermal_conductivity" in sheet:
+        kept["thermal_conductivity"] = sheet["thermal_conductivity"]
+    return kept | dict(table)
+
+
+def _with_sheet(sheet: Mapping[str, Any], own: Mapping[Any, Any]) -> dict[Any, Any]:
+    """Data sheet of a table, with those values of the library's sheet that it does not replace."""
+    given = {key for key, value in own.items() if value is not None}
+    left_out = given | (_SHEET_VISCOSITY if given & _SHEET_VISCOSITY else frozenset())
+    return {key: value for key, value in sheet.items() if key not in left_out} | dict(own)
 
 
 def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
@@ -60,8 +81,7 @@ def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
     # A change within the same way, such as a grade of the same data sheet, replaces nothing.
     if not any(table.get(key) is not None for key in ways):
         displaced |= _other_viscosity(changes)
-    law = ATMOSPHERIC_LAWS.get(table.get("atmospheric_law", ""))
-    if law is not None and not ways and any(parameter.name == "viscosity" for parameter in law.parameters):
+    if not ways and _has_viscosity(table.get("atmospheric_law")):
         displaced -= {"atmospheric_law"}
     for key in displaced - changes.keys():
         table.pop(key, None)
@@ -82,8 +102,16 @@ def _other_viscosity(table: Mapping[Any, Any]) -> set[str]:
             # The type of base oil gives the coefficient in place of the exponent of another oil.
             derived.add("roelands_z")
         return {"viscosity", "atmospheric_law", "density", *derived}
-    if table.get("atmospheric_law") is not None:
-        return {"viscosity", "temperature", *derived}
+    name = table.get("atmospheric_law")
+    if name is not None:
+        # The coefficient of a base belongs to its viscosity, which such a law has at a reference temperature.
+        return {"temperature"} if _has_viscosity(name) else {"viscosity", "temperature", *derived}
     if table.get("viscosity") is not None:
         return {"atmospheric_law", "temperature"}
     return set()
+
+
+def _has_viscosity(name: Any) -> bool:
+    """Whether a law over temperature has the viscosity at a reference temperature as a parameter."""
+    law = ATMOSPHERIC_LAWS.get(name) if isinstance(name, str) else None
+    return law is not None and any(parameter.name == "viscosity" for parameter in law.parameters)

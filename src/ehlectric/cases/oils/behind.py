@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ehlectric.cases import library
 from ehlectric.cases.library.sources import Source
 from ehlectric.cases.oils.estimates import ALPHA, of_base_oil
 from ehlectric.cases.oils.laws import LAWS
@@ -11,6 +12,12 @@ from ehlectric.cases.oils.properties import Properties
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.estimates import BASE_OILS
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
+
+# Publication of the relation between coefficient, exponent and viscosity.
+ROELANDS = (
+    "C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of "
+    "lubricating oils, thesis, Delft, 1966, as later works quote it"
+)
 
 # Keys of the data sheet that give the viscosity, and the density.
 _SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
@@ -28,6 +35,34 @@ def estimate_of(table: Properties) -> Source:
     kind = BASE_OILS[table.temperature.base_oil]
     note = f"For base oils of type {table.temperature.base_oil}; scatter {100.0 * kind.scatter:.0f} %."
     return Source((ALPHA,), "estimated", kind.source, note=note)
+
+
+def relation_of(table: Properties) -> Source | None:
+    """Source of the relation that gives the coefficient at a temperature; None if nothing follows from it.
+
+    Roelands' relation gives the pressure-viscosity coefficient where neither the table nor the type of base
+    oil does, and changes a coefficient that is given for a reference temperature. It is a source where the
+    oil of a base is changed: an oil of the user's own has it with the parameters of its law.
+    """
+    if table.base is None:
+        return None
+    parameter = next((p for p in VISCOSITY_LAWS[table.viscosity_law].parameters if p.name == ALPHA), None)
+    if parameter is None or parameter.derivation is None or is_estimated(table, ALPHA):
+        return None
+    of = ", ".join(parameter.derivation.parameters)
+    if table.parameter(ALPHA) is None:
+        note = f"The coefficient follows from {of} and the viscosity at the temperature."
+        return Source((ALPHA,), "by rule", ROELANDS, note=f"{note}{_in_place_of(table)}")
+    if table.atmospheric_law is None or table.viscosity is None:
+        return None
+    note = "The coefficient, given at reference_temperature, changes with ln(viscosity) + 9.67."
+    return Source((ALPHA,), "by rule", ROELANDS, note=note)
+
+
+def _in_place_of(table: Properties) -> str:
+    """Text with the coefficient of the base, where another viscosity takes its place."""
+    own = None if table.base is None else library.lubricant(table.base).get(ALPHA)
+    return "" if own is None else f" It replaces {own} of {table.base!r}, which belongs to another viscosity."
 
 
 def law_behind(name: str, table: Properties, pressure: float) -> str:
@@ -129,6 +164,8 @@ def alpha_keys(table: Properties, _: float) -> Iterator[str]:
     yield from of_law(table, "viscosity_law")
     if is_estimated(table, ALPHA):
         yield from ("temperature.base_oil", ALPHA)
+    elif table.parameter(ALPHA) is None and relation_of(table) is not None:
+        yield ALPHA
 
 
 def density_keys(table: Properties, pressure: float) -> Iterator[str]:

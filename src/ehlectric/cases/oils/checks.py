@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 from ehlectric.cases import library
 from ehlectric.cases.oils.estimates import of_base_oil
 from ehlectric.cases.oils.laws import LAWS
@@ -12,6 +15,40 @@ from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 
 # Ways to give the viscosity, for messages.
 _WAYS = "viscosity, [lubricant.temperature] or atmospheric_law"
+
+
+def refuse_missing(oil: Properties) -> None:
+    """Check that a lubricant gives its values in one way, and that none is missing.
+
+    Raises
+    ------
+    InputError
+        If it does not; the message names all values that are missing.
+    """
+    checks: list[Callable[[], None]] = [partial(check_viscosity, oil), partial(check_once, oil)]
+    for key, laws in LAWS.items():
+        name = oil.law(key)
+        if name is not None:
+            checks.append(partial(check_parameters, oil, key, laws[name]))
+    checks.append(partial(_check_permittivity, oil))
+    missing: dict[str | None, InputError] = {}
+    for check in checks:
+        try:
+            check()
+        except InputError as error:
+            if not error.text.startswith("missing"):
+                raise
+            missing.setdefault(error.key, error)
+    if missing:
+        raise InputError.together(list(missing.values()))
+
+
+def _check_permittivity(oil: Properties) -> None:
+    """Check that a lubricant has a permittivity."""
+    if oil.relative_permittivity is None and oil.permittivity_table is None:
+        raise InputError.missing(
+            "relative_permittivity", "either relative_permittivity or permittivity_table"
+        )
 
 
 def check_viscosity(oil: Properties) -> None:

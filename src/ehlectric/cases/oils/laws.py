@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from pydantic import AfterValidator
@@ -75,7 +76,20 @@ def is_parameter(name: str) -> bool:
     )
 
 
-def law_name(laws: Mapping[str, object]) -> AfterValidator:
+@dataclass(frozen=True)
+class Named(AfterValidator):
+    """Pydantic annotation of a name, with the names that are allowed.
+
+    Attributes
+    ----------
+    takes : str
+        Description of the allowed names, for messages.
+    """
+
+    takes: str = ""
+
+
+def law_name(laws: Mapping[str, object]) -> Named:
     """Pydantic annotation of the name of a law of this table."""
 
     def known(name: str) -> str:
@@ -86,7 +100,7 @@ def law_name(laws: Mapping[str, object]) -> AfterValidator:
             )
         return name
 
-    return AfterValidator(known)
+    return Named(known, f"one of {', '.join(map(repr, laws))}")
 
 
 def quantity_of(parameter: Parameter) -> Quantity:

@@ -6,8 +6,7 @@ from typing import Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.oils.checks import check_once, check_parameters, check_viscosity
-from ehlectric.cases.oils.laws import LAWS
+from ehlectric.cases.oils.checks import refuse_missing
 from ehlectric.cases.oils.properties import Properties
 from ehlectric.cases.oils.resolution import oil_at
 from ehlectric.errors import InputError
@@ -27,16 +26,12 @@ class Lubricant(Properties):
     @model_validator(mode="after")
     def _check(self) -> Self:
         """Check that values are given in one way, and that no parameter of a law is missing."""
-        check_viscosity(self)
-        check_once(self)
-        for key, laws in LAWS.items():
-            name = self.law(key)
-            if name is not None:
-                check_parameters(self, key, laws[name])
-        if (self.relative_permittivity is None) == (self.permittivity_table is None):
-            both = None if self.relative_permittivity is None else "it and permittivity_table together"
+        refuse_missing(self)
+        if self.relative_permittivity is not None and self.permittivity_table is not None:
             raise InputError(
-                "relative_permittivity", got=both, takes="either relative_permittivity or permittivity_table"
+                "relative_permittivity",
+                got="it and permittivity_table together",
+                takes="either relative_permittivity or permittivity_table",
             )
         ends = self.temperature_range
         if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):

@@ -73,9 +73,11 @@ class NamedOil:
         """Source of the value of a dotted key; None for a value that the table itself gives."""
         if key in values_of(self.given):
             return None
-        of_own_table = "." in key and key.partition(".")[0] in self.given
-        if self.base is not None and key in self.base.values() and not of_own_table:
-            return self.base.source(key)
+        known = {} if self.base is None else self.base.values()
+        # A value of the data sheet of the base may stand beside another way to give the viscosity.
+        for name in (key, f"temperature.{key}"):
+            if self.base is not None and name in known:
+                return self.base.source(name)
         table, _, name = key.rpartition(".")
         value = getattr(getattr(self.table, table) if table else self.table, name)
         return Source((key,), "assumed", "default of ehlectric", note=f"{key} = {value}, which is not given")

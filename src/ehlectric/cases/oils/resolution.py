@@ -268,10 +268,12 @@ def _parameters(oil: Properties, law: Law, viscosity: float, temperature: float 
         rule = parameter.derivation
         if rule is None:
             continue
-        of = [value for value in map(oil.parameter, rule.parameters) if value is not None]
+        of = [oil.parameter(name) for name in rule.parameters]
         if parameter.name not in values:
             values[parameter.name] = rule.function(viscosity, *of)
         elif oil.atmospheric_law is not None and oil.viscosity is not None:
+            # Parameters that a law such as Barus' does not have are factors, which cancel in the ratio.
+            of = [1.0 if value is None else value for value in of]
             values[parameter.name] *= rule.function(viscosity, *of) / rule.function(oil.viscosity, *of)
     return values
 

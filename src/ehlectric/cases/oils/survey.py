@@ -20,9 +20,11 @@ from ehlectric.cases.oils.behind import (
     law_behind,
     of_law,
     permittivity_keys,
+    relation_of,
     thermal_keys,
     viscosity_keys,
 )
+from ehlectric.cases.oils.estimates import ALPHA
 from ehlectric.cases.oils.known import KnownOil
 from ehlectric.cases.oils.named import NamedOil
 from ehlectric.cases.oils.properties import Properties
@@ -189,11 +191,22 @@ def _value(one: OilProperty, oil: KnownOil, pressure: float) -> float | None:
 
 def _sources(named: NamedOil, one: OilProperty, pressure: float) -> tuple[tuple[Source, ...], bool]:
     """Sources behind a property, each once, and whether the table of a user gives a part of it."""
-    sources = [
-        estimate_of(named.table) if is_estimated(named.table, key) else named.source(key)
-        for key in one.keys(named.table, pressure)
-    ]
+    keys = one.keys(named.table, pressure)
+    sources = [source for key in keys for source in _behind(named, key)]
     return tuple(dict.fromkeys(source for source in sources if source is not None)), None in sources
+
+
+def _behind(named: NamedOil, key: str) -> Iterator[Source | None]:
+    """Sources of the value of a key; None for a value that the table of a user gives."""
+    table = named.table
+    if is_estimated(table, key):
+        yield estimate_of(table)
+        return
+    if key != ALPHA or table.parameter(ALPHA) is not None:
+        yield named.source(key)
+    relation = relation_of(table) if key == ALPHA else None
+    if relation is not None:
+        yield relation
 
 
 def _at(oil: KnownOil, choice: str, pressure: float) -> float | None:

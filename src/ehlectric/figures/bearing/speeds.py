@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
@@ -32,6 +33,10 @@ from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, 
 
 # Legend entry of speeds at which no voltage is computed.
 _OPENING = r"$\lambda$ < 1: contacts open and close, discharges likely"
+
+# Shading of speeds at which contacts open and close, and at which they touch at times.
+_OPEN: dict[str, Any] = {"facecolor": (ORANGE, 0.18), "edgecolor": (ORANGE, 0.5), "hatch": "xxx"}
+_AT_TIMES: dict[str, Any] = {"facecolor": (GREY, 0.12), "edgecolor": "none"}
 
 # Height of the room that a label between curves needs, as part of the axes.
 _GAP = 0.2
@@ -146,10 +151,7 @@ def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed |
 def _contacts_open(curves: Curves, ax: Axes) -> None:
     """Shade the speeds with a lambda ratio below 1 and, lighter, below 3: they must not read as safe."""
     speed, ratio = curves.between("lambda_ratio")
-    looks: tuple[tuple[float, float, dict[str, Any]], ...] = (
-        (0.0, CONDUCTING, {"facecolor": (ORANGE, 0.18), "edgecolor": (ORANGE, 0.5), "hatch": "xxx"}),
-        (CONDUCTING, PARTIAL, {"facecolor": (GREY, 0.12), "edgecolor": "none"}),
-    )
+    looks = ((0.0, CONDUCTING, _OPEN), (CONDUCTING, PARTIAL, _AT_TIMES))
     for low, high, look in looks:
         within = (ratio >= low) & (ratio < high)
         # Up to the next node, so that no gap is left between both.
@@ -170,8 +172,6 @@ def _danger(curves: Curves, ax: Axes) -> list[Artist]:
         return []
     look: dict[str, Any] = {"color": ORANGE, "alpha": 0.2, "lw": 0.0, "label": "breakdown expected"}
     area = ax.fill_between(speed * RPM, first, shaft, where=list(over), interpolate=True, **look)
-    low, high = float(speed[over][0]) * RPM, float(speed[over][-1]) * RPM
-    ax.axvspan(low, high, color=ORANGE, alpha=0.06, lw=0.0, zorder=0.0)
     return [area]
 
 
@@ -274,23 +274,33 @@ def _speed_axis(curves: Curves, ax: Axes) -> Array:
 def _lubrication(points: Speeds, ax: Axes, speed: Array, areas: Sequence[Artist] = ()) -> None:
     """Draw markers along the lower edge where the lambda ratio is below 3; a legend of them and of areas."""
     states = [summary["bearing"]["lubrication"] for _, summary in sorted(points, key=lambda point: point[0])]
-    kinds: tuple[tuple[tuple[str, ...], str, dict[str, Any]], ...] = (
+    kinds: tuple[tuple[tuple[str, ...], str, dict[str, Any], dict[str, Any]], ...] = (
         (
             ("conducting", "touching"),
             _OPENING,
             {"color": ORANGE, "marker": "X"},
+            _OPEN,
         ),
-        (("partial film",), r"$\lambda$ from 1 to 3: contacts at times", {"color": GREY, "marker": "^"}),
+        (
+            ("partial film",),
+            r"$\lambda$ from 1 to 3: contacts at times",
+            {"color": GREY, "marker": "^"},
+            _AT_TIMES,
+        ),
     )
-    handles = list(areas)
-    for names, label, look in kinds:
+    handles: list[Any] = list(areas)
+    labels = [str(area.get_label()) for area in areas]
+    for names, label, look, shading in kinds:
         on = np.array([state in names for state in states])
         if np.any(on):
             edge = ax.get_xaxis_transform()
             marks: dict[str, Any] = {"ls": "none", "ms": 6.0, "clip_on": False, "zorder": 5.0, "label": label}
-            handles += ax.plot(speed[on], np.zeros(np.sum(on)), transform=edge, **look, **marks)
+            drawn = ax.plot(speed[on], np.zeros(np.sum(on)), transform=edge, **look, **marks)
+            # The marks of the speeds stand on the shading between them.
+            handles.append((Patch(lw=0.0, **shading), *drawn))
+            labels.append(label)
     if handles:
-        legend_above(ax, handles)
+        legend_above(ax, handles, labels=labels)
 
 
 def breaks_anywhere(points: Speeds) -> bool:

@@ -176,7 +176,7 @@ def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") 
         top = max(top, limit_line(ax, at, factor * cut.of(limit), top, unit))
     legend_above(
         ax,
-        [*entries, tuple(bands)],  # type: ignore[list-item]
+        [*entries, tuple(bands)],
         1,
         labels=[*entries.values(), "thin-gap estimates $V_{12}/h$"],
         handler_map={tuple: HandlerTuple(ndivide=None)},

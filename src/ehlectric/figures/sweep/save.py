@@ -17,7 +17,7 @@ from ehlectric.figures.sweep.lines import value_lines
 from ehlectric.figures.sweep.maps import value_map
 from ehlectric.figures.sweep.points import held_text, name_figure
 from ehlectric.figures.sweep.sensitivity import sensitivity_figure
-from ehlectric.sweep.breakdown_keys import main_value
+from ehlectric.sweep.breakdown_keys import ranked_value
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import Slice, take
@@ -68,7 +68,7 @@ def figure(
     """
     (name,) = in_formats([name])
     if name == SENSITIVITY_FIGURE:
-        indices = sensitivity(results, value or main_value(results.case))
+        indices = sensitivity(results, value or ranked_value(results.case))
         return sensitivity_figure(results, indices)
     kind, _, key = name.removesuffix(".png").partition("_")
     if kind not in FIGURES or name not in map_files(key):

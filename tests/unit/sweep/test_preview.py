@@ -1,0 +1,45 @@
+"""Slowest and hottest point of a sweep of drives, tried before the sweep begins."""
+
+import pytest
+from click.testing import CliRunner
+from typer.main import get_command
+
+from ehlectric.commands.app import app
+from ehlectric.runs.meaning import check
+from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.plan import plan
+from ehlectric.sweep.preview import lacking_point
+from tests.helpers.drives import small_drive
+
+SPEEDS = {"drive.speed": ["6000 rpm", "200 rpm", "3000 rpm"]}
+
+
+def swept(**changes):
+    drive = small_drive(**{"drive.temperature": "90 degC"} | changes)
+    return Sweep.from_dict({"case": drive, "vary": SPEEDS})
+
+
+def test_the_slowest_point_names_what_it_lacks():
+    """At 200 rpm asperities close the films, at the first point of the sweep they do not."""
+    sweep = swept()
+    found = lacking_point(sweep, list(plan(sweep)))
+    assert found.point.number == 1
+    assert "contact_resistance" in found.reason
+    meaning = check(sweep)
+    assert "contact_resistance" in meaning.summary["sweep"]["lacking"]
+
+
+def test_a_given_resistance_lacks_nothing():
+    sweep = swept(**{"bearings.bearing.contact_resistance": "1 ohm"})
+    assert lacking_point(sweep, list(plan(sweep))) is None
+    assert check(sweep).summary["sweep"]["lacking"] is None
+
+
+@pytest.mark.slow
+def test_the_command_says_it_before_it_solves(tmp_path):
+    (tmp_path / "drive.toml").write_text(small_drive(**{"drive.temperature": "90 degC"}).to_toml())
+    vary = '[vary]\n"drive.speed" = ["200 rpm", "6000 rpm"]\n'
+    (tmp_path / "sweep.toml").write_text(f'case = "drive.toml"\n{vary}')
+    words = ["sweep", str(tmp_path / "sweep.toml"), "-o", str(tmp_path / "out")]
+    done = CliRunner().invoke(get_command(app), words)
+    assert "contact_resistance" in done.stderr.splitlines()[0]
