@@ -163,14 +163,14 @@ def test_film_of_the_order_of_its_roughness():
     assert touching.minimum_thickness == pytest.approx(1e-9, rel=1e-6)
 
 
-def test_waves_in_the_outlet_do_not_hide_that_it_cavitates():
-    """Waves of 4 µm refill pockets behind the exit, with this phase that of the last node among them."""
+def test_waves_in_the_outlet_do_not_fill_it():
+    """Waves of 4 µm narrow the gap behind the exit, where there is too little oil to fill it."""
     wave = {"surface": 1, "generator": "sinusoid", "amplitude": 20e-9, "wavelength": 4e-6, "phase": 1.0}
     case = rough_case(nodes=6401, load=3.925e5, speed=1.0).replace(roughness=(wave,))
     case = case.replace({"grid.wedge": "second-order"})
     film = film_alone(case)
-    assert not film.cavitated[-2]
     assert film.cavitates
+    assert np.all(film.cavitated[film.x > 1.3 * film.scales.length])
 
 
 @pytest.mark.slow

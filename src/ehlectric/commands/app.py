@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import signal
 import sys
@@ -26,9 +27,10 @@ from ehlectric.commands.spice import spice
 from ehlectric.commands.start import examples, init
 from ehlectric.commands.surface import surface
 from ehlectric.commands.sweep import sweep
-from ehlectric.commands.terminal import NOT_CONVERGED, WRONG_INPUT
+from ehlectric.commands.terminal import NOT_CONVERGED, WRONG_INPUT, say
 from ehlectric.errors import InputError
 from ehlectric.runtime.interrupts import not_ignored
+from ehlectric.runtime.log import MACHINE
 from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
 from ehlectric.version import __version__
 
@@ -199,6 +201,14 @@ def _failed(error: Exception) -> int:
     return WRONG_INPUT
 
 
+class _OneLine(logging.Handler):
+    """Handler that prints what the machine lacks as one line on stderr."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print a message."""
+        say(f"note: {record.getMessage()}", err=True)
+
+
 def main() -> None:
     """Entry point of the ``ehlectric`` command."""
     for number in not_ignored():
@@ -207,7 +217,10 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         # A terminal without a micro sign must not end the run.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+    handler = _OneLine(logging.WARNING)
+    MACHINE.addHandler(handler)
     status = _status()
+    MACHINE.removeHandler(handler)
     for number in not_ignored():
         # From here on Python would answer a signal, such as that of an impatient user, by a traceback.
         signal.signal(number, signal.SIG_DFL)

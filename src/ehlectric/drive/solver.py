@@ -31,6 +31,9 @@ from ehlectric.runtime.progress import Progress, silent
 # the circuit settles.
 _PERIODS, _SETTLING = 50.0, 1.0
 
+# Text of the progress while time is simulated.
+SIMULATING = "simulating"
+
 # Part of a period by which a whole number of periods may be rounded.
 _WHOLE = 1e-6
 
@@ -156,7 +159,8 @@ def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None =
         _chunks(ready),
         Measuring(ready.settling, ready.duration, reach, LIMITS, _trace(ready), at_event=True),
         case.drive.seed,
-        lambda time: progress(round(100.0 * min(time / whole, 1.0)), 100, "simulating"),
+        lambda time: progress(round(100.0 * min(time / whole, 1.0)), 100, SIMULATING),
+        lambda text: progress(0, 100, text),
     )
     return DriveSolution(
         case=case,

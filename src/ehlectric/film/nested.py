@@ -108,8 +108,11 @@ def _full_film(
     apart = coarse is not None and not coarse.touches
     if coarse is not None and apart and coarse.fraction is not None:
         found.extend(_conserving(problem, levels, [_filled_from(levels[0], coarse)], progress))
-        if found[-1].status == "converged" and forms_again(found[-1].final.full_film):
-            return found
+        if found[-1].status == "converged":
+            if forms_again(found[-1].final.full_film):
+                return found
+            # A second converged solution on this grid would be taken for one of other surfaces.
+            found = []
     best = None
     if coarse is not None and apart:
         best = _from_coarser(problem, levels, coarse, progress)
@@ -126,10 +129,12 @@ def _full_film(
     missed = best.status != "converged" and problem.added_gap is not None
     if missed or (best.status == "converged" and forms_again(best.final.full_film)):
         start = best.state, best.final.full_film
-        found.extend(_conserving(problem, levels, [start], progress, times=1 if missed else _CONSERVING))
+        times = 1 if missed else _CONSERVING
+        found = _in_place_of(found, list(_conserving(problem, levels, [start], progress, times=times)))
         if missed and found[-1].status == "converged" and not forms_again(found[-1].final.full_film):
             # Nothing forms again, so that the film of the other scheme is close.
-            found.append(_solve_grid(problem, levels, found[-1].state, progress, spike=True))
+            other = _solve_grid(problem, levels, found[-1].state, progress, spike=True)
+            found = _in_place_of(found, [other])
     return found
 
 
@@ -217,8 +222,21 @@ def _mixed(
     if full.status == "converged" and forms_again(full.final.full_film):
         *others, best = conserving.from_full(full, thorough=finest)
         # A film that makes oil is better than none, and a warning says so.
-        found += [*others, best] if best.status == "converged" else [*others, best, full]
+        found = (
+            _in_place_of([*others, *found], [best]) if best.status == "converged" else [*others, best, *found]
+        )
     return found
+
+
+def _in_place_of(found: list[GridSolution], better: list[GridSolution]) -> list[GridSolution]:
+    """Solutions on one grid with better ones that take the place of the last one.
+
+    Of two converged solutions on a grid the first would be taken for one of other surfaces.
+    """
+    if better[-1].status != "converged" or found[-1].status != "converged":
+        return [*found, *better]
+    last = replace(better[-1], steps=found[-1].steps + better[-1].steps)
+    return [*found[:-1], *better[:-1], last]
 
 
 def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:

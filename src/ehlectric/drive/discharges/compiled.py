@@ -2,59 +2,141 @@
 
 Compiled functions stay on the disk for the next run. Numba takes one as up to date if the file of its source
 is, but it contains the functions that it calls, from other files too. The folder of the compiled functions is
-therefore named by the contents of all files of this package.
+therefore named by the contents of all files of this package. Where no folder can be written to, functions are
+compiled in every run.
 """
 
 from __future__ import annotations
 
 import hashlib
-import os
-from collections.abc import Callable
+import logging
+import tempfile
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
+from numba.core import event
+
+from ehlectric.runtime.log import MACHINE
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-# A division by zero gives what it gives in numpy.
-_OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy"}
-
 
 def compiled(function: F) -> F:
-    """Compile a function of numbers and arrays at its first call."""
-    return cast("F", _compiled(function, **_OPTIONS))
+    """Compile a function of numbers and arrays at its first call, and keep it on the disk.
 
-
-def inner(function: F) -> F:
-    """Compile a function that only other compiled functions call, which takes less time."""
-    alone: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    return cast("F", _compiled(function, **_OPTIONS, **alone))
-
-
-def _compiled(function: Any, **options: Any) -> Any:
+    The function and those that it calls make no arrays.
+    """
     # The folder is chosen when a function is decorated. Other packages keep theirs.
     config: Any = numba.config
-    before = config.CACHE_DIR
-    config.CACHE_DIR = str(_folder(before))
+    before, folder = config.CACHE_DIR, _folder(config.CACHE_DIR)
+    config.CACHE_DIR = str(folder or before)
     try:
-        return numba.njit(**options)(function)
+        return _jit(function, cache=folder is not None)
     finally:
         config.CACHE_DIR = before
 
 
-@cache
-def _folder(chosen: str) -> Path:
-    """Folder of the compiled functions: that of NUMBA_CACHE_DIR, of the package, or of the user."""
-    own = Path(__file__).parent
-    if chosen:
-        base = Path(chosen)
-    elif os.access(own, os.W_OK):
-        base = own / "__pycache__"
+def inner(function: F) -> F:
+    """Compile a function that only other compiled functions call, which takes less time.
+
+    It is kept in the functions that call it. A function takes numbers of films and flags as variables:
+    numba compiles it once more for each constant among its arguments.
+    """
+    return _jit(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+
+
+def _jit(function: F, **options: bool) -> F:
+    jit: Any = numba.njit
+    # A division by zero gives what it gives in numpy. References to arrays are not counted, which took more
+    # than half of the time of a simulation: compiled functions get all arrays from their caller.
+    return cast("F", jit(error_model="numpy", _nrt=False, **options)(function))
+
+
+def compile_for(
+    function: Callable[..., Any], arguments: tuple[Any, ...], told: Callable[[str], None]
+) -> None:
+    """Compile a function for the types of its arguments, or read it from the disk.
+
+    Parameters
+    ----------
+    function : callable
+        Function that was made by ``compiled``.
+    arguments : tuple
+        Arguments with which it will be called.
+    told : callable
+        Called with a text before the function is compiled, and not where it is on the disk.
+    """
+    dispatcher, typeof = cast("Any", function), cast("Any", numba.typeof)
+    listener = _Told(told, dispatcher)
+    try:
+        with event.install_listener("numba:compile", listener):
+            dispatcher.compile(tuple(typeof(each) for each in arguments))
+    except OSError as error:
+        # The disk is full, for example. The function itself was compiled before it was to be kept.
+        _not_kept(error.strerror or str(error))
     else:
-        base = Path.home() / ".cache" / "ehlectric"
-    return base / f"compiled-{contents_of(own)}"
+        if listener.called and _folder(cast("Any", numba.config).CACHE_DIR) is None:
+            _not_kept("no folder for it can be written to")
+
+
+class _Told(event.Listener):
+    """Listener that tells once that a function is being compiled."""
+
+    def __init__(self, told: Callable[[str], None], function: Any) -> None:
+        self.told, self.function, self.called = told, function, False
+
+    def on_start(self, event: Any) -> None:
+        """Tell it at the begin of the function, and not of those that it calls."""
+        if not self.called and event.data["dispatcher"] is self.function:
+            self.called = True
+            self.told("compiling the simulation of discharges, once on this machine")
+
+    def on_end(self, event: Any) -> None:
+        """Do nothing."""
+
+
+@cache
+def _not_kept(reason: str) -> None:
+    """Log once that each run compiles again."""
+    MACHINE.log(
+        logging.WARNING,
+        "the simulation of discharges is compiled again in every run: %s; NUMBA_CACHE_DIR can name a folder",
+        reason,
+    )
+
+
+@cache
+def _folder(chosen: str) -> Path | None:
+    """First folder for compiled functions that can be written to; None if none can.
+
+    That of NUMBA_CACHE_DIR, which is ``chosen``, that of the package, or that of the user.
+    """
+    name = f"compiled-{contents_of(Path(__file__).parent)}"
+    for base in _bases(chosen):
+        try:
+            folder = base / name
+            folder.mkdir(parents=True, exist_ok=True)
+            # Permissions alone do not tell it: the disk may be mounted for reading only.
+            tempfile.TemporaryFile(dir=folder).close()
+        except OSError:
+            continue
+        return folder
+    return None
+
+
+def _bases(chosen: str) -> Iterator[Path]:
+    """Folders in which a folder for compiled functions may be made, the best one first."""
+    if chosen:
+        yield Path(chosen)
+    yield Path(__file__).parent / "__pycache__"
+    try:
+        home = Path.home()
+    except RuntimeError:  # the user has none
+        return
+    yield home / ".cache" / "ehlectric"
 
 
 def contents_of(folder: Path) -> str:

@@ -31,7 +31,6 @@ class Course(NamedTuple):
     number: NDArray[np.int64]
 
 
-@inner
 def course_of(modes: int) -> Course:
     """Empty course of a number of modes."""
     return Course(
@@ -79,6 +78,25 @@ def unfold(piece: Complex, duration: float, course: Course) -> None:
         course.rates[count] = rate
         count += 1
     course.number[0], course.number[1] = count, powers
+
+
+@inner
+def both_at(course: Course, t: float) -> tuple[float, float]:
+    """Voltages across both films at a time t of the piece [V]."""
+    first, second = 0.0, 0.0
+    for k in range(course.number[1] - 1, -1, -1):
+        first, second = first * t + course.powers[0, k], second * t + course.powers[1, k]
+    for m in range(course.number[0]):
+        rate, one, other = course.rates[m], course.amplitudes[0, m], course.amplitudes[1, m]
+        if rate.real * t > LOWEST:
+            grown = math.exp(rate.real * t)
+            if rate.imag == 0.0:
+                first, second = first + one.real * grown, second + other.real * grown
+            else:
+                cosine, sine = math.cos(rate.imag * t), math.sin(rate.imag * t)
+                first += grown * (one.real * cosine - one.imag * sine)
+                second += grown * (other.real * cosine - other.imag * sine)
+    return first, second
 
 
 @inner

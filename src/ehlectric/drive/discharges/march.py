@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import cmath
 import math
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import compiled, inner
-from ehlectric.drive.discharges.course import Course, course_at, course_of, unfold
+from ehlectric.drive.discharges.course import Course, both_at, course_at, course_of, unfold
 from ehlectric.drive.discharges.meters import Meters, measure
 from ehlectric.drive.discharges.pieces import (
     FALLS,
@@ -31,7 +33,7 @@ from ehlectric.drive.discharges.pieces import (
     curvature_bound,
     move,
     states_at,
-    voltage,
+    voltages,
 )
 from ehlectric.drive.discharges.record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
 from ehlectric.drive.discharges.states import (
@@ -75,10 +77,57 @@ _OF_ARC, _LEAST, _STRAIGHT = 8e-3, 0.05, 0.01
 _FED = 1.0 + 1e-9
 
 
+class Work(NamedTuple):
+    """Arrays in which a march works; they are changed in place.
+
+    Attributes
+    ----------
+    piece : ndarray of complex, shape (ROWS, n + FURTHER)
+        Present piece.
+    course : Course
+        Voltages over the present piece.
+    volts : ndarray, shape (2,)
+        Voltages across both films at the end of the present piece [V].
+    charges : ndarray, shape (n,)
+        Charges of the nodes while elements move [C].
+    events : ndarray, shape (m, 8)
+        Table that takes the events.
+    filled : ndarray of int, shape (1,)
+        Rows of the table that are filled.
+    """
+
+    piece: Complex
+    course: Course
+    volts: Array
+    charges: Array
+    events: Array
+    filled: NDArray[np.int64]
+
+
+def work_of(size: int, events: int) -> Work:
+    """Arrays for a circuit of a number of states, and a table of a number of events."""
+    return Work(
+        piece=np.zeros((ROWS, size + FURTHER), dtype=np.complex128),
+        course=course_of(size + FURTHER),
+        volts=np.zeros(2),
+        charges=np.zeros(size),
+        events=np.zeros((events, COLUMNS)),
+        filled=np.zeros(1, dtype=np.int64),
+    )
+
+
+@inner
+def _most_used(state: State) -> int:
+    """Largest number of random numbers of a film that are used."""
+    return int(max(max(state.used[0, 0], state.used[0, 1]), max(state.used[1, 0], state.used[1, 1])))
+
+
 @inner
 def _panel(piece: Complex, t: float, left: float, rough: float) -> float:
     """Time from t on over which both voltages are straight within a tolerance ``rough`` [V]."""
-    bound = max(curvature_bound(piece, 0, t), curvature_bound(piece, 1, t))
+    bound = 0.0
+    for film in range(2):
+        bound = max(bound, curvature_bound(piece, film, t))
     return left if bound == 0.0 else min(left, math.sqrt(8.0 * rough / bound))
 
 
@@ -112,12 +161,6 @@ def _burn(course: Course, films: Films, state: State, t: float, h: float, first:
 
 
 @inner
-def _bend(course: Course, b: int, middle: float, first: float, last: float) -> float:
-    """Height of the straight line from first to last over the voltage across film b in its middle [V]."""
-    return 0.5 * (first + last) - course_at(course, b, middle)
-
-
-@inner
 def _measure(meters: Meters, rough: float, piece: Complex, course: Course, source: Source, now: float,
              t: float, end: float, first: tuple[float, float], last: tuple[float, float]
              ) -> None:  # fmt: skip
@@ -131,9 +174,10 @@ def _measure(meters: Meters, rough: float, piece: Complex, course: Course, sourc
         while True:
             after, then = end, last
             if t + h < end:
-                after, then = t + h, (course_at(course, 0, t + h), course_at(course, 1, t + h))
-            bend = (_bend(course, 0, 0.5 * (t + after), first[0], then[0]),
-                    _bend(course, 1, 0.5 * (t + after), first[1], then[1]))  # fmt: skip
+                after, then = t + h, both_at(course, t + h)
+            # Height of the straight lines over the voltages in the middle.
+            middle = both_at(course, 0.5 * (t + after))
+            bend = 0.5 * (first[0] + then[0]) - middle[0], 0.5 * (first[1] + then[1]) - middle[1]
             turns = max(_turn(bend[0], first[0], then[0]), _turn(bend[1], first[1], then[1]))
             if turns <= _STRAIGHT * rough:
                 break
@@ -158,17 +202,21 @@ def _ended(piece: Complex, films: Films, state: State, t: float, end: float, fir
     """
     what, film = _NOTHING, 0
     for b in range(2):
-        bound = curvature_bound(piece, b, t) * (end - t) ** 2 / 8.0
+        bound = curvature_bound(piece, b, t) * (end - t) * (end - t) / 8.0
         low, high = min(abs(first[b]), abs(last[b])), max(abs(first[b]), abs(last[b]))
         if first[b] * last[b] < 0.0:
             low = 0.0
-        found = -1.0
-        if state.phase[b] == INSULATING and high + bound >= threshold(films, state, b):
-            found = crossing(piece, b, t, end, threshold(films, state, b), RISES)
-        elif state.phase[b] == ARC and low - bound <= films.extinction[b]:
-            found = crossing(piece, b, t, end, films.extinction[b], FALLS)
-        if 0.0 <= found <= end:
-            what, film, end = (_BROKEN if state.phase[b] == INSULATING else _OUT), b, found
+        # One call for both ways, and so one compilation.
+        way, level, near = FALLS, films.extinction[b], False
+        if state.phase[b] == INSULATING:
+            way, level = RISES, threshold(films, state, b)
+            near = high + bound >= level
+        elif state.phase[b] == ARC:
+            near = low - bound <= level
+        if near:
+            found = crossing(piece, b, t, end, level, way)
+            if 0.0 <= found <= end:
+                what, film, end = (_BROKEN if way == RISES else _OUT), b, found
     return end, what, film
 
 
@@ -187,19 +235,21 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
     c = state_of(films, state)
     begin(circuits, c, state.x, source, piece)
     t, what, film = 0.0, _NOTHING, 0
-    burns = burns_in(state, 0) or burns_in(state, 1)
+    burns = False
+    for b in range(2):
+        burns = burns or burns_in(state, b)
     unfold(piece, left, course)
     move(piece, 0.0)
-    first = (voltage(piece, 0), voltage(piece, 1))
+    first = voltages(piece)
     while t < left and what == _NOTHING:
         h = _burning_panel(piece, t, left - t) if burns else _panel(piece, t, left - t, meters.rough[0])
         end = left if t + h >= left else t + h
         move(piece, end)
-        last = (voltage(piece, 0), voltage(piece, 1))
+        last = voltages(piece)
         end, what, film = _ended(piece, films, state, t, end, first, last)
         if what != _NOTHING:
             move(piece, end)
-            last = (voltage(piece, 0), voltage(piece, 1))
+            last = voltages(piece)
         rough = meters.rough[0]
         if burns:
             _burn(course, films, state, t, end - t, first)
@@ -216,14 +266,15 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
 
 
 @inner
-def _replace(circuits: Circuits, films: Films, state: State, b: int, volts: float) -> None:
+def _replace(circuits: Circuits, films: Films, state: State, b: int, volts: float, charges: Array
+             ) -> None:  # fmt: skip
     """Move the elements of a bearing to their next position; the charges of all nodes stay."""
     before = state_of(films, state)
     state.place[b] = (state.place[b] + 1) % films.positions[b]
     after = state_of(films, state)
     n = state.x.size
-    charges = np.zeros(n)
     for i in range(n):
+        charges[i] = 0.0
         for j in range(n):
             charges[i] += circuits.charge[before, i, j] * (state.x[j] - circuits.jump[before, j] * volts)
     for i in range(n):
@@ -244,58 +295,58 @@ def _ignite(state: State, b: int, now: float, volts: float) -> None:
 
 
 @inner
-def _insulate(films: Films, state: State, b: int, now: float, events: Array, count: int) -> None:
+def _insulate(films: Films, state: State, b: int, now: float, work: Work) -> None:
     """Let the film insulate again: its event is over, and the next threshold is drawn."""
+    count = work.filled[0]
+    work.filled[0] = count + 1
     state.phase[b] = INSULATING
     state.clocks[b, RECOVERY] = math.inf
     state.event[b, OFF] = now
     for column in range(COLUMNS):
-        events[count, column] = state.event[b, column]
+        work.events[count, column] = state.event[b, column]
     next_film(films, state, b)
 
 
 @inner
 def _scheduled(circuits: Circuits, films: Films, state: State, b: int, now: float, source: float,
-               volts: float, events: Array, count: int) -> int:  # fmt: skip
-    """Do what the clocks of a bearing say; return the number of events."""
+               work: Work) -> None:  # fmt: skip
+    """Do what the clocks of a bearing say."""
     if state.clocks[b, POSITION] <= 0.0:
-        _replace(circuits, films, state, b, source)
+        _replace(circuits, films, state, b, source, work.charges)
         state.clocks[b, POSITION] = films.step[b]
     if state.clocks[b, RENEWAL] <= 0.0:
         if state.phase[b] == INSULATING or state.phase[b] == TOUCHING:
             next_film(films, state, b)
         state.clocks[b, RENEWAL] = waits(state, b, films.renewal[b])
     if state.clocks[b, RECOVERY] <= 0.0:
-        if abs(volts) > _FED * films.extinction[b]:
+        if abs(work.volts[b]) > _FED * films.extinction[b]:
             # The source has fed the arc again.
             state.phase[b], state.clocks[b, RECOVERY] = ARC, math.inf
         else:
-            _insulate(films, state, b, now, events, count)
-            count += 1
+            _insulate(films, state, b, now, work)
     if state.clocks[b, TOUCH] <= 0.0:
-        count = _touch(films, state, b, now, events, count)
+        _touch(films, state, b, now, work)
         touching = state.phase[b] == TOUCHING
         state.clocks[b, TOUCH] = waits(state, b, films.touch[b, 1 if touching else 0])
-    return count
 
 
 @inner
-def _touch(films: Films, state: State, b: int, now: float, events: Array, count: int) -> int:
+def _touch(films: Films, state: State, b: int, now: float, work: Work) -> None:
     """Let asperities of a bearing touch, or part; an arc ends where they touch."""
     if state.phase[b] == TOUCHING:
         state.phase[b] = INSULATING
         next_film(films, state, b)
-        return count
+        return
     if state.phase[b] != INSULATING:
-        _insulate(films, state, b, now, events, count)
-        count += 1
+        _insulate(films, state, b, now, work)
     state.phase[b] = TOUCHING
-    return count
 
 
-@compiled
-def start_clocks(films: Films, state: State, b: int) -> None:
-    """Set the clocks of a bearing at the start, and draw its first threshold."""
+@inner
+def _start_clocks(films: Films, state: State, b: int) -> None:
+    """Set the clocks of a bearing that are not set yet, and draw its first threshold."""
+    if not math.isnan(state.clocks[b, POSITION]):
+        return
     state.clocks[b, POSITION] = films.step[b]
     state.clocks[b, RENEWAL] = waits(state, b, films.renewal[b])
     state.clocks[b, RECOVERY] = math.inf
@@ -329,7 +380,7 @@ def _pass_time(circuits: Circuits, state: State, t: float, silent: float) -> Non
 
 @compiled
 def advance(circuits: Circuits, films: Films, segments: Segments, state: State, meters: Meters,
-            events: Array) -> int:  # fmt: skip
+            work: Work) -> None:  # fmt: skip
     """March through segments of the source, from where the state stands until their end.
 
     Parameters
@@ -344,25 +395,23 @@ def advance(circuits: Circuits, films: Films, segments: Segments, state: State, 
         Where the march stands; it is moved on. At the end of the segments its cursor is (-1, 0).
     meters : Meters
         What is measured; it is moved on.
-    events : ndarray, shape (m, 8)
-        Table that takes the events; where it is full, or random numbers run out, the march stops in between.
-
-    Returns
-    -------
-    int
-        Number of events in the table.
+    work : Work
+        Takes the events. Where their table is full, or random numbers run out, the march stops in between.
     """
-    piece = np.zeros((ROWS, state.x.size + FURTHER), dtype=np.complex128)
-    course, volts = course_of(piece.shape[1]), np.zeros(2)
-    count, k, passed = 0, int(state.cursor[0]), state.cursor[1]
+    piece, course, volts = work.piece, work.course, work.volts
+    k, passed = int(state.cursor[0]), state.cursor[1]
+    work.filled[0] = 0
+    for b in range(2):
+        _start_clocks(films, state, b)
     while k < segments.duration.size:
         if state.cursor[2] == 0.0:
             state.ring[0] += segments.ring[k]
             state.cursor[2] = 1.0
         while passed < segments.duration[k]:
-            if count + 4 > events.shape[0] or np.max(state.used) > state.random.shape[2] - RESERVE:
+            used = _most_used(state)
+            if work.filled[0] + 4 > work.events.shape[0] or used > state.random.shape[2] - RESERVE:
                 state.cursor[0], state.cursor[1] = k, passed
-                return count
+                return
             left, ends = _until_next(state, segments.duration[k] - passed)
             level = segments.level[k] + segments.slope[k] * passed
             source = Source(level, segments.slope[k], state.ring[0])
@@ -378,8 +427,7 @@ def advance(circuits: Circuits, films: Films, segments: Segments, state: State, 
                 state.clocks[film, RECOVERY] = films.recovery[film]
             at = level + segments.slope[k] * t + state.ring[0].real
             for b in range(2):
-                count = _scheduled(circuits, films, state, b, now, at, volts[b], events, count)
+                _scheduled(circuits, films, state, b, now, at, work)
         k, passed, state.cursor[2] = k + 1, 0.0, 0.0
     state.time[0], state.time[1] = state.time[0] + state.time[1], 0.0
     state.cursor[0], state.cursor[1] = -1.0, 0.0
-    return count

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import inner
 
@@ -129,7 +127,7 @@ def _fill(meters: Meters, b: int, v: float, w: float, e: float, duration: float)
     bins = meters.histogram.shape[1]
     width = (meters.edges[1] - meters.edges[0]) / bins
     low, high = (min(v, w) - meters.edges[0]) / width, (max(v, w) - meters.edges[0]) / width
-    start, end = min(max(int(np.floor(low)), 0), bins - 1), min(max(int(np.floor(high)), 0), bins - 1)
+    start, end = min(max(int(low), 0), bins - 1), min(max(int(high), 0), bins - 1)
     if start == end:
         meters.histogram[b, start] += duration
     elif e == 0.0:

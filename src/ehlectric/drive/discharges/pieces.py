@@ -32,11 +32,11 @@ LOWEST = -700.0
 RATE, START, FORCE, SLOPE, NOW, FILMS, CURVATURE = 0, 1, 2, 3, 4, 5, 7
 ROWS, FURTHER = 9, 2
 
-# Ways of a crossing.
-RISES, FALLS = range(2)
-
 # Steps of the search for a crossing, and the part of the level within which it is found.
 _STEPS, _CLOSE = 200, 1e-13
+
+# Ways of a crossing.
+RISES, FALLS = range(2)
 
 # Spacing of floating-point numbers at 1, relative: the least step in time that moves it.
 _EPSILON = float(np.finfo(float).eps)
@@ -146,6 +146,17 @@ def voltage(piece: Complex, film: int) -> float:
         weight, y = piece[FILMS + film, m], piece[NOW, m]
         value += weight.real * y.real - weight.imag * y.imag
     return value
+
+
+@inner
+def voltages(piece: Complex) -> tuple[float, float]:
+    """Voltages across both films at the time to which the piece was moved [V]."""
+    first, second = 0.0, 0.0
+    for m in range(piece.shape[1]):
+        y, one, other = piece[NOW, m], piece[FILMS, m], piece[FILMS + 1, m]
+        first += one.real * y.real - one.imag * y.imag
+        second += other.real * y.real - other.imag * y.imag
+    return first, second
 
 
 @inner

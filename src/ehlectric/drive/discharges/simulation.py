@@ -13,7 +13,8 @@ from ehlectric.arrays import Array
 from ehlectric.cases.drives.breakdown import Breakdown
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.modes import Modes
-from ehlectric.drive.discharges.march import advance, start_clocks
+from ehlectric.drive.discharges.compiled import compile_for
+from ehlectric.drive.discharges.march import advance, work_of
 from ehlectric.drive.discharges.meters import Meters
 from ehlectric.drive.discharges.pieces import Circuits
 from ehlectric.drive.discharges.record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
@@ -166,6 +167,7 @@ def simulate(
     measuring: Measuring,
     seed: int,
     progress: Callable[[float], None] = lambda _: None,
+    compiling: Callable[[str], None] = lambda _: None,
 ) -> Record:
     """March through a source, and record what happens.
 
@@ -183,6 +185,8 @@ def simulate(
         Seed of the random numbers.
     progress : callable
         Called with the simulated time [s].
+    compiling : callable
+        Called with a text where the march has to be compiled.
 
     Returns
     -------
@@ -192,10 +196,8 @@ def simulate(
     state = _state(circuits.jump.shape[1])
     random = _Random(seed)
     random.fill(state)
-    for b in range(2):
-        start_clocks(films, state, b)
     meters, log = _meters(measuring), _Log(measuring.duration)
-    events, begun = np.zeros((_EVENTS, COLUMNS)), measuring.start == 0.0
+    work, begun = work_of(state.x.size, _EVENTS), measuring.start == 0.0
     trace: Array | None = None
     for chunk in chunks:
         if not begun and state.time[0] >= measuring.start * (1.0 - _SAME):
@@ -203,11 +205,12 @@ def simulate(
         state.cursor[:] = 0.0
         seeks = begun and measuring.at_event and trace is None
         before = deepcopy((state, random)) if seeks else None
+        compile_for(advance, (circuits, films, chunk, state, meters, work), compiling)
         while state.cursor[0] >= 0.0:
-            count = advance(circuits, films, chunk, state, meters, events)
+            advance(circuits, films, chunk, state, meters, work)
             random.fill(state)
             if begun:
-                log.add(events[:count], measuring.start)
+                log.add(work.events[: work.filled[0]], measuring.start)
         if before is not None and log.number:
             trace = _around(circuits, films, chunk, measuring, before, _typical(log))
         progress(float(state.time[0]))
@@ -238,9 +241,9 @@ def _around(
     begin = max(begin, start)
     last = int(np.searchsorted(ends, begin + measuring.trace)) + 1
     meters = _meters(measuring)._replace(until=np.array([begin, begin + measuring.trace]))
-    events, part = np.zeros((_EVENTS, COLUMNS)), _until(chunk, last)
+    work, part = work_of(state.x.size, _EVENTS), _until(chunk, last)
     while state.cursor[0] >= 0.0:
-        advance(circuits, films, part, state, meters, events)
+        advance(circuits, films, part, state, meters, work)
         random.fill(state)
     return _traced(measuring, meters)
 
@@ -255,7 +258,8 @@ def _state(size: int) -> State:
     return State(
         x=np.zeros(size),
         ring=np.zeros(1, dtype=complex),
-        clocks=np.full((2, 4), math.inf),
+        # The march sets the clocks.
+        clocks=np.full((2, 4), math.nan),
         place=np.zeros(2, dtype=np.int64),
         phase=np.zeros(2, dtype=np.int64),
         draw=np.ones(2),

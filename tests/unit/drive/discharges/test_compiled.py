@@ -1,5 +1,7 @@
 """Compiled functions on the disk belong to the sources of all functions that they call."""
 
+import errno
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -40,3 +42,47 @@ def test_a_folder_of_the_user_is_kept(tmp_path):
     at, after = done.stdout.splitlines()
     assert Path(at).is_relative_to(tmp_path / f"compiled-{contents_of(SOURCE)}")
     assert after == str(tmp_path)
+
+
+def test_without_a_folder_functions_are_compiled_and_it_is_logged_once(monkeypatch, caplog, tmp_path):
+    """A file in place of each folder holds for root as well."""
+    (tmp_path / "file").touch()
+    monkeypatch.setattr(compiled, "_bases", lambda _: iter([tmp_path / "file"]))
+    for cached in (compiled._folder, compiled._not_kept):
+        cached.cache_clear()
+    told = []
+    try:
+        for _ in range(2):
+            double = compiled.compiled(lambda x: 2.0 * x)
+            compiled.compile_for(double, (1.5,), told.append)
+            compiled.compile_for(double, (1.5,), told.append)
+            assert double(1.5) == 3.0
+    finally:
+        for cached in (compiled._folder, compiled._not_kept):
+            cached.cache_clear()
+    assert len(told) == 2
+    assert [(record.name, record.levelname) for record in caplog.records] == [
+        ("ehlectric.machine", "WARNING")
+    ]
+    assert "NUMBA_CACHE_DIR" in caplog.text
+
+
+def test_a_full_disk_costs_no_simulation(monkeypatch, caplog):
+    compiled._not_kept.cache_clear()
+    double = compiled.compiled(lambda x: 2.0 * x)
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(double._cache, "save_overload", full)
+    compiled.compile_for(double, (1.5,), lambda _: None)
+    assert double(1.5) == 3.0
+    assert os.strerror(errno.ENOSPC) in caplog.text
+
+
+def test_a_user_without_a_home_has_the_other_folders(monkeypatch):
+    def none():
+        raise RuntimeError
+
+    monkeypatch.setattr(Path, "home", none)
+    assert list(compiled._bases("")) == [SOURCE / "__pycache__"]

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.drive.discharges.compiled import compiled
-from ehlectric.drive.discharges.course import course_at, course_of, unfold
-from ehlectric.drive.discharges.pieces import FILMS, FORCE, RATE, ROWS, SLOPE, START, move, voltage
+from ehlectric.drive.discharges.course import both_at, course_at, course_of, unfold
+from ehlectric.drive.discharges.pieces import FILMS, FORCE, RATE, ROWS, SLOPE, START, move, voltage, voltages
 
 SIZES = st.floats(-1.0, 1.0)
 # Rates times the duration of the piece, from modes that do not change to those that are over at once.
@@ -15,15 +15,14 @@ CHANGES = st.one_of(st.just(0.0), st.floats(-10.0, 3.0).map(lambda power: 10.0**
 
 
 @compiled
-def both_ways(piece, duration, times):
-    course = course_of(piece.shape[1])
+def four_ways(piece, course, duration, times, found):
     unfold(piece, duration, course)
-    found, moved = np.zeros((2, times.size)), np.zeros((2, times.size))
     for k in range(times.size):
         move(piece, times[k])
         for film in range(2):
-            found[film, k], moved[film, k] = course_at(course, film, times[k]), voltage(piece, film)
-    return found, moved
+            found[0, film, k], found[1, film, k] = course_at(course, film, times[k]), voltage(piece, film)
+        found[2, 0, k], found[2, 1, k] = both_at(course, times[k])
+        found[3, 0, k], found[3, 1, k] = voltages(piece)
 
 
 @given(
@@ -45,5 +44,9 @@ def test_a_course_is_the_voltage_of_its_modes(modes, duration):
             column[FILMS : FILMS + 2] = weight, 0.5 * weight
             columns.append(column)
     times = duration * np.linspace(0.0, 1.0, 7)
-    found, moved = both_ways(np.array(columns).T.copy(), duration, times)
+    piece = np.array(columns).T.copy()
+    found, moved, both_found, both_moved = all_ways = np.zeros((4, 2, times.size))
+    four_ways(piece, course_of(piece.shape[1]), duration, times, all_ways)
     assert found == pytest.approx(moved, rel=0.0, abs=3e-12)
+    assert np.array_equal(both_found, found)
+    assert np.array_equal(both_moved, moved)

@@ -24,7 +24,7 @@ from ehlectric.bearing.accuracy import percent
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.quick import expected, quick_drive
-from ehlectric.drive.solver import prepare
+from ehlectric.drive.solver import SIMULATING, prepare
 from ehlectric.drive.summary import checked_summary
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import bearing_warnings, machine_warnings
@@ -34,10 +34,6 @@ from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress
 from ehlectric.tables.drive import drive_rows, prepared_rows
 
-# Parts of a simulation that are told.
-_WHOLE = 100
-
-_LOADING = "simulating; the first time on a machine this compiles for about 15 s"
 _SOLVING = "solving the contacts of both bearings, then simulating"
 
 
@@ -106,10 +102,13 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     from ehlectric.app.figures.drives.every import drive_figures
 
     case = drive_of(table, session)
-    progress(0, 0, _SOLVING if _is_solved(case) else _LOADING)
+    progress(0, 0, _SOLVING if _is_solved(case) else SIMULATING)
 
     def told_percent(done: int, of: int, text: str) -> None:
-        progress(done, of, "percent simulated" if of == _WHOLE else text)
+        if text == SIMULATING:
+            progress(done, of, "percent simulated")
+        else:
+            progress(0, 0, text)
 
     # A core is left for the pages.
     outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
