@@ -185,7 +185,8 @@ def _mixed(
 ) -> list[GridSolution]:
     """Solutions with surfaces that may touch, the best one last, from a converged solution first.
 
-    The last one carries the oil through its cavities, unless it does not form again behind one.
+    The last one carries the oil through its cavities if it forms again behind one, except in a line contact
+    that touches.
     """
     level, near = levels[0], None
     if full_film is not None and full_film.status == "converged":
@@ -219,12 +220,15 @@ def _mixed(
     )
     found.extend(sorted(counted_full, key=lambda solution: -solution.final.norm))
     full = found[-1]
-    if full.status == "converged" and forms_again(full.final.full_film):
+    # No oil passes beside a ridge of a line contact that touches. A film that carries its oil then has several
+    # solutions, one of which is nearly the dry contact.
+    passes = problem.width is not None or not full.touches
+    if passes and full.status == "converged" and forms_again(full.final.full_film):
         *others, best = conserving.from_full(full, thorough=finest)
+        if best.status == "converged" and (problem.width is not None or not best.touches):
+            return _in_place_of([*others, *found], [best])
         # A film that makes oil is better than none, and a warning says so.
-        found = (
-            _in_place_of([*others, *found], [best]) if best.status == "converged" else [*others, best, *found]
-        )
+        return [*others, replace(best, status="stalled"), *found]
     return found
 
 

@@ -21,13 +21,10 @@ def at_lambda(case, ratio):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["gaussian 400 nm", "sinusoid 140 nm", "asperity 200 nm"])
 def test_line_with_a_thin_film(name):
-    """Where the film of the formula is 3 % of the roughness, on 801 nodes.
-
-    No oil passes beside a ridge of a line contact that touches, so that the ridges carry the load.
-    """
+    """Where the film of the formula is 3 % of the roughness, on 801 nodes."""
     film = at_lambda(rough_line(LINES[name], nodes=801), 0.03)
     assert film.converged
-    assert film.oil[0] < 1e-4
+    assert film.share < 0.3
 
 
 @pytest.mark.slow
