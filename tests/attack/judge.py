@@ -79,8 +79,9 @@ def _unprintable(mark: str) -> bool:
 
 
 def _allowed(path: str, *folders: Path) -> bool:
-    """Whether a command may write a path: one in its folders, or the null device."""
-    return path == os.devnull or any(Path(path).is_relative_to(folder) for folder in folders)
+    """Whether a command may write a path: one in its folders, the null device, or compiled code."""
+    own = "__pycache__" in Path(path).parts
+    return path == os.devnull or own or any(Path(path).is_relative_to(folder) for folder in folders)
 
 
 def hidden(folder: Path) -> list[Path]:

@@ -220,8 +220,8 @@ def _mixed(
     )
     found.extend(sorted(counted_full, key=lambda solution: -solution.final.norm))
     full = found[-1]
-    # No oil passes beside a ridge of a line contact that touches. A film that carries its oil then has several
-    # solutions, one of which is nearly the dry contact.
+    # No oil passes beside a ridge of a line contact that touches. A film that carries its oil then has
+    # several solutions, one of which is nearly the dry contact.
     passes = problem.width is not None or not full.touches
     if passes and full.status == "converged" and forms_again(full.final.full_film):
         *others, best = conserving.from_full(full, thorough=finest)

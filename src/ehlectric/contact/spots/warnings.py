@@ -130,6 +130,6 @@ def _not_conserved(balance: OilBalance) -> ResultWarning:
         "oil-not-conserved",
         f"the film does not keep its oil: {made} of the mean flow through the contact appears where "
         f"cavitated gaps fill again, and {lost} is lost in spots, since cavities count as full where a line "
-        "contact touches, or no film that carries its oil was found; the film is rather too thick and the load "
-        "share of the asperities too low; use more grid.nodes, or [motion]",
+        "contact touches, or no film that carries its oil was found; the film is rather too thick and the "
+        "load share of the asperities too low; use more grid.nodes, or [motion]",
     )
