@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -26,6 +25,7 @@ from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.names import STYLES, in_formats, with_units_kept
 from ehlectric.runtime.files import write
+from ehlectric.runtime.parallel.threads import Turn
 
 D = TypeVar("D")
 
@@ -112,7 +112,7 @@ _ONE_COLUMN = 6.5
 # Sizes of the first line of a title and of the others [pt], and part of the page's width that they may take.
 _FINDING, _BELOW, _FULL = 10.0, 8.5, 0.97
 
-_turn = threading.RLock()
+_turn = Turn()
 _style: ContextVar[str] = ContextVar("style", default="screen")
 
 
@@ -146,7 +146,7 @@ def style(name: str | None = None) -> Iterator[None]:
     name = _style.get() if name is None else name
     if name not in _LOOKS:
         raise InputError("style", got=shown(name), takes=f"one of {', '.join(_LOOKS)}")
-    with _turn, mpl.rc_context(_LOOKS[name].settings), warnings.catch_warnings():  # type: ignore[arg-type]
+    with _turn.taken(), mpl.rc_context(_LOOKS[name].settings), warnings.catch_warnings():  # type: ignore[arg-type]
         # The title of a case may contain characters that the font lacks.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         token = _style.set(name)

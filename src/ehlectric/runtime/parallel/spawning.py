@@ -6,6 +6,7 @@ them. Only functions and values of packages are handed to them: what a script de
 
 from __future__ import annotations
 
+import os
 import sys
 import threading
 from collections.abc import Iterator
@@ -13,8 +14,14 @@ from contextlib import contextmanager
 from multiprocessing.context import SpawnContext, SpawnProcess
 from types import ModuleType
 
-# Two threads that start processes at once would leave the empty module behind.
+# Two threads that start processes at once would leave the empty module behind, and so would a fork meanwhile.
 _ONE_AT_A_TIME = threading.Lock()
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(
+        before=_ONE_AT_A_TIME.acquire,
+        after_in_parent=_ONE_AT_A_TIME.release,
+        after_in_child=_ONE_AT_A_TIME.release,
+    )
 
 
 class Process(SpawnProcess):

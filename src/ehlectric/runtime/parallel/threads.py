@@ -1,4 +1,4 @@
-"""One BLAS thread for small and banded factorisations.
+"""Threads that take turns, and one BLAS thread for small and banded factorisations.
 
 OpenBLAS uses all of its threads even for a factorisation of bandwidth six. Starting them takes tens of times
 longer than the factorisation.
@@ -6,16 +6,69 @@ longer than the factorisation.
 
 from __future__ import annotations
 
+import os
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
 from threadpoolctl import ThreadpoolController
 
-_turn = threading.RLock()
+
+class Turn:
+    """Turn that one thread of a process has at a time, and may have several times at once.
+
+    A process that is forked while a thread has the turn begins with a free one: the thread is not in it, and
+    would keep the turn for ever.
+
+    Examples
+    --------
+    >>> turn = Turn()
+    >>> with turn.taken(), turn.taken():
+    ...     print("only this thread")
+    only this thread
+    """
+
+    def __init__(self) -> None:
+        self._renew()
+        if hasattr(os, "register_at_fork"):
+            os.register_at_fork(after_in_child=self._renew)
+
+    def _renew(self) -> None:
+        self._lock = threading.RLock()
+
+    @contextmanager
+    def taken(self) -> Iterator[None]:
+        """Context in which this thread has the turn."""
+        # The lock that is released is the one that was acquired, also where the thread forks in between.
+        with self._lock:
+            yield
+
+
+_turn = Turn()
+
+
+def _renew_properties() -> None:
+    """Renew the locks of cached properties of this package; from Python 3.12 on they have none."""
+    package = __name__.partition(".")[0]
+    for name, module in list(sys.modules.items()):
+        if name.partition(".")[0] == package:
+            for each in vars(module).values():
+                if isinstance(each, type) and each.__module__ == name:
+                    _renew_those_of(each)
+
+
+def _renew_those_of(kind: type) -> None:
+    for value in vars(kind).values():
+        if isinstance(value, cached_property):
+            value.lock = threading.RLock()  # type: ignore[attr-defined]
+
+
+if sys.version_info < (3, 12) and hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_renew_properties)
 
 
 @cache
@@ -35,9 +88,10 @@ def one_blas_thread() -> Iterator[None]:
     """Context in which BLAS and LAPACK run on one thread.
 
     The limit holds for the whole process. Threads therefore take turns: overlapping contexts could leave the
-    limit set at their end. Solve in several processes to use several cores.
+    limit set at their end. Solve in several processes to use several cores. A process that is
+    forked meanwhile keeps one thread.
     """
-    with _turn:
+    with _turn.taken():
         # The processes of a sweep have one thread already; to set it and to set it back takes time.
         if all(library.num_threads == 1 for library in _blas()):
             yield
