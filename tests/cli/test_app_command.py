@@ -6,17 +6,18 @@ import signal
 import socket
 import subprocess
 import sys
-from contextlib import closing
+from contextlib import closing, suppress
 
 import nicegui
 import pytest
+import simple_websocket
 
 from tests.helpers.app_server import AppServer
 from tests.helpers.each import each
 from tests.helpers.processes import PATIENCE, alive, wait_until
 
 # Status of a process that a signal ended, as shells tell it.
-_TERMINATED = 128 + signal.SIGTERM
+_TERMINATED, _HUNG_UP = 128 + signal.SIGTERM, 128 + signal.SIGHUP
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +43,7 @@ def ask(server, path, method="GET", body=None, **headers):
     [
         (signal.SIGINT, 0),
         pytest.param(signal.SIGTERM, _TERMINATED, marks=pytest.mark.slow),
+        pytest.param(signal.SIGHUP, _HUNG_UP, marks=pytest.mark.slow),
         (signal.SIGKILL, -signal.SIGKILL),
     ],
 )
@@ -160,6 +162,36 @@ def test_a_large_upload_is_refused_before_it_is_sent(server):
 
 
 @pytest.mark.slow
+@each(
+    "messages",
+    [
+        ["no digit"],
+        [b"\x00\xff"],
+        ["4no digit"],
+        ["40{no table"],
+        ["40", "42[no list"],
+        ["40", '42["event", 3]'],
+        ["40", '42["handshake", {"a": 1}]'],
+        ["40", '451-["event",{"_placeholder":true,"num":0}]', b"bytes"],
+        ["40", '499-["event"]'],
+        ["4\N{SUPERSCRIPT TWO}"],
+    ],
+)
+def test_a_message_that_is_none_of_the_protocol_is_one_line_of_the_log(server, messages):
+    before = server.log.read_text()
+    address = f"ws://127.0.0.1:{server.port}/_nicegui_ws/socket.io/?EIO=4&transport=websocket"
+    browser = simple_websocket.Client.connect(address)
+    for message in messages:
+        browser.send(message)
+    assert wait_until(lambda: server.log.read_text() != before)
+    # The server itself has closed some of them.
+    with suppress(simple_websocket.ConnectionClosed):
+        browser.close()
+    lines = server.log.read_text().removeprefix(before).splitlines()
+    assert len(lines) == 1
+    assert "Error" in lines[0]
+
+
 def test_a_page_binds_its_browser_to_the_server(server):
     status, headers, text = ask(server, "/")
     assert status == 200

@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
+import signal
 import socket
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import uvicorn
 from fastapi import FastAPI
 from nicegui import Client, app, ui
 from starlette.middleware.gzip import GZipMiddleware
 
+from ehlectric.app.junk import tell_in_one_line
 from ehlectric.app.pages import PAGES
 from ehlectric.app.policy import with_policy
-from ehlectric.app.quotas import with_bounded_bodies, with_bounded_pages
+from ehlectric.app.quotas import MOST_PAGES, with_bounded_bodies, with_bounded_pages
 from ehlectric.app.security import Guard, Handler
 from ehlectric.app.uploads import keep_in_memory
 from ehlectric.app.work import Work
+from ehlectric.runtime.interrupts import not_ignored
 
 # Time in which a browser may come back, as after a computer slept, before its session ends [s].
 _RECONNECT = 20.0
+
+# Time in which a browser connects to a page, where others wait for one [s]. Where none waits, NiceGUI gives a
+# page without a browser up after a minute.
+_UNSEEN = 5.0
 
 # Messages that a browser gets again when it comes back; figures are in them, so they are few.
 _MESSAGES = 100
@@ -61,6 +69,7 @@ def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable
         lifespan="on",
         timeout_graceful_shutdown=_GRACE,
     )
+    tell_in_one_line()
     _Server(config, ready).run(sockets=[listening])
 
 
@@ -75,6 +84,18 @@ class _Server(uvicorn.Server):
     def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
         super().__init__(config)
         self._ready = ready
+
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Context in which signals end the server; also that of a closed terminal, unless it is ignored."""
+        hangup = [number for number in not_ignored() if number.name == "SIGHUP"]
+        with super().capture_signals():
+            before = {number: signal.signal(number, self.handle_exit) for number in hangup}
+            try:
+                yield
+            finally:
+                for number, handler in before.items():
+                    signal.signal(number, handler)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
@@ -98,9 +119,16 @@ def _application(guard: Guard, work: Work) -> Handler:
         gzip_middleware_factory=None,
         show_welcome_message=False,
     )
-    paged = with_bounded_pages(with_bounded_bodies(outer), lambda: len(Client.instances))
+    paged = with_bounded_pages(with_bounded_bodies(outer), open_pages)
     # Pages are compressed after their scripts got the nonce.
     return guard.around(GZipMiddleware(with_policy(paged), minimum_size=_COMPRESSED, compresslevel=_LEVEL))
+
+
+def open_pages() -> int:
+    """Number of open pages; where they are many, those to which no browser has connected are given up."""
+    if len(Client.instances) >= MOST_PAGES:
+        Client.prune_instances(client_age_threshold=_UNSEEN)
+    return len(Client.instances)
 
 
 def _show_fault() -> None:

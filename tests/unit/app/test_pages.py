@@ -1,0 +1,54 @@
+"""Number of open pages, and log of messages that are none of the protocol."""
+
+import logging
+import sys
+import time
+
+import pytest
+from nicegui import Client
+
+from ehlectric.app import junk, server
+from ehlectric.app.quotas import MOST_PAGES
+
+
+class Page:
+    """What the server knows of a page: when it was asked for, and whether a browser is connected to it."""
+
+    def __init__(self, pages, number, age, connected, *, away=False):
+        self.id, self.has_socket_connection, self.created = number, connected, time.time() - age
+        self._delete_tasks = {"document": None} if away else {}
+        self.delete = lambda: pages.pop(number)
+
+
+@pytest.fixture
+def pages(monkeypatch):
+    found = {}
+    monkeypatch.setattr(Client, "instances", found)
+    return found
+
+
+def test_pages_without_a_browser_are_given_up_where_others_wait(pages):
+    old = server._UNSEEN + 1.0
+    kept = [(old, True, False), (old, False, True), (0.0, False, False)]
+    for number in range(MOST_PAGES - 1):
+        age, connected, away = kept[number] if number < len(kept) else (old, False, False)
+        pages[number] = Page(pages, number, age, connected, away=away)
+    # Nobody waits yet.
+    assert server.open_pages() == MOST_PAGES - 1
+    pages[MOST_PAGES] = Page(pages, MOST_PAGES, old, connected=False)
+    assert server.open_pages() == len(kept)
+    assert list(pages) == [0, 1, 2]
+
+
+def test_an_error_of_the_program_keeps_its_traceback():
+    """Also one that a message of a browser has led to."""
+    places = {"of a message": "engineio/packet.py", "of a page": "ehlectric/app/pages/form.py"}
+    for first, last in (places.values(), reversed(places.values())):
+        code = f"exec(compile('1 / 0', {f'/packages/{last}'!r}, 'exec'))"
+        try:
+            exec(compile(code, f"/packages/{first}", "exec"))
+        except ZeroDivisionError:
+            record = logging.LogRecord("asyncio", logging.ERROR, "", 0, "two\nlines", (), sys.exc_info())
+        assert junk._OneLine().filter(record)
+        assert (record.exc_info is None) == ("engineio" in last)
+        assert ("\n" in record.getMessage()) == ("engineio" not in last)
