@@ -23,7 +23,7 @@ from ehlectric.film.mixed.course import mixed_film
 from ehlectric.film.newton import newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
-from ehlectric.film.starved.reformed import conserving_films, forms_again, with_inlet
+from ehlectric.film.starved.reformed import conserving_film, forms_again, with_inlet
 from ehlectric.film.state import GridSolution, Progress, State
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
@@ -107,7 +107,7 @@ def _full_film(
     found: list[GridSolution] = []
     apart = coarse is not None and not coarse.touches
     if coarse is not None and apart and coarse.fraction is not None:
-        found.extend(_conserving(problem, levels, [_filled_from(levels[0], coarse)], progress))
+        found.append(_conserving(problem, levels, _filled_from(levels[0], coarse), progress))
         if found[-1].status == "converged":
             if forms_again(found[-1].final.full_film):
                 return found
@@ -130,31 +130,31 @@ def _full_film(
     if missed or (best.status == "converged" and forms_again(best.final.full_film)):
         start = best.state, best.final.full_film
         times = 1 if missed else _CONSERVING
-        found = _in_place_of(found, list(_conserving(problem, levels, [start], progress, times=times)))
+        found = _in_place_of(found, _conserving(problem, levels, start, progress, times=times))
         if missed and found[-1].status == "converged" and not forms_again(found[-1].final.full_film):
             # Nothing forms again, so that the film of the other scheme is close.
             other = _solve_grid(problem, levels, found[-1].state, progress, spike=True)
-            found = _in_place_of(found, [other])
+            found = _in_place_of(found, other)
     return found
 
 
 def _conserving(
     problem: FilmProblem,
     levels: list[Level],
-    starts: list[tuple[State, Mask]],
+    start: tuple[State, Mask],
     progress: Progress | None,
     times: int = _CONSERVING,
-) -> Iterator[GridSolution]:
-    """Solutions on one grid that conserve the mass of the oil in cavities.
+) -> GridSolution:
+    """Solution on one grid that conserves the mass of the oil in cavities.
 
     ``times`` multiplies the largest number of Newton steps of a film.
     """
     finest = levels[0].nodes == problem.nodes
     direct = problem.width is None and levels[0].nodes <= DIRECT
-    yield from conserving_films(
+    return conserving_film(
         problem.fluid,
         levels[:1] if direct else levels,
-        starts,
+        start,
         order=problem.wedge_order,
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=times * problem.max_iterations,
@@ -226,21 +226,20 @@ def _mixed(
     if passes and full.status == "converged" and forms_again(full.final.full_film):
         *others, best = conserving.from_full(full, thorough=finest)
         if best.status == "converged" and (problem.width is not None or not best.touches):
-            return _in_place_of([*others, *found], [best])
+            return _in_place_of([*others, *found], best)
         # A film that makes oil is better than none, and a warning says so.
         return [*others, replace(best, status="stalled"), *found]
     return found
 
 
-def _in_place_of(found: list[GridSolution], better: list[GridSolution]) -> list[GridSolution]:
-    """Solutions on one grid with better ones that take the place of the last one.
+def _in_place_of(found: list[GridSolution], better: GridSolution) -> list[GridSolution]:
+    """Solutions on one grid with a better one that takes the place of the last one.
 
     Of two converged solutions on a grid the first would be taken for one of other surfaces.
     """
-    if better[-1].status != "converged" or found[-1].status != "converged":
-        return [*found, *better]
-    last = replace(better[-1], steps=found[-1].steps + better[-1].steps)
-    return [*found[:-1], *better[:-1], last]
+    if better.status != "converged" or found[-1].status != "converged":
+        return [*found, better]
+    return [*found[:-1], replace(better, steps=found[-1].steps + better.steps)]
 
 
 def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:

@@ -159,7 +159,7 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
     scales, coarser = problem.scales, found.coarser
     steps = tuple(step for solution in found.solutions for step in solution.steps)
     x, values = _nodal(found, shaped)
-    touching, fraction = values.pop("contact_pressure"), values.pop("film_fraction")
+    touching, fraction = values.pop("contact_pressure"), values.pop("film_fraction", None)
     return FilmSolution(
         x=scales.length * x,
         **values,
@@ -183,7 +183,7 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
             whole.final.coefficients.density * whole.state.thickness,
         ),
         max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
-        film_fraction=None if found.fraction is None else fraction,
+        film_fraction=fraction,
         mass_residual=None if found.fraction is None else mass_residual(found),
         starvation=found.starvation if isinstance(found, StarvedSolution) else None,
     )
@@ -206,21 +206,20 @@ def mass_residual(found: RefinedSolution) -> float:
 def _nodal(found: RefinedSolution, shaped: Shaped) -> tuple[Array, dict[str, Any]]:
     """Positions X along entrainment, and nodal values of the film by the names of its attributes."""
     scales, finest, patch = found.problem.scales, found.last, found.patch
-    fluid, order = found.problem.fluid, found.problem.wedge_order
     if patch is None:
         values = _values(scales, finest, 0.0)
-        values["film_fraction"] = (
-            np.ones(finest.level.mesh.shape) if found.fraction is None else found.fraction
-        )
+        if found.fraction is not None:
+            values["film_fraction"] = found.fraction
         return finest.level.mesh.x, {name: shaped(each) for name, each in values.items()}
     mesh = finest.level.mesh
     joined = patch.join(mesh)
     outer = patch.outer_deflection(patch.times(mesh))(mesh.x, mesh.y)
     fine = _values(scales, finest, outer)
     coarse = _values(scales, patch.coarse, 0.0)
-    for values, grid in ((coarse, patch.coarse), (fine, finest)):
-        # The content of oil is known on both grids, or of none.
-        values["film_fraction"] = oil_fraction(fluid, grid, order)
+    if found.fraction is not None:
+        fluid, order = found.problem.fluid, found.problem.wedge_order
+        coarse["film_fraction"] = oil_fraction(fluid, patch.coarse, order)
+        fine["film_fraction"] = found.fraction
     added = patch.problem.added_gap
     if added is None:
         return joined.x, {name: joined(coarse[name], fine[name]) for name in fine}

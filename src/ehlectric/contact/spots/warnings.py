@@ -60,7 +60,7 @@ def spot_warnings(
     film: Film | PointFilm,
     coarser: Coarser | None,
 ) -> Iterator[ResultWarning]:
-    """Warnings about a converged film whose surfaces touch: what it means, and what is not resolved.
+    """Warnings about a converged film that is rough or touches: what it means, and what is not resolved.
 
     Parameters
     ----------
@@ -69,15 +69,15 @@ def spot_warnings(
     conditions : Conditions or PointConditions
         Operating conditions.
     film : Film or PointFilm
-        Film; there are no warnings where it has not converged, or its surfaces do not touch.
+        Film; there are no warnings where it has not converged.
     coarser : Coarser or None
         Asperities on a grid with half the nodes; None if it was not solved.
 
     Yields
     ------
     ResultWarning
-        That the surfaces touch at the edge of the domain; that they touch in it, and where so a load share
-        that depends on the grid, and oil that appears.
+        That the surfaces touch at the edge of the domain; oil that appears; that they touch in the domain,
+        and where so a load share that depends on the grid.
     """
     if not film.converged:
         return

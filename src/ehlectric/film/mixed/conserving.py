@@ -18,15 +18,12 @@ from ehlectric.film.levels import Level
 from ehlectric.film.mixed.course import NEAR_DAMPING
 from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.mixed.touching import Asperities, Carried, carried_rows
-from ehlectric.film.starved.reformed import flooded_inlet, with_inlet
+from ehlectric.film.starved.reformed import flooded_inlet, of_full_order, with_inlet
 from ehlectric.film.state import GridSolution, Progress, State
 
 # Part of the source that is taken away in the first step, the least one, the factors after a step that
 # converged and one that did not, and the largest number of Newton steps of each.
 _FIRST, _LEAST, _LONGER, _SHORTER, _STEPS = 0.25, 0.01, 1.5, 0.5, 40
-
-# Largest number of Newton steps from a solution whose scheme has lower order at some nodes.
-_AGAIN = 15
 
 # Residual of the steps on the way.
 _ON_THE_WAY = 1e-6
@@ -99,11 +96,9 @@ class Conserving:
         self, levels: list[Level], state: State, filled: Mask, damping: float, tolerance: float, most: int
     ) -> GridSolution:
         found = self._newton(levels, state, filled, damping, tolerance, most)
-        if found.status != "converged":
-            return found
-        # Nodes that went round in circles have an upwind difference, which the solution itself may not need.
-        again = self._newton(levels, found.state, found.final.full_film, 0.0, tolerance, _AGAIN)
-        return replace(again, steps=found.steps + again.steps) if again.status == "converged" else found
+        return of_full_order(
+            found, lambda state, filled, most: self._newton(levels, state, filled, 0.0, tolerance, most)
+        )
 
     def _newton(
         self, levels: list[Level], state: State, filled: Mask, damping: float, tolerance: float, most: int

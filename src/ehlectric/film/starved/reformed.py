@@ -8,7 +8,7 @@ flooded.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -41,17 +41,17 @@ def forms_again(full_film: Mask) -> bool:
     return bool(np.any(inner & behind))
 
 
-def conserving_films(
+def conserving_film(
     fluid: Fluid,
     levels: list[Level],
-    starts: Iterable[tuple[State, Mask]],
+    start: tuple[State, Mask],
     *,
     order: int,
     tolerance: float,
     max_iterations: int,
     progress: Progress | None = None,
-) -> Iterator[GridSolution]:
-    """Films that conserve the mass of the oil, from one start after the other until one converges.
+) -> GridSolution:
+    """Film that conserves the mass of the oil, on the first of ``levels``.
 
     Parameters
     ----------
@@ -59,21 +59,21 @@ def conserving_films(
         Lubricant over dimensionless pressure.
     levels : list of Level
         Grids from the one to solve on to the coarsest.
-    starts : iterable of (State, ndarray)
-        Initial guesses, and the nodes (nx, ny) that oil fills in each of them.
+    start : (State, ndarray)
+        Initial guess, and the nodes (nx, ny) that oil fills in it.
     order : int
         Order of the wedge term where oil fills the gap.
     tolerance : float
         Residual at which to stop, a pressure over p_h.
     max_iterations : int
-        Largest number of Newton steps from each start.
+        Largest number of Newton steps.
     progress : callable, optional
         Function that is called with (nodes, Newton step, residual) before every step.
 
-    Yields
-    ------
+    Returns
+    -------
     GridSolution
-        Last iterate from each start, with its oil fraction.
+        Last iterate, with its oil fraction.
     """
     supply = flooded_inlet(levels[0], order)
 
@@ -90,16 +90,19 @@ def conserving_films(
         )
         return replace(found, fraction=content.fraction(found.state.thickness))
 
-    for state, filled in starts:
-        found = solved(state, filled, max_iterations)
-        if found.status == "converged":
-            # Nodes that went round in circles have an upwind difference, which the solution may not need.
-            again = solved(found.state, found.final.full_film, _AGAIN)
-            if again.status == "converged":
-                found = replace(again, steps=found.steps + again.steps)
-        yield found
-        if found.status == "converged":
-            return
+    return of_full_order(solved(*start, max_iterations), solved)
+
+
+def of_full_order(found: GridSolution, solved: Callable[[State, Mask, int], GridSolution]) -> GridSolution:
+    """Solution whose nodes have no upwind difference that it does not need.
+
+    Nodes that went round in circles got one. ``solved`` solves the film again from a state, its filled nodes
+    and with a largest number of Newton steps; where that fails, the solution stays.
+    """
+    if found.status != "converged":
+        return found
+    again = solved(found.state, found.final.full_film, _AGAIN)
+    return replace(again, steps=found.steps + again.steps) if again.status == "converged" else found
 
 
 def flooded_inlet(level: Level, order: int) -> Supply:
