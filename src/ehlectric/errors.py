@@ -150,6 +150,11 @@ class InputError(ValueError):
         """Error of a required key that is missing."""
         return cls(key, takes=takes)
 
+    @property
+    def is_missing(self) -> bool:
+        """Whether the error is that of a value that is missing."""
+        return self.text.startswith("missing")
+
     @classmethod
     def unknown(cls, key: str, nearest: str) -> Self:
         """Error of a key that does not exist; ``nearest`` is the existing key with the most similar name."""
@@ -178,8 +183,8 @@ class InputError(ValueError):
         """
         each = [one for error in errors for one in error.several or (error,)]
         first, *others = several = {(error.key, error.text): error for error in each}.values()
-        missing = [error.key or "" for error in others if error.text.startswith("missing")]
-        further = [str(error) for error in others if not error.text.startswith("missing")]
+        missing = [error.key or "" for error in others if error.is_missing]
+        further = [str(error) for error in others if not error.is_missing]
         text = first.text + "".join(f"; also {line}" for line in further)
         if missing:
             text += f"; also missing: {', '.join(dict.fromkeys(missing))}"

@@ -107,7 +107,8 @@ def _full_film(
     found: list[GridSolution] = []
     apart = coarse is not None and not coarse.touches
     if coarse is not None and apart and coarse.fraction is not None:
-        found.append(_conserving(problem, levels, _filled_from(levels[0], coarse), progress))
+        start = filled_state(levels[0], coarse, with_inlet(coarse.final.full_film))
+        found.append(_conserving(problem, levels, start, progress))
         if found[-1].status == "converged":
             if forms_again(found[-1].final.full_film):
                 return found
@@ -202,7 +203,8 @@ def _mixed(
     )
     found: list[GridSolution] = []
     if near is not None and near.touching.any() and coarse is not None and coarse.fraction is not None:
-        found.append(conserving.near(near, _filled_from(level, coarse)[1]))
+        filled = with_inlet(coarse.final.full_film)
+        found.append(conserving.near(near, filled_state(level, coarse, filled)[1]))
         if found[-1].status == "converged":
             return found
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
@@ -228,7 +230,8 @@ def _mixed(
         if best.status == "converged" and (problem.width is not None or not best.touches):
             return _in_place_of([*others, *found], best)
         # A film that makes oil is better than none, and a warning says so.
-        return [*others, replace(best, status="stalled"), *found]
+        missed = [] if best.status == "converged" else [best]
+        return [*others, *missed, *found]
     return found
 
 
@@ -381,13 +384,13 @@ def interpolated_state(level: Level, coarse: GridSolution) -> State:
     return State.of(level, pressure, coarse.state.h00, contact)
 
 
-def _filled_from(level: Level, coarse: GridSolution) -> tuple[State, Mask]:
-    """State and filled nodes of a solution on a coarser grid, interpolated to a grid."""
+def filled_state(level: Level, coarse: GridSolution, filled: Mask) -> tuple[State, Mask]:
+    """State and filled nodes on a grid, from a coarser solution and the nodes that oil fills in it."""
     state = interpolated_state(level, coarse).lifted(0.5 * float(coarse.state.thickness.min()))
-    return state, filled_on(level.mesh, coarse.level.mesh, with_inlet(coarse.final.full_film))
+    return state, _filled_on(level.mesh, coarse.level.mesh, filled)
 
 
-def filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
+def _filled_on(mesh: Mesh, coarse: Mesh, filled: Mask) -> Mask:
     """Filled nodes on a mesh, from those on a coarser mesh of the same domain by linear interpolation."""
     if coarse.y.size == 1:
         part = np.interp(mesh.x, coarse.x, filled[:, 0])[:, np.newaxis]

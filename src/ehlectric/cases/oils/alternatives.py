@@ -6,12 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ehlectric.cases.oils.laws import base_values, law_parameters
+from ehlectric.cases.oils.temperature import SHEET_VISCOSITY
 from ehlectric.lubricant.atmospheric import ATMOSPHERIC_LAWS
-
-# Keys of a data sheet that give its viscosity: those of two oils are not mixed.
-_SHEET_VISCOSITY = frozenset(
-    ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
-)
 
 # Keys of a base that are left out where the case gives one of the keys before them.
 _REPLACED: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
@@ -52,7 +48,8 @@ def with_base(table: Any) -> Any:
 def _with_sheet(sheet: Mapping[str, Any], own: Mapping[Any, Any]) -> dict[Any, Any]:
     """Data sheet of a table, with those values of the library's sheet that it does not replace."""
     given = {key for key, value in own.items() if value is not None}
-    left_out = given | (_SHEET_VISCOSITY if given & _SHEET_VISCOSITY else frozenset())
+    # The viscosities of two oils are not mixed.
+    left_out = given.union(SHEET_VISCOSITY) if given.intersection(SHEET_VISCOSITY) else given
     return {key: value for key, value in sheet.items() if key not in left_out} | dict(own)
 
 

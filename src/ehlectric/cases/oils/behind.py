@@ -9,6 +9,7 @@ from ehlectric.cases.library.sources import Source
 from ehlectric.cases.oils.estimates import ALPHA, of_base_oil
 from ehlectric.cases.oils.laws import LAWS
 from ehlectric.cases.oils.properties import Properties
+from ehlectric.cases.oils.temperature import SHEET_VISCOSITY
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.estimates import BASE_OILS
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
@@ -19,8 +20,7 @@ ROELANDS = (
     "lubricating oils, thesis, Delft, 1966, as later works quote it"
 )
 
-# Keys of the data sheet that give the viscosity, and the density.
-_SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
+# Keys of the data sheet that give the density.
 _SHEET_DENSITY = ("density_15", "expansion")
 
 
@@ -152,7 +152,7 @@ def viscosity_keys(table: Properties, pressure: float) -> Iterator[str]:
     elif table.atmospheric_law is not None:
         yield from of_law(table, "atmospheric_law")
     elif table.temperature is not None:
-        yield from _of_sheet(table, (*_SHEET_VISCOSITY, *_SHEET_DENSITY))
+        yield from _of_sheet(table, (*SHEET_VISCOSITY, *_SHEET_DENSITY))
     else:
         yield "viscosity"
     if pressure > 0.0 and not own:

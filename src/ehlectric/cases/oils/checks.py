@@ -36,7 +36,7 @@ def refuse_missing(oil: Properties) -> None:
         try:
             check()
         except InputError as error:
-            if not error.text.startswith("missing"):
+            if not error.is_missing:
                 raise
             missing.setdefault(error.key, error)
     if missing:

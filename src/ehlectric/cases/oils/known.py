@@ -187,7 +187,7 @@ class _Found:
         try:
             return function()
         except InputError as error:
-            if error.key == "temperature" or not error.text.startswith("missing"):
+            if error.key == "temperature" or not error.is_missing:
                 raise
             self.missing[f"lubricant.{error.key}"] = error.under("lubricant")
             return None

@@ -161,7 +161,7 @@ def _of_table(
         try:
             table: Properties = Lubricant.from_written(given)
         except InputError as error:
-            if not error.text.startswith("missing"):
+            if not error.is_missing:
                 raise
             table = Properties.from_written(given)
     except InputError as error:

@@ -15,6 +15,9 @@ from ehlectric.lubricant.viscosity_index import grade_middle, viscosity_at_100
 
 _Viscosity = Annotated[float, Quantity("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
 
+# Keys that give the viscosity.
+SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
+
 # A root is found for each oil, and a case asks for it many times.
 _at_100 = lru_cache(maxsize=64)(viscosity_at_100)
 

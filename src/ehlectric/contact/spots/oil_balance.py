@@ -85,12 +85,12 @@ def oil_balance(
     oil = ((film.pressure - touching) / conditions.max_pressure).reshape(mesh.shape)
     gap = np.where(film.contact, np.maximum(film.thickness, conditions.boundary_film), film.thickness)
     thickness = (gap / conditions.thickness_scale).reshape(mesh.shape)
+    r = _residual(fluid, law, order, mesh, oil, thickness)
     zone, contact = _in_zone(conditions, mesh), film.contact.reshape(mesh.shape)
     full = oil - fluid.ambient_pressure > _ROUNDING
-    carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
-    r = _residual(fluid, law, order, mesh, oil, thickness)
     made = _refilled(full & zone) & (zone | contact) & (r > 0.0)
     lost = contact & (r < 0.0)
+    carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
     parts = [abs(float(np.vdot(mesh.weights, np.where(part, r, 0.0)))) / carried for part in (lost, made)]
     return OilBalance(mass_error=sum(parts), oil_lost=parts[0], oil_made=parts[1])
 

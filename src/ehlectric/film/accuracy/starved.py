@@ -15,8 +15,7 @@ from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import (
     DIRECT,
     NESTED_TOLERANCE,
-    filled_on,
-    interpolated_state,
+    filled_state,
     levels_of,
     nested_iteration,
 )
@@ -238,7 +237,7 @@ def _on_grids(
     for posed, full in _grids(problem, flooded, coarsest):
         finest = posed.nodes == problem.nodes
         course = _course(posed, full, progress, finest=finest)
-        near = None if last is None else _near(course, last)
+        near = None if last is None else filled_state(course.level, last.solution, last.content.filled)
         layer, last = _supplied(course, supply, near, last)
         solution = full if last is None else last.solution
         solutions.append(solution)
@@ -298,10 +297,3 @@ def is_flooded(course: Course, layer: Array) -> bool:
         return False
     enough = layer >= (1.0 - _ROUNDING) * taken_layer(course)
     return bool(np.all(enough, where=course.level.mesh.inner[1]))
-
-
-def _near(course: Course, last: StarvedFilm) -> tuple[State, Mask]:
-    """State and filled nodes of a coarser grid, interpolated to the grid of a course."""
-    state = interpolated_state(course.level, last.solution)
-    state = state.lifted(0.5 * float(last.solution.state.thickness.min()))
-    return state, filled_on(course.level.mesh, last.solution.level.mesh, last.content.filled)
