@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, Generic, TypeVar, cast
 
-from ehlectric.errors import ConvergenceError, InputError, LostError
+from ehlectric.errors import ConvergenceError, InputError, LostError, printable
 from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.parallel.workers import Crew, cores, processes
 from ehlectric.version import __version__
@@ -21,6 +21,8 @@ T = TypeVar("T")
 
 # Interval at which the caller is called back while no task finishes [s].
 _PULSE = 1.0
+
+_CANCELLED = "tasks in flight were cancelled"
 
 
 @dataclass(frozen=True)
@@ -126,7 +128,8 @@ def finished_tasks(
     Raises
     ------
     LostError
-        If the crew cannot be reached any more. All finished tasks have been yielded before.
+        If the crew cannot be reached any more, or lacks a package. All finished tasks have been yielded
+        before.
 
     Notes
     -----
@@ -146,12 +149,12 @@ def finished_tasks(
             finished = _take(flying, ended, crew, ran_out)
             died, short = refused + finished.died, finished.short
             yield finished.outcomes
-            if (died or short) and not finished.cancelled:
+            if (died or short) and not finished.broken:
                 finished = _take(flying, wait(flying).done, crew, ran_out)
                 died, short = died + finished.died, short + finished.short
                 yield finished.outcomes
-            if finished.cancelled:
-                raise LostError("tasks in flight were cancelled")
+            if finished.broken:
+                raise LostError(finished.broken)
             if died:
                 crew.renew()
             for key, value in died + short:
@@ -184,14 +187,14 @@ class _Finished(Generic[K, A, T]):
         Keys and outcomes.
     died, short : list
         Tasks whose process died, and those that ran out of memory beside others.
-    cancelled : bool
-        Whether any was cancelled.
+    broken : str
+        Why the crew solves no more: a task was cancelled, or a worker could not begin it. Empty if it does.
     """
 
     outcomes: list[tuple[K, T]] = field(default_factory=list)
     died: list[tuple[K, A]] = field(default_factory=list)
     short: list[tuple[K, A]] = field(default_factory=list)
-    cancelled: bool = False
+    broken: str = ""
 
 
 def _take(
@@ -204,7 +207,9 @@ def _take(
         try:
             outcome = future.result()
         except CancelledError:
-            finished.cancelled = True
+            finished.broken = _CANCELLED
+        except ImportError as error:  # of the worker, before the function began
+            finished.broken = _lacking(error)
         except Exception:  # raised by the executor, because the function raises none
             finished.died.append(task)
         else:
@@ -215,13 +220,19 @@ def _take(
     return finished
 
 
+def _lacking(error: ImportError) -> str:
+    return f"a worker cannot import what a task needs: {printable(str(error))}"
+
+
 def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T]) -> T:
     """Outcome of a task run with nothing else in flight, to find out whether it kills its process."""
     _ask(crew)
     try:
         outcome: T = _result(crew, crew.submit(call, value))
     except CancelledError:
-        raise LostError("tasks in flight were cancelled") from None
+        raise LostError(_CANCELLED) from None
+    except ImportError as error:
+        raise LostError(_lacking(error)) from None
     except Exception as error:  # raised by the executor
         crew.renew()
         _ask(crew)
