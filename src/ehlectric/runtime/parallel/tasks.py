@@ -22,6 +22,9 @@ T = TypeVar("T")
 # Interval at which the caller is called back while no task finishes [s].
 _PULSE = 1.0
 
+# Times that a task is run alone after its process was killed, where one lost task loses all results.
+_TRIES = 3
+
 _CANCELLED = "tasks in flight were cancelled"
 
 
@@ -42,7 +45,8 @@ def run_all(
 ) -> None:
     """Run tasks in parallel, in processes of their own.
 
-    A task whose process is killed, or that runs out of memory, is run once more, with nothing beside it.
+    A task whose process is killed is run again, with nothing beside it, up to three times; one that runs out
+    of memory once. All other results are kept meanwhile.
 
     Parameters
     ----------
@@ -58,7 +62,7 @@ def run_all(
     Raises
     ------
     LostError
-        Where the process of a task was killed twice, or no process can begin.
+        Where the process of a task was killed four times, or no process can begin.
     MemoryError
         Where a task ran out of memory also alone.
 
@@ -69,7 +73,7 @@ def run_all(
     number = min(limit or cores(), len(tasks))
     with (
         processes(number) as crew,
-        closing(finished_tasks(enumerate(tasks), crew, _attempt, _lost, _ran_out)) as batches,
+        closing(finished_tasks(enumerate(tasks), crew, _attempt, _lost, _ran_out, tries=_TRIES)) as batches,
     ):
         for place, attempt in (each for batch in batches for each in batch):
             if isinstance(attempt.error, LostError):
@@ -104,6 +108,8 @@ def finished_tasks(
     call: Callable[[A], T],
     lost: Callable[[str], T],
     ran_out: Callable[[T], bool] = lambda _: False,
+    *,
+    tries: int = 1,
 ) -> Generator[list[tuple[K, T]], None, None]:
     """Run a function on many values with a crew, and yield what is finished.
 
@@ -116,9 +122,11 @@ def finished_tasks(
     call : callable
         Function of a value; it raises no exception.
     lost : callable
-        Makes the outcome of a task whose process died twice, from the reason.
+        Makes the outcome of a task whose process died again and again, from the reason.
     ran_out : callable
         Whether an outcome is that of a task without enough memory.
+    tries : int
+        Times that a task is run alone after its process died.
 
     Yields
     ------
@@ -133,9 +141,9 @@ def finished_tasks(
 
     Notes
     -----
-    If a process dies, the tasks in flight are tried again one at a time. A task whose process dies again is
-    lost. If not even an empty call returns, the crew is lost. A task that ran out of memory is tried again
-    alone where the crew shares the memory of one machine.
+    If a process dies, the tasks in flight are tried again one at a time. A task whose process dies again in
+    all of these tries is lost. If not even an empty call returns, the crew is lost. A task that ran out of
+    memory is tried again alone where the crew shares the memory of one machine.
     """
     remaining, flying = iter(tasks), dict[Future[T], tuple[K, A]]()
     try:
@@ -158,7 +166,7 @@ def finished_tasks(
             if died:
                 crew.renew()
             for key, value in died + short:
-                yield [(key, _alone(value, crew, call, lost))]
+                yield [(key, _alone(value, crew, call, lost, tries))]
     finally:
         crew.abandon(flying)
 
@@ -224,26 +232,32 @@ def _lacking(error: ImportError) -> str:
     return f"a worker cannot import what a task needs: {printable(str(error))}"
 
 
-def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T]) -> T:
+def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T], tries: int) -> T:
     """Outcome of a task run with nothing else in flight, to find out whether it kills its process."""
-    _ask(crew)
-    try:
-        outcome: T = _result(crew, crew.submit(call, value))
-    except CancelledError:
-        raise LostError(_CANCELLED) from None
-    except ImportError as error:
-        raise LostError(_lacking(error)) from None
-    except Exception as error:  # raised by the executor
-        crew.renew()
+    for number in range(2, 2 + tries):
         _ask(crew)
-        kind = type(error).__name__
-        killed = isinstance(error, BrokenExecutor) or kind == "KilledWorker"  # an error class of Dask
-        return lost(
-            f"its process was killed twice, as by a system out of memory ({kind})"
-            if killed
-            else " ".join(f"not taken by the executor: {kind}: {error}".split())[:1000]
-        )
-    return outcome
+        try:
+            outcome: T = _result(crew, crew.submit(call, value))
+        except CancelledError:
+            raise LostError(_CANCELLED) from None
+        except ImportError as error:
+            raise LostError(_lacking(error)) from None
+        except Exception as error:  # raised by the executor
+            crew.renew()
+            reason = _reason(error, number)
+        else:
+            return outcome
+    _ask(crew)
+    return lost(reason)
+
+
+def _reason(error: Exception, number: int) -> str:
+    """Reason why a task was lost whose process died a number of times."""
+    kind = type(error).__name__
+    if isinstance(error, BrokenExecutor) or kind == "KilledWorker":  # an error class of Dask
+        times = "twice" if number == 2 else f"{number} times"
+        return f"its process was killed {times}, as by a system out of memory ({kind})"
+    return " ".join(f"not taken by the executor: {kind}: {error}".split())[:1000]
 
 
 def _result(crew: Crew, future: Future[T]) -> T:
