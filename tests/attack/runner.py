@@ -10,6 +10,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.helpers.no_home import package_without_folders, without_home
 from tests.helpers.processes import PATIENCE
 
 REPOSITORY = Path(__file__).parents[2]
@@ -54,9 +55,18 @@ class Outcome:
 
 
 class Runner:
-    """A server of commands, with a private home and folder of temporary files; use it as a context."""
+    """A server of commands, with a private home and folder of temporary files; use it as a context.
 
-    def __init__(self, home: Path) -> None:
+    Parameters
+    ----------
+    home : Path
+        Folder for all of these.
+    poor : bool
+        Whether the user has no home, the package cannot be written to, and a thread beside that which forks
+        the commands has all locks for ever.
+    """
+
+    def __init__(self, home: Path, *, poor: bool = False) -> None:
         self.home, self.told = home / "home", home / "told"
         self.temporary = home / "tmp"
         for folder in (self.home, self.told, self.temporary):
@@ -71,8 +81,10 @@ class Runner:
             "OMP_NUM_THREADS": "1",
             "OPENBLAS_NUM_THREADS": "1",
         }
+        if poor:
+            environment |= without_home(package_without_folders(home))
         self._server = subprocess.Popen(
-            [sys.executable, "-m", "tests.attack.server"],
+            [sys.executable, "-B", "-m", "tests.attack.server", *(["poor"] if poor else [])],
             cwd=REPOSITORY, env=environment, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
         )  # fmt: skip
         self._line()

@@ -13,6 +13,8 @@ from tests.attack.inputs import KINDS
 from tests.attack.kills import SCENARIOS, kill
 from tests.attack.runner import Runner
 from tests.attack.stock import make
+from tests.cli.test_drive_command import SHORT
+from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share, share_of
 
 SEED = 20
@@ -20,8 +22,8 @@ SEED = 20
 # Inputs of a test, all of them: two workers share the tests.
 BATCH = 250
 
-# Parts of the inputs, and of the kills, that a run takes.
-INPUTS, KILLS = 20, 10
+# Parts of the inputs, of those of a user without a home, and of the kills, that a run takes.
+INPUTS, POOR, KILLS = 20, 200, 10
 
 
 @pytest.fixture(scope="session")
@@ -55,6 +57,30 @@ def test_mutated_inputs(kind, start, end, stock, runner, tmp_path, record_proper
     record_property("attack", str(report))
     assert report.inputs == len(numbers)
     assert not report.faults
+
+
+@pytest.fixture(scope="module")
+def poor(tmp_path_factory):
+    with Runner(tmp_path_factory.mktemp("poor"), poor=True) as server:
+        yield server
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_user_without_a_home_beside_a_thread_that_solves(kind, stock, poor, tmp_path):
+    report = attack(kind, share(range(KINDS[kind].count), POOR), SEED, stock, tmp_path, poor)
+    assert not report.faults
+
+
+@pytest.mark.slow
+def test_a_drive_of_a_user_without_a_home(poor, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "bearing.toml").write_text((EXAMPLES / "bearing_6208.toml").read_text("utf-8"), "utf-8")
+    (tmp_path / "drive.toml").write_text(SHORT)
+    for words in (("check", "drive.toml"), ("drive", "drive.toml", "-o", "out")):
+        outcome = poor.run(*words, folder=tmp_path)
+        assert outcome.status == 0, outcome.err
+        assert "Traceback" not in outcome.err
 
 
 @pytest.mark.slow

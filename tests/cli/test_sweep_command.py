@@ -263,29 +263,69 @@ def test_the_example_and_again(ehlectric, tmp_path):
 
 
 @pytest.fixture
-def cluster(tmp_path):
-    """A scheduler and a worker, started by their own commands."""
-    processes, address = [], tmp_path / "scheduler.json"
+def dask(tmp_path):
+    """Starts a process by a command of Dask; all of them end with the test."""
+    processes = []
 
-    def start(what, *options):
+    def start(what, *options, **environment):
         log = (tmp_path / f"{what}.log").open("w")
         arguments = [sys.executable, "-m", f"distributed.cli.dask_{what}", "--no-dashboard", *options]
-        processes.append(subprocess.Popen(arguments, cwd=tmp_path, stdout=log, stderr=log))
+        taken = os.environ | environment
+        processes.append(subprocess.Popen(arguments, cwd=tmp_path, env=taken, stdout=log, stderr=log))
         log.close()
         return processes[-1]
 
-    scheduler = start("scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(address))
-    # The scheduler writes the file while it is looked for.
-    assert wait_until(lambda: address.exists() and "}" in address.read_text())
-    where = json.loads(address.read_text())["address"]
-    start("worker", where, "--nworkers", "1", "--nthreads", "1", "--local-directory", str(tmp_path))
-    # It answers in the time that a sweep waits for it once it has answered before.
-    with Client(where, timeout=PATIENCE, set_as_default=False) as client:
-        client.wait_for_workers(1, timeout=PATIENCE)
-    yield where, scheduler
+    yield start
     for process in reversed(processes):
         process.terminate()
         process.wait(timeout=PATIENCE)
+
+
+@pytest.fixture
+def scheduler(tmp_path, dask):
+    """Process of a scheduler without workers, and its address."""
+    address = tmp_path / "scheduler.json"
+    process = dask("scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(address))
+    # The scheduler writes the file while it is looked for.
+    assert wait_until(lambda: address.exists() and "}" in address.read_text())
+    return process, json.loads(address.read_text())["address"]
+
+
+def with_worker(dask, where, folder, **environment):
+    """Start a worker of a scheduler, and wait until both answer."""
+    dask("worker", where, "--nthreads", "1", "--local-directory", str(folder), **environment)
+    # The scheduler answers in the time that a sweep waits for it once it has answered before.
+    with Client(where, timeout=PATIENCE, set_as_default=False) as client:
+        client.wait_for_workers(1, timeout=PATIENCE)
+
+
+@pytest.fixture
+def cluster(tmp_path, dask, scheduler):
+    """Address and process of a scheduler that has a worker, both started by their own commands."""
+    process, where = scheduler
+    with_worker(dask, where, tmp_path)
+    return where, process
+
+
+@pytest.mark.slow
+def test_a_worker_without_the_package_ends_the_sweep(ehlectric, tmp_path, swept, dask, scheduler):
+    (tmp_path / "packages").mkdir()
+    (tmp_path / "packages" / "ehlectric.py").write_text("raise ImportError('not on this machine')\n")
+    with_worker(dask, scheduler[1], tmp_path, PYTHONPATH=str(tmp_path / "packages"))
+    done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--scheduler", scheduler[1])
+    assert done.returncode == 3
+    (line,) = failures(done.stderr).splitlines()
+    assert "not on this machine" in line
+
+
+@pytest.mark.slow
+def test_a_sweep_that_waits_for_workers_is_stopped(tmp_path, swept, scheduler):
+    swept(SWEEP)
+    process = Begun("sweep", "sweep.toml", "-o", "out", "--scheduler", scheduler[1], cwd=tmp_path)
+    assert wait_until(lambda: "no workers" in process.errors())
+    process.terminate()
+    process.communicate()
+    assert process.returncode == 128 + signal.SIGTERM
 
 
 @pytest.mark.slow

@@ -76,6 +76,10 @@ class Begun:
     def send_signal(self, number):
         os.kill(self.pid, number)
 
+    def errors(self):
+        """Errors that it has written so far."""
+        return self._files[1].read_text("utf-8") if self._files[1].exists() else ""
+
     def communicate(self, timeout=_PATIENCE):
         """Output and errors, once it has ended; a command that hangs is killed."""
         self._process.join(timeout)

@@ -24,14 +24,18 @@ def package_without_folders(folder):
     return copy.parent
 
 
-def run_without_home(*words, packages, cwd):
-    """Run the command of such a package in a folder, as a user whose home is no folder."""
-    taken = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+def without_home(packages):
+    """Environment of a user whose home cannot be made, not by root either, with such a package."""
     # Matplotlib says itself that it has no folder.
-    own = {"HOME": "/dev/null", "PYTHONPATH": str(packages), "MPLCONFIGDIR": str(packages)}
+    own = {"HOME": "/proc/none", "PYTHONPATH": str(packages), "MPLCONFIGDIR": str(packages / "matplotlib")}
+    return own | {"NUMBA_CACHE_DIR": ""}
+
+
+def run_without_home(*words, packages, cwd):
+    """Run the command of such a package in a folder, as a user without a home."""
     return subprocess.run(
         [sys.executable, "-B", "-m", "ehlectric", *map(str, words)],
-        env=taken | own,
+        env=os.environ | without_home(packages),
         cwd=cwd,
         capture_output=True,
         text=True,

@@ -42,7 +42,7 @@ def solve_bearing(
     InputError
         Where the bearing cannot carry its load, or a contact cannot be solved.
     LostError
-        Where the process of a contact was killed twice, as by a system out of memory.
+        Where the process of a contact was killed four times, as by a system out of memory.
     ConvergenceError
         Where the film that ``film_factor`` "solved" needs does not converge.
     """

@@ -56,7 +56,7 @@ def drive(
     folder with a sweep or with moving roughness is refused.
 
     Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
-    written; or memory ran out, or the process of a contact was killed twice.
+    written; or memory ran out, or the process of a contact was killed four times.
     """
     with user_errors():
         look = figure_options(formats, style)

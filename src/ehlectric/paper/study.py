@@ -146,7 +146,7 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
     Raises
     ------
     LostError
-        If the process of a contact was killed twice.
+        If the process of a contact was killed four times.
     """
     requested = dict.fromkeys(parts)
     with measured_profile() as profile:

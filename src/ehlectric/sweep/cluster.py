@@ -13,7 +13,7 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 from ehlectric.errors import InputError, LostError, shown
-from ehlectric.runtime.parallel.workers import Crew
+from ehlectric.runtime.parallel.workers import Crew, packed_submit
 
 # Time limit for the answer of an address, and for the reconnection to a lost scheduler [s].
 ANSWER = 8.0
@@ -106,7 +106,7 @@ def _crew(client: Any, executor: Executor) -> Crew:
                 raise LostError(" ".join(str(error).split())) from None
         return max(_LEAST, 3 * threads)
 
-    return Crew(executor.submit, width, waiting=lambda: "" if threads else "no workers yet")
+    return Crew(packed_submit(executor), width, waiting=lambda: "" if threads else "no workers yet")
 
 
 def _silence() -> None:

@@ -1,6 +1,8 @@
 """Points solved by executors: outcomes of all kinds, processes that die, and executors that go away."""
 
 import os
+import pickle
+import pickletools
 import signal
 import time
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
@@ -279,10 +281,25 @@ def test_where_nobody_is_left_no_point_is_to_blame(error):
         return future
 
     found = {}
-    message = f"^the processes stopped, nothing more can be solved: {type(error).__name__}: {error}$"
-    with pytest.raises(LostError, match=message):
+    with pytest.raises(LostError, match=str(error)):
         run_points(points([129] * 3), Crew(submit, lambda: 2), found.update)
     assert found == {}
+
+
+def test_a_task_of_dask_is_received_without_the_package():
+    """Its worker unpickles bytes by the standard library alone; their value is that of the call."""
+    taken = []
+
+    class OfDask(ThreadPoolExecutor):
+        def submit(self, call, *values):
+            taken.append(pickle.dumps((call, values)))
+            return super().submit(call, *values)
+
+    OfDask.__module__ = "distributed.cfexecutor"
+    with OfDask(1) as executor:
+        assert crew_of(executor).submit(Outcome, "solved").result() == Outcome("solved")
+    modules = {name for opcode, name, _ in pickletools.genops(taken[0]) if "UNICODE" in opcode.name}
+    assert modules <= {"_pickle", "loads"}
 
 
 def test_what_is_in_flight_is_cancelled_where_the_run_is_stopped(monkeypatch):

@@ -113,7 +113,7 @@ def solve_contacts(
     InputError
         If the tables are no valid case, or the bearing cannot be solved.
     LostError
-        Where the process of a contact was killed twice.
+        Where the process of a contact was killed four times.
     """
 
     def told(done: int, of: int, _: str) -> None:

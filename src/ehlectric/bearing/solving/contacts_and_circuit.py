@@ -55,7 +55,7 @@ def solution_of(
     InputError
         Where the bearing cannot carry its load, or a contact cannot be solved.
     LostError
-        Where the process of a contact was killed twice, as by a system out of memory.
+        Where the process of a contact was killed four times, as by a system out of memory.
     """
     started = time.perf_counter()
     prepared = prepare_bearing(case, positions)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, Generic, TypeVar, cast
 
-from ehlectric.errors import ConvergenceError, InputError, LostError
+from ehlectric.errors import ConvergenceError, InputError, LostError, printable
 from ehlectric.runtime.memory import is_out_of_memory
 from ehlectric.runtime.parallel.workers import Crew, cores, processes
 from ehlectric.version import __version__
@@ -21,6 +21,11 @@ T = TypeVar("T")
 
 # Interval at which the caller is called back while no task finishes [s].
 _PULSE = 1.0
+
+# Times that a task is run alone after its process was killed, where one lost task loses all results.
+_TRIES = 3
+
+_CANCELLED = "tasks in flight were cancelled"
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,8 @@ def run_all(
 ) -> None:
     """Run tasks in parallel, in processes of their own.
 
-    A task whose process is killed, or that runs out of memory, is run once more, with nothing beside it.
+    A task whose process is killed is run again, with nothing beside it, up to three times; one that runs out
+    of memory once. All other results are kept meanwhile.
 
     Parameters
     ----------
@@ -56,7 +62,7 @@ def run_all(
     Raises
     ------
     LostError
-        Where the process of a task was killed twice, or no process can begin.
+        Where the process of a task was killed four times, or no process can begin.
     MemoryError
         Where a task ran out of memory also alone.
 
@@ -67,7 +73,7 @@ def run_all(
     number = min(limit or cores(), len(tasks))
     with (
         processes(number) as crew,
-        closing(finished_tasks(enumerate(tasks), crew, _attempt, _lost, _ran_out)) as batches,
+        closing(finished_tasks(enumerate(tasks), crew, _attempt, _lost, _ran_out, tries=_TRIES)) as batches,
     ):
         for place, attempt in (each for batch in batches for each in batch):
             if isinstance(attempt.error, LostError):
@@ -102,6 +108,8 @@ def finished_tasks(
     call: Callable[[A], T],
     lost: Callable[[str], T],
     ran_out: Callable[[T], bool] = lambda _: False,
+    *,
+    tries: int = 1,
 ) -> Generator[list[tuple[K, T]], None, None]:
     """Run a function on many values with a crew, and yield what is finished.
 
@@ -114,9 +122,11 @@ def finished_tasks(
     call : callable
         Function of a value; it raises no exception.
     lost : callable
-        Makes the outcome of a task whose process died twice, from the reason.
+        Makes the outcome of a task whose process died again and again, from the reason.
     ran_out : callable
         Whether an outcome is that of a task without enough memory.
+    tries : int
+        Times that a task is run alone after its process died.
 
     Yields
     ------
@@ -126,13 +136,14 @@ def finished_tasks(
     Raises
     ------
     LostError
-        If the crew cannot be reached any more. All finished tasks have been yielded before.
+        If the crew cannot be reached any more, or lacks a package. All finished tasks have been yielded
+        before.
 
     Notes
     -----
-    If a process dies, the tasks in flight are tried again one at a time. A task whose process dies again is
-    lost. If not even an empty call returns, the crew is lost. A task that ran out of memory is tried again
-    alone where the crew shares the memory of one machine.
+    If a process dies, the tasks in flight are tried again one at a time. A task whose process dies again in
+    all of these tries is lost. If not even an empty call returns, the crew is lost. A task that ran out of
+    memory is tried again alone where the crew shares the memory of one machine.
     """
     remaining, flying = iter(tasks), dict[Future[T], tuple[K, A]]()
     try:
@@ -146,16 +157,16 @@ def finished_tasks(
             finished = _take(flying, ended, crew, ran_out)
             died, short = refused + finished.died, finished.short
             yield finished.outcomes
-            if (died or short) and not finished.cancelled:
+            if (died or short) and not finished.broken:
                 finished = _take(flying, wait(flying).done, crew, ran_out)
                 died, short = died + finished.died, short + finished.short
                 yield finished.outcomes
-            if finished.cancelled:
-                raise LostError("tasks in flight were cancelled")
+            if finished.broken:
+                raise LostError(finished.broken)
             if died:
                 crew.renew()
             for key, value in died + short:
-                yield [(key, _alone(value, crew, call, lost))]
+                yield [(key, _alone(value, crew, call, lost, tries))]
     finally:
         crew.abandon(flying)
 
@@ -184,14 +195,14 @@ class _Finished(Generic[K, A, T]):
         Keys and outcomes.
     died, short : list
         Tasks whose process died, and those that ran out of memory beside others.
-    cancelled : bool
-        Whether any was cancelled.
+    broken : str
+        Why the crew solves no more: a task was cancelled, or a worker could not begin it. Empty if it does.
     """
 
     outcomes: list[tuple[K, T]] = field(default_factory=list)
     died: list[tuple[K, A]] = field(default_factory=list)
     short: list[tuple[K, A]] = field(default_factory=list)
-    cancelled: bool = False
+    broken: str = ""
 
 
 def _take(
@@ -204,7 +215,9 @@ def _take(
         try:
             outcome = future.result()
         except CancelledError:
-            finished.cancelled = True
+            finished.broken = _CANCELLED
+        except ImportError as error:  # of the worker, before the function began
+            finished.broken = _lacking(error)
         except Exception:  # raised by the executor, because the function raises none
             finished.died.append(task)
         else:
@@ -215,24 +228,36 @@ def _take(
     return finished
 
 
-def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T]) -> T:
+def _lacking(error: ImportError) -> str:
+    return f"a worker cannot import what a task needs: {printable(str(error))}"
+
+
+def _alone(value: A, crew: Crew, call: Callable[[A], T], lost: Callable[[str], T], tries: int) -> T:
     """Outcome of a task run with nothing else in flight, to find out whether it kills its process."""
-    _ask(crew)
-    try:
-        outcome: T = _result(crew, crew.submit(call, value))
-    except CancelledError:
-        raise LostError("tasks in flight were cancelled") from None
-    except Exception as error:  # raised by the executor
-        crew.renew()
+    for number in range(2, 2 + tries):
         _ask(crew)
-        kind = type(error).__name__
-        killed = isinstance(error, BrokenExecutor) or kind == "KilledWorker"  # an error class of Dask
-        return lost(
-            f"its process was killed twice, as by a system out of memory ({kind})"
-            if killed
-            else " ".join(f"not taken by the executor: {kind}: {error}".split())[:1000]
-        )
-    return outcome
+        try:
+            outcome: T = _result(crew, crew.submit(call, value))
+        except CancelledError:
+            raise LostError(_CANCELLED) from None
+        except ImportError as error:
+            raise LostError(_lacking(error)) from None
+        except Exception as error:  # raised by the executor
+            crew.renew()
+            reason = _reason(error, number)
+        else:
+            return outcome
+    _ask(crew)
+    return lost(reason)
+
+
+def _reason(error: Exception, number: int) -> str:
+    """Reason why a task was lost whose process died a number of times."""
+    kind = type(error).__name__
+    if isinstance(error, BrokenExecutor) or kind == "KilledWorker":  # an error class of Dask
+        times = "twice" if number == 2 else f"{number} times"
+        return f"its process was killed {times}, as by a system out of memory ({kind})"
+    return " ".join(f"not taken by the executor: {kind}: {error}".split())[:1000]
 
 
 def _result(crew: Crew, future: Future[T]) -> T:

@@ -6,6 +6,7 @@ The processes end as soon as nobody waits for a task of theirs, and with their p
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import sys
 import threading
@@ -90,7 +91,35 @@ def crew_of(executor: Executor) -> Crew:
         The workers of the executor.
     """
     workers = getattr(executor, "_max_workers", None) or 32
-    return Crew(executor.submit, lambda: _AHEAD * workers + 1)
+    of_dask = type(executor).__module__.partition(".")[0] == "distributed"
+    return Crew(
+        packed_submit(executor) if of_dask else executor.submit,
+        lambda: _AHEAD * workers + 1,
+    )
+
+
+def packed_submit(executor: Executor) -> Callable[..., Future[Any]]:
+    """Submit function of an executor of Dask, whose workers need no package to receive a task.
+
+    A worker of Dask that receives a function that it cannot import ends without a word, and the task waits
+    for another one for ever. The task is therefore received as bytes, and the error is its outcome.
+    """
+
+    def submit(call: Callable[..., T], *values: Any) -> Future[T]:
+        return executor.submit(pickle.loads, pickle.dumps(_Packed(call, values)))
+
+    return submit
+
+
+@dataclass(frozen=True)
+class _Packed:
+    """Call whose unpickling is to do it, so that its value comes out."""
+
+    call: Callable[..., Any]
+    values: tuple[Any, ...]
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return self.call, self.values
 
 
 @contextmanager

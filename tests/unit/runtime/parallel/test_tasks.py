@@ -18,11 +18,11 @@ from ehlectric.runtime.parallel.workers import processes
 from tests.helpers.processes import alive, wait_until
 
 
-def marked(folder, text, act):
-    """Act in the first process that comes here, and count the processes that come."""
+def marked(folder, text, act, times=1):
+    """Act in the first processes that come here, and count the processes that come."""
     count = len(list(Path(folder).glob(f"{text}-*")))
     Path(folder, f"{text}-{os.getpid()}-{count}").touch()
-    if count == 0:
+    if count < times:
         act()
     return text
 
@@ -83,8 +83,16 @@ def test_a_task_that_fails_once_is_run_again(tmp_path, act):
     assert len(runs) == 2
 
 
+def test_further_kills_cost_no_result(tmp_path):
+    found = {}
+    tasks = [partial(divmod, 9, 2), partial(marked, tmp_path, "a", die, times=3), partial(divmod, 7, 2)]
+    run_all(tasks, found.__setitem__, limit=2)
+    assert found == {0: (4, 1), 1: "a", 2: (3, 1)}
+    assert len(list(tmp_path.glob("a-*"))) == 4
+
+
 def test_a_task_that_kills_every_process_is_lost():
-    with pytest.raises(LostError, match=r"^a contact was not solved: its process was killed twice") as error:
+    with pytest.raises(LostError, match=r"killed 4 times") as error:
         run_all([die], lambda _number, _result: None, limit=1, what="contact")
     assert "\n" not in str(error.value)
 

@@ -97,7 +97,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     InputError
         If the tables are no valid drive, or it cannot be simulated.
     LostError
-        Where the process of a contact was killed twice.
+        Where the process of a contact was killed four times.
     """
     from ehlectric.app.figures.drives.every import drive_figures
 
