@@ -186,8 +186,7 @@ def _mixed(
 ) -> list[GridSolution]:
     """Solutions with surfaces that may touch, the best one last, from a converged solution first.
 
-    The last one carries the oil through its cavities if it forms again behind one, except in a line contact
-    that touches.
+    The last one carries the oil through its cavities if it forms again behind one.
     """
     level, near = levels[0], None
     if full_film is not None and full_film.status == "converged":
@@ -222,17 +221,13 @@ def _mixed(
     )
     found.extend(sorted(counted_full, key=lambda solution: -solution.final.norm))
     full = found[-1]
-    # No oil passes beside a ridge of a line contact that touches. A film that carries its oil then has
-    # several solutions, one of which is nearly the dry contact.
-    passes = problem.width is not None or not full.touches
-    if passes and full.status == "converged" and forms_again(full.final.full_film):
-        *others, best = conserving.from_full(full, thorough=finest)
-        if best.status == "converged" and (problem.width is not None or not best.touches):
-            return _in_place_of([*others, *found], best)
-        # A film that makes oil is better than none, and a warning says so.
-        missed = [] if best.status == "converged" else [best]
-        return [*others, *missed, *found]
-    return found
+    if full.status != "converged" or not forms_again(full.final.full_film):
+        return found
+    *others, best = conserving.from_full(full, thorough=finest)
+    if best.status == "converged":
+        return _in_place_of([*others, *found], best)
+    # A film that makes oil is better than none, and a warning says so.
+    return [*others, best, *found]
 
 
 def _in_place_of(found: list[GridSolution], better: GridSolution) -> list[GridSolution]:

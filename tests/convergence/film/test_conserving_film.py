@@ -122,23 +122,38 @@ def random_point(seed):
     return Case.from_dict(tables)
 
 
-def keeps_its_oil_or_is_warned_of(case):
-    """Of 200 lines and 40 points, 195 and 38 keep their oil; the others, mostly touching, are warned of."""
+def keeps_its_oil(case):
+    """Oil left over is at most a millionth of the mean flow, by the solver's faces or from nodal values."""
     result = solve(case, beside_smooth=False)
     film = result.film
     assert film.converged
-    told = "oil-not-conserved" in [warning.code for warning in result.warnings]
-    assert told == (oil_balance(result.case, result.conditions, film).mass_error > 1e-3)
-    assert told or (film.mass_residual or 0.0) <= 1e-6
+    assert oil_balance(result.case, result.conditions, film).mass_error <= 1e-6
+    assert (film.mass_residual or 0.0) <= 1e-6
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", share(range(200), 10))
 def test_random_lines_keep_their_oil(seed):
-    keeps_its_oil_or_is_warned_of(random_line(seed))
+    keeps_its_oil(random_line(seed))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", share(range(40), 8))
 def test_random_points_keep_their_oil(seed):
-    keeps_its_oil_or_is_warned_of(random_point(seed))
+    keeps_its_oil(random_point(seed))
+
+
+@pytest.mark.slow
+def test_oil_enters_a_spot_at_its_edge():
+    """A ridge that touches passes the oil that its boundary film holds, at least where oil reaches it.
+
+    The mass between the last open node and the spot, extrapolated from two nodes on a gap that closes
+    steeply, was negative: nothing passed, and asperities carried 99.8 % of the load.
+    """
+    result = solve(random_line(1).replace({"grid.nodes": 401}), beside_smooth=False)
+    film, b = result.film, result.conditions.half_width
+    inside = np.abs(film.x) < 0.9 * b
+    carried = film.density * film.film_fraction * film.thickness
+    assert film.contact.any()
+    assert np.min(carried[inside]) > 0.9 * result.conditions.boundary_film
+    assert np.sum(film.contact_pressure) < 0.01 * np.sum(film.pressure)

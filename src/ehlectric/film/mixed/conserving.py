@@ -96,9 +96,11 @@ class Conserving:
         self, levels: list[Level], state: State, filled: Mask, damping: float, tolerance: float, most: int
     ) -> GridSolution:
         found = self._newton(levels, state, filled, damping, tolerance, most)
-        return of_full_order(
-            found, lambda state, filled, most: self._newton(levels, state, filled, 0.0, tolerance, most)
-        )
+
+        def solved(state: State, filled: Mask, most: int, tolerance: float) -> GridSolution:
+            return self._newton(levels, state, filled, 0.0, tolerance, most)
+
+        return of_full_order(found, solved, tolerance)
 
     def _newton(
         self, levels: list[Level], state: State, filled: Mask, damping: float, tolerance: float, most: int

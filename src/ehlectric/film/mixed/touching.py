@@ -244,8 +244,9 @@ def _filled_anew(
     level: Level, at_faces: Flow, thickness: Array, poiseuille: Array, excess: Array, carried: Carried
 ) -> tuple[Carried, Array]:
     """Oil carried with the nodes that it fills at a state, and the rows (nx, ny) of the filled nodes."""
-    r, mass = carried_rows(level, at_faces, thickness, carried)
     full = at_faces.coefficients.density * thickness
+    carried = replace(carried, supply=carried.supply.bounded(full))
+    r, mass = carried_rows(level, at_faces, thickness, carried)
     surplus = ((1.0 + OVERFLOW) * full - mass) / level.mesh.dx
     moved = full_film_nodes(
         excess + TENSION * carried.filled,

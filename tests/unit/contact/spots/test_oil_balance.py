@@ -8,6 +8,7 @@ from ehlectric.contact.spots.oil_balance import oil_balance
 from ehlectric.contact.spots.warnings import MASS_ERROR
 from ehlectric.film import nested
 from ehlectric.tables.contact import result_rows
+from tests.helpers.each import each
 from tests.helpers.mixed_films import gaussian, mixed_film, rough_line, rough_point, sinusoid
 from tests.unit.contact.spots.cases import LINE, solved
 
@@ -118,8 +119,9 @@ def test_a_full_film_keeps_its_oil():
     assert oil_balance(case, result.conditions, result.film).mass_error < 1e-5
 
 
+@pytest.mark.usefixtures("counted_full")
 def test_a_film_that_makes_oil_is_told():
-    result = solved("line")
+    result = solve(LINE, beside_smooth=False)
     balance = result.asperities.balance
     assert balance.mass_error > MASS_ERROR
     assert "oil-not-conserved" in [warning.code for warning in result.warnings]
@@ -129,8 +131,9 @@ def test_a_film_that_makes_oil_is_told():
     assert row.value == balance.mass_error
 
 
-def test_of_a_film_that_keeps_its_oil_nothing_is_told():
-    kept = solved("point")
+@each("geometry", ["line", "point"])
+def test_of_a_film_that_keeps_its_oil_nothing_is_told(geometry):
+    kept = solved(geometry)
     assert kept.asperities.balance.mass_error < MASS_ERROR
     assert "oil-not-conserved" not in [warning.code for warning in kept.warnings]
 
