@@ -50,6 +50,11 @@ def kept_port():
         yield keeper.getsockname()[1]
 
 
+def _heeds_hangup():
+    """Take the signal of a closed terminal, which is ignored where the tests themselves run after nohup."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
 class AppServer:
     """Server of the app.
 
@@ -81,6 +86,7 @@ class AppServer:
                 stdout=subprocess.PIPE,
                 stderr=log,
                 text=True,
+                preexec_fn=_heeds_hangup,
             )
         self.address = self._told(PATIENCE)
 

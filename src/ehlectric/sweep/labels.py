@@ -116,7 +116,7 @@ def label_of(key: str, case: SweptCase) -> Label:
         Label of the key. A key that is neither an input nor a documented result has itself as name, and no
         unit.
     """
-    own = key.removeprefix("inputs.")
+    own = _counted_from_one(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
     end, input_key = end_and_key(own)
     if kind_of(own) is not None or input_key in INPUT_NAMES:
         return _of_input(input_key, unit_of(own), NAMES_OF_ENDS.get(end, ""))
@@ -124,6 +124,13 @@ def label_of(key: str, case: SweptCase) -> Label:
         return Label(key, "", unit_of(own))
     result = key_of(result_keys(case), key)
     return Label(key, "", "") if result is None else Label(result.name or key, result.symbol, result.unit)
+
+
+def _counted_from_one(key: str) -> str:
+    """Key of an input from its key in the summary, whose rough surfaces are counted from zero."""
+    table, _, rest = key.partition(".")
+    number, dot, name = rest.partition(".")
+    return f"{table}.{int(number) + 1}.{name}" if table == "roughness" and dot and number.isdecimal() else key
 
 
 def _of_input(key: str, unit: str, end: str) -> Label:
