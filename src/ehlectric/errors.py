@@ -282,6 +282,7 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "load-share-unresolved": Cause("The load share of asperities changes with the grid."),
         "oil-not-conserved": Cause("The film makes or loses above 0.1 % of the oil that flows through it."),
         "thinner-than-atom": Cause("The film is thinner than an atom in places."),
+        "error-out-of-reach": Cause("The error of the film that is asked for is probably out of reach."),
         "refine-not-reached": Cause("The error of the film that was asked for was not reached."),
         "error-unknown": Cause("The discretisation error of a rough contact's film is unknown."),
         "coarser-grid-unsolved": Cause("The discretisation error is unknown and probably large.", "severe"),

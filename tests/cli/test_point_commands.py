@@ -116,3 +116,34 @@ def test_bad_case_is_one_line_and_nothing_is_written(typed, point_file, tmp_path
     point_file.write_text(POINT.replace(old, new))
     assert message in one_line(typed("run", point_file, "-o", "out"))
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.slow
+def test_an_error_out_of_reach_is_said_before_the_run_and_by_check(ehlectric, tmp_path):
+    """65 x 65 nodes, and no more of them, for an error of 0.01 %."""
+    text = """
+        [contact]
+        geometry = "point"
+        radius_x = "10 mm"
+        radius_y = "10 mm"
+        reduced_modulus = "226 GPa"
+        max_hertz_pressure = "0.5 GPa"
+        entrainment_speed = "1 m/s"
+        [lubricant]
+        base = "paper"
+        [grid]
+        nodes = 65
+        refine = "0.01 %"
+        most_nodes = 65
+    """
+    (tmp_path / "ball.toml").write_text(text, encoding="utf-8")
+    for command in (("check", "ball.toml"), ("run", "ball.toml", "--no-plots")):
+        done = ehlectric(*command)
+        assert done.returncode == 0, done.stderr
+        first = done.stderr.splitlines()[0]
+        assert first.startswith("warning: grid.refine: ")
+        assert "0.01 %" in first
+        assert "65 nodes" in first
+    # The run says at its end what it reached.
+    assert done.stderr.count("grid.refine: ") == 2
+    assert "grid.refine" not in ehlectric("run", "ball.toml", "--no-plots", "--quiet").stderr

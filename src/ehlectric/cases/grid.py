@@ -123,6 +123,13 @@ class Grid(Table):
         ]
         | None
     ) = None
+    most_nodes: (
+        Annotated[
+            int,
+            Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
+        ]
+        | None
+    ) = None
 
     @property
     def of_point(self) -> bool:
@@ -189,6 +196,7 @@ class Grid(Table):
                 raise InputError(
                     "error", got=f"error beside {key}", takes="one of them; nodes and refine go together"
                 )
+        self._check_most_nodes()
         if self.nodes_along < 8.0 * domain:
             lengths = "semi-axes" if self.of_point else "half-widths"
             raise InputError(
@@ -200,6 +208,23 @@ class Grid(Table):
         if self.of_point:
             self._check_point()
         return self
+
+    def _check_most_nodes(self) -> None:
+        most = self.most_nodes
+        if most is None:
+            return
+        if self.target is None:
+            raise InputError.worded(
+                "most_nodes",
+                "is not used beside nodes alone, which are not refined",
+                takes="error, or nodes and refine",
+            )
+        if most < self.nodes_along:
+            raise InputError(
+                "most_nodes",
+                got=str(most),
+                takes=f"at least {self.nodes_along}, with which the refinement begins",
+            )
 
     def _check_field_range(self, domain: float) -> None:
         start, stop = self.field_range
@@ -221,7 +246,7 @@ class Grid(Table):
             raise InputError("field_range", got=f"[{start:g}, {stop:g}]", takes="a range of at least 0.001")
 
     def _check_point(self) -> None:
-        for key in ("nodes", "field_nodes"):
+        for key in ("nodes", "field_nodes", "most_nodes"):
             nodes = getattr(self, key)
             if nodes is not None and nodes > _MOST_AXIS:
                 raise InputError(

@@ -57,7 +57,7 @@ class Motion(Table):
             raise InputError(
                 "grid.wedge", got=f"{grid.wedge!r} beside motion", takes="'third-order' or 'second-order'"
             )
-        for key in ("refine", "error"):
+        for key in ("refine", "error", "most_nodes"):
             if getattr(grid, key) is not None:
                 raise InputError.worded(
                     f"grid.{key}",

@@ -87,6 +87,8 @@ def run(
             by_kind.run_and_draw, kind, case, output, draw=plots, solver=solver, measured=data, **look
         )
         if kind == "contact":
+            if not quiet:
+                warn(by_kind.expected_warnings(case))
             with progress_line(shown=not quiet) as progress:
                 outcome = solve(progress)
         else:

@@ -14,6 +14,7 @@ from ehlectric.contact.heat.physics import physics_of
 from ehlectric.contact.kinds import KINDS, AnyKind
 from ehlectric.contact.memory import check_memory
 from ehlectric.contact.problems import check_tolerance, heights_of
+from ehlectric.contact.reach import Reach, reach_of
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.film.problem import FilmProblem
@@ -64,6 +65,14 @@ class PreparedContact:
         problem = self.kind.film_problem(setup, self.conditions, surfaces)
         return problem if self.physics is None else replace(problem, physics=self.physics)
 
+    @cached_property
+    def reach(self) -> Reach | None:
+        """Expected errors and times of the grids of a refinement; None of a grid that is not refined."""
+        setup = Setup.of(self.case)
+        if setup.grid.target is None:
+            return None
+        return reach_of(setup, self.conditions.geometry, self.film_problem(setup))
+
     def composite_roughness(self) -> float | None:
         """Rq of the sum of both surfaces in the Hertz zone, undeformed [m]; None for smooth surfaces."""
         if not self.rough:
@@ -75,9 +84,11 @@ class PreparedContact:
         return float(np.std(heights[distance <= 1.0]))
 
     def warnings(self) -> Iterator[ResultWarning]:
-        """Warnings before the solution: about the operating conditions and the rough surfaces."""
+        """Warnings before the solution: about the operating conditions, rough surfaces and the refinement."""
         yield from self.kind.case_warnings(self.case, self.conditions)
         yield from self.surface_warnings(self.case)
+        if self.reach is not None:
+            yield from self.reach.warnings()
 
     def surface_warnings(self, setup: Case | Setup) -> Iterator[ResultWarning]:
         """Warnings about the rough surfaces on the grid of a setup."""

@@ -16,7 +16,7 @@ from ehlectric.errors import InputError, ResultWarning
 from ehlectric.film.accuracy.adaptive import UNKNOWN
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
-from ehlectric.film.problem import FilmProblem
+from ehlectric.film.problem import FilmProblem, OnGrid
 from ehlectric.film.thermal.physics import Physics
 
 # How often the intervals of a grid are doubled at the most, with smooth and with rough surfaces. A film whose
@@ -53,6 +53,7 @@ def refined(
     geometry: str,
     problem_of: Callable[[Setup], FilmProblem],
     solved: Callable[[FilmProblem], Film | PointFilm],
+    on_grid: OnGrid | None = None,
 ) -> Refined:
     """Solve a film, and refine its grid until the discretisation error is below ``grid.target``.
 
@@ -68,6 +69,8 @@ def refined(
         Function that makes the film problem: setup -> problem.
     solved : callable
         Function that solves the film and refines its grid: problem -> film.
+    on_grid : callable, optional
+        Function that is called after each grid: grid, discretisation error or None -> None.
 
     Returns
     -------
@@ -77,13 +80,12 @@ def refined(
         surfaces three times and twice.
     """
     started, target = time.perf_counter(), setup.grid.target
-    grid = setup.first_grid.model_copy(update={"refine": None, "error": None})
-    first = replace(setup, grid=grid)
+    first = replace(setup, grid=_fixed(setup.first_grid))
     problem = problem_of(first)
     if target is None:
         return Refined(solved(problem), first, first, time.perf_counter() - started, ())
-    grids, refusal = _finer_grids(grid, geometry, problem.physics, rough=bool(setup.roughness))
-    film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along))
+    grids, refusal = finer_grids(setup, geometry, problem.physics)
+    film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along, on_grid=on_grid))
     closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
     grid = min(grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
     warnings: tuple[ResultWarning, ...] = ()
@@ -94,12 +96,26 @@ def refined(
     return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
 
 
-def _finer_grids(
-    grid: Grid, geometry: str, physics: Physics | None, *, rough: bool
-) -> tuple[list[Grid], str]:
-    """Grid and all grids with twice as many intervals each, up to the first one that is refused, and why."""
+def finer_grids(setup: Setup, geometry: str, physics: Physics | None) -> tuple[list[Grid], str]:
+    """Grids of a refinement from the first one up to the last one that is allowed, and why it is the last.
+
+    Parameters
+    ----------
+    setup : Setup
+        Setup of the contact.
+    geometry : str
+        Geometry of the contact, "line" or "point".
+    physics : Physics or None
+        Rheology and heat of the film, which need memory.
+
+    Returns
+    -------
+    list of Grid, str
+        Grids, each with twice as many intervals as the grid before, and the reason why there is no finer one.
+    """
     heat = None if physics is None else "sheared" if physics.thermal is None else "thermal"
-    grids, most = [grid], (_MOST_DOUBLED_ROUGH if rough else _MOST_DOUBLED)[geometry]
+    grids, rough = [_fixed(setup.first_grid)], bool(setup.roughness)
+    most = (_MOST_DOUBLED_ROUGH if rough else _MOST_DOUBLED)[geometry]
     while True:
         if len(grids) > most:
             kind = "rough" if rough else "smooth"
@@ -109,7 +125,14 @@ def _finer_grids(
             check_grid(geometry, finer, rough=rough, heat=heat)
         except InputError as error:
             return grids, str(error)
+        if setup.grid.most_nodes is not None and finer.nodes_along > setup.grid.most_nodes:
+            return grids, f"the next grid has {finer.nodes_along} nodes, more than grid.most_nodes"
         grids.append(finer)
+
+
+def _fixed(grid: Grid) -> Grid:
+    """Grid with the same nodes that is not refined."""
+    return grid.model_copy(update={"refine": None, "error": None, "most_nodes": None})
 
 
 def _not_reached(key: str, target: float, grid: Grid, reason: str) -> ResultWarning:

@@ -8,6 +8,7 @@ from pathlib import Path
 from ehlectric.cases.case import Case
 from ehlectric.contact.check import check_case
 from ehlectric.contact.files import FILES, save
+from ehlectric.contact.reach import FilmProgress
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers, solve
 from ehlectric.runtime.files import Content
@@ -35,7 +36,8 @@ def run(
     folder : str or Path
         Folder of the files; it is made if it does not exist.
     progress : callable, optional
-        Called with 0, 0 and a text: the number of Newton steps is not known before.
+        Called with 0, 0 and a text: the number of Newton steps is not known before. The text has the grid,
+        the error of the grid before, and about the time that is left.
     solvers : Solvers, optional
         Solvers of film and field; by default those of the package.
     others : sequence of str, optional
@@ -70,13 +72,13 @@ def run(
     case = solvers.accept(case)
     names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
+        told = FilmProgress(prepared.reach)
         result = solve(
             case,
-            progress=lambda nodes, step, residual: progress(
-                0, 0, f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}"
-            ),
+            progress=lambda nodes, step, residual: progress(0, 0, told.text(nodes, step, residual)),
             solvers=solvers,
             prepared=prepared,
+            on_grid=told.on_grid,
         )
         progress(0, 0, "writing results")
         files = save(result, folder, replaced=names, further=further)

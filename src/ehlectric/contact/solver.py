@@ -37,6 +37,7 @@ from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.film.problem import OnGrid
 from ehlectric.film.state import Progress
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.own import Laws
@@ -90,6 +91,7 @@ def solve(
     beside_smooth: bool = True,
     prepared: PreparedContact | None = None,
     laws: Laws | None = None,
+    on_grid: OnGrid | None = None,
 ) -> Result | PointResult:
     """Solve the film and the electric field of a case.
 
@@ -109,6 +111,8 @@ def solve(
         Contact of the same case as returned by ``check_case``; surface files are then not read again.
     laws : Laws, optional
         Laws of the user's own in place of those of the case: functions of pressure and temperature.
+    on_grid : callable, optional
+        Called with the grid and its discretisation error, or None, after each grid of a refinement.
 
     Returns
     -------
@@ -147,6 +151,7 @@ def solve(
         require_convergence=require_convergence,
         solvers=solvers,
         beside_smooth=beside_smooth,
+        on_grid=on_grid,
     )
 
 
@@ -243,6 +248,7 @@ def _solved(
     require_convergence: bool = False,
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
+    on_grid: OnGrid | None = None,
 ) -> Result | PointResult:
     """Solve the film and then the field of a prepared contact, and collect the warnings."""
     kind, case, conditions, rough = contact.kind, contact.case, contact.conditions, contact.rough
@@ -252,6 +258,7 @@ def _solved(
         geometry,
         contact.film_problem,
         lambda problem: solvers.film[geometry](problem, progress=_logged(progress)),
+        on_grid,
     )
     film = films.film
     LOGGER.info(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.mixed.touching import Asperities
 from ehlectric.film.thermal.physics import Physics
+
+# Function that is called after each grid of a refinement: (grid, discretisation error or None) -> None.
+OnGrid: TypeAlias = Callable[[Mesh, float | None], None]
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,8 @@ class FilmProblem:
         Supply of oil at the inlet edge; without it the inlet is flooded.
     physics : Physics, optional
         Rheology and heat of the film. By default the film is Newtonian and isothermal.
+    on_grid : callable, optional
+        Function that is called after each grid of a refinement: grid, discretisation error or None -> None.
     """
 
     fluid: Fluid
@@ -133,6 +139,7 @@ class FilmProblem:
     hardness: float = np.inf
     supply: OilSupply | None = None
     physics: Physics | None = None
+    on_grid: OnGrid | None = None
 
     @property
     def asperities(self) -> Asperities:
@@ -150,6 +157,11 @@ class FilmProblem:
             return 0.0
         excess = self.edge_pressure(mesh.x, mesh.y) - self.fluid.ambient_pressure
         return np.where(mesh.edge, excess, 0.0)
+
+    def tell(self, mesh: Mesh, error: float | None) -> None:
+        """Tell ``on_grid`` the discretisation error of a grid of the refinement, if anybody asks for it."""
+        if self.on_grid is not None:
+            self.on_grid(mesh, error)
 
     def doubled(self) -> FilmProblem:
         """Problem on the grid with twice as many intervals along both axes."""

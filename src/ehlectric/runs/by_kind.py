@@ -5,13 +5,13 @@ The command line and the pages of the app both start here; nothing here prints.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.runs.folders import files_of_results, protect
 from ehlectric.runs.kinds import FileKind, kind_of_file
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
@@ -173,6 +173,18 @@ def read_sweep_file(path: str | Path) -> Sweep:
     from ehlectric.sweep.inputs import Sweep
 
     return Sweep.from_toml(path)
+
+
+def expected_warnings(case: Case) -> Iterator[ResultWarning]:
+    """Warnings before a stationary contact is solved about the error that its grids will probably reach."""
+    from ehlectric.contact.check import check_case
+
+    if case.roughness:
+        # Its surfaces are read once, by the run, and no error is expected of its film.
+        return
+    reach = check_case(case).reach
+    if reach is not None:
+        yield from reach.warnings()
 
 
 def run_contact(

@@ -16,11 +16,14 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.table import read_toml
+from ehlectric.contact.check import PreparedContact, check_case, with_laws
+from ehlectric.contact.reach import FilmProgress
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
 from ehlectric.contact.solver import solve as solve_stationary
 from ehlectric.drive.result import DriveResult, solve_drive
 from ehlectric.errors import ConvergenceError, InputError, printable, shown
+from ehlectric.film.mesh import Mesh
 from ehlectric.lubricant.own import Laws
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
@@ -111,8 +114,9 @@ def solve(
         file.
     progress : callable, optional
         Called with a number of parts done, the number of all parts, and a text. The parts of a contact are
-        percent of the expected work; they never decrease, and reach 100 at the end. Those of a bearing are
-        its contacts, and those of a drive percent of the simulated time.
+        percent of the expected work; they never decrease, and reach 100 at the end. Where a grid is refined,
+        their text has its grid, the error so far and about the time that is left. Those of a bearing are its
+        contacts, and those of a drive percent of the simulated time.
     require_convergence : bool
         Whether to raise a ConvergenceError if a film does not converge, instead of returning the result with
         ``converged`` false.
@@ -162,14 +166,22 @@ def solve(
     if found.motion is not None:
         takes = "solve_motion(case), run_motion(case, folder), or a case without it"
         raise InputError("motion", "is a table of transient contacts;", takes=takes)
-    told = None if progress is None else _Percent(found, progress)
+    chosen = solvers_of(solvers)
+    accepted = chosen.accept(found)
+    if laws is not None:
+        accepted = with_laws(accepted, laws)
+    prepared = check_case(accepted)
+    if prepared.reach is not None:
+        log_warnings(found.title, prepared.reach.warnings())
+    told = _Percent(prepared, progress or silent)
     result = solve_stationary(
-        found,
+        accepted,
         progress=told,
         require_convergence=require_convergence,
-        solvers=solvers_of(solvers),
+        solvers=chosen,
         beside_smooth=beside_smooth,
-        laws=laws,
+        prepared=prepared,
+        on_grid=told.on_grid,
     )
     if progress is not None:
         progress(100, 100, "solved")
@@ -255,9 +267,11 @@ class _Percent:
     number never decreases, also where a film starts again or a finer grid follows.
     """
 
-    def __init__(self, case: Case, progress: Progress) -> None:
-        self._nodes, self._power = case.first_grid.nodes_along, 1 if case.contact.geometry == "line" else 2
-        self._tolerance, self._progress = case.solver.tolerance, progress
+    def __init__(self, contact: PreparedContact, progress: Progress) -> None:
+        self._nodes = contact.case.first_grid.nodes_along
+        self._power = 1 if contact.conditions.geometry == "line" else 2
+        self._tolerance, self._progress = contact.case.solver.tolerance, progress
+        self._told = FilmProgress(contact.reach)
         self._grid, self._first, self._most = 0, 1.0, 0
         self._start = 0.0  # share of coarser grids than the first, which are not solved
 
@@ -272,7 +286,11 @@ class _Percent:
         self._start = self._start or share * ratio
         done = (share * (ratio + (1.0 - ratio) * part) - self._start) / (1.0 - self._start)
         self._most = max(self._most, min(99, int(100.0 * done)))
-        self._progress(self._most, 100, f"film: {nodes} nodes, step {step + 1}, residual {residual:.1e}")
+        self._progress(self._most, 100, self._told.text(nodes, step, residual))
+
+    def on_grid(self, mesh: Mesh, error: float | None) -> None:
+        """Note that a grid of a refinement is solved, and its error."""
+        self._told.on_grid(mesh, error)
 
 
 def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:

@@ -120,11 +120,11 @@ def test_a_ridge_along_either_axis_is_a_ridge():
         for turned in (False, True)
     )
     assert between_nodes(*along) == pytest.approx(between_nodes(*across))
-    # Two fifths of six, and an eighth of two.
-    assert between_nodes(*along) == pytest.approx(2.65)
+    # Half of six, and an eighth of two.
+    assert between_nodes(*along) == pytest.approx(3.25)
     # Half of a symmetric contact is told as its whole: the ridge on the line of symmetry too.
     half = over(41, lambda _, y: 1.0 * (np.abs(y) < 0.01), Width(41, 2.0))
-    assert between_nodes(*half) == pytest.approx(2.65)
+    assert between_nodes(*half) == pytest.approx(3.25)
 
 
 @pytest.mark.parametrize("coarse", [None, "stalled"])

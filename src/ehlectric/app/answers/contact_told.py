@@ -44,6 +44,7 @@ CONTACT_PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "load-share-unresolved": ("load-share",),
         "oil-not-conserved": _FILM,
         "thinner-than-atom": ("minimum-film", *_FIELD),
+        "error-out-of-reach": _FILM,
         "refine-not-reached": _FILM,
         "error-unknown": ("minimum-film",),
         "coarser-grid-unsolved": _SOLVED,

@@ -99,6 +99,7 @@ PLACES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "load-share-unresolved": (),
         "oil-not-conserved": _FILM,
         "thinner-than-atom": _FILM,
+        "error-out-of-reach": _FILM,
         "refine-not-reached": _FILM,
         "error-unknown": _FILM,
         "coarser-grid-unsolved": _FILM,

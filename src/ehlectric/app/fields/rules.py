@@ -48,7 +48,7 @@ ALTERNATIVES: tuple[Rows, ...] = (
     (("inlet.film_ratio",), ("motion",)),
     (("motion.passes",), ("motion.duration",)),
     (("grid.error",), ("grid.nodes", "grid.nodes_y", "grid.refine")),
-    (("grid.error", "grid.refine"), ("motion",)),
+    (("grid.error", "grid.refine", "grid.most_nodes"), ("motion",)),
     *DRIVE_ALTERNATIVES,
     _SPEEDS,
     (("contact.entrainment_speed",), ("contact.speed_1", "contact.speed_2")),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ehlectric.arrays import Array
+from ehlectric.film.accuracy.expected import LEAST_UNSEEN, UNSEEN, expected_error
 from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.accuracy.rough_film import rough_film_error
 from ehlectric.film.nested import nested_iteration
@@ -52,8 +53,18 @@ class RefinedSolution:
 
     @cached_property
     def error(self) -> float | None:
-        """Relative discretisation error, estimated from the last grids; None if unknown."""
-        return rough_film_error(self.problem, self.last, self.coarser)
+        """Relative discretisation error, estimated from the last grids; None if unknown.
+
+        A grid that is far too coarse has a film of its own, of which successive grids differ little. The
+        estimate is then at least 0.5.
+        """
+        error = rough_film_error(self.problem, self.last, self.coarser)
+        posed = self.problem if self.patch is None else self.patch.problem
+        times = 1 if self.patch is None else self.patch.times(self.last.level.mesh)
+        expected = expected_error(posed, times)
+        if error is not None and expected is not None and expected > UNSEEN:
+            return max(error, LEAST_UNSEEN)
+        return error
 
     @cached_property
     def coarser(self) -> list[GridSolution]:
@@ -94,6 +105,7 @@ def refined_solution(problem: FilmProblem, progress: Progress | None) -> Refined
     target, unknown, times = problem.target_error, 0, 1
     while target is not None:
         error, times = found.error, 2 * times
+        problem.tell(found.last.level.mesh, error)
         unknown = unknown + 1 if error is None else 0
         if (error is not None and error <= target) or unknown >= UNKNOWN:
             break

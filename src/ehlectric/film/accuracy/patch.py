@@ -61,13 +61,9 @@ class Patch:
         if problem.width is None or coarse.status != "converged":
             return None
         mesh = coarse.level.mesh
-        length = np.sqrt(2.0 * max(at_centre(mesh, coarse.state.thickness), 0.0))
-        ratio = 1.5 * problem.geometry.load / np.pi
-        before, behind, beside = (
-            max(least, part * length) for least, part in ((ahead, _AHEAD_THICK), _BEHIND, _BESIDE)
-        )
-        rows = _nearest(mesh.x, -1.0 - before), _nearest(mesh.x, 1.0 + behind)
-        last = _nearest(mesh.y, ratio + beside * max(1.0, ratio))
+        inlet, outlet, side = edges(problem, at_centre(mesh, coarse.state.thickness), ahead=ahead)
+        rows = _nearest(mesh.x, inlet), _nearest(mesh.x, outlet)
+        last = _nearest(mesh.y, side)
         lines = 0 if mesh.symmetric else mesh.y.size - 1 - last, last
         part = (rows[1] - rows[0]) * (lines[1] - lines[0]) / ((mesh.x.size - 1) * (mesh.y.size - 1))
         return cls(problem, coarse, rows, lines) if part <= _LARGEST else None
@@ -200,6 +196,25 @@ class Joined:
         i, j = self.first
         whole[i : i + inside.shape[0], j : j + inside.shape[1]] = inside
         return whole
+
+
+def edges(problem: FilmProblem, thickness: float, *, ahead: float = AHEAD) -> tuple[float, float, float]:
+    """Edges of the patch around a film with a central thickness H: X of inlet and outlet, and largest Y."""
+    length = np.sqrt(2.0 * max(thickness, 0.0))
+    ratio = 1.5 * problem.geometry.load / np.pi
+    before, behind, beside = (
+        max(least, part * length) for least, part in ((ahead, _AHEAD_THICK), _BEHIND, _BESIDE)
+    )
+    return -1.0 - before, 1.0 + behind, ratio + beside * max(1.0, ratio)
+
+
+def part_of_domain(problem: FilmProblem, thickness: float) -> float:
+    """Part of the domain that is solved on fine grids around a film with a central thickness H, up to 1."""
+    assert problem.width is not None
+    inlet, outlet, side = edges(problem, thickness)
+    along = min(outlet, problem.outlet) - max(inlet, problem.inlet)
+    part = along * min(side / problem.width.side, 1.0) / (problem.outlet - problem.inlet)
+    return part if part <= _LARGEST else 1.0
 
 
 def _nearest(nodes: Array, position: float) -> int:

@@ -205,6 +205,7 @@ def _refined(problem: FilmProblem, supply: OilSupply, progress: Progress | None)
     flooded = nested_iteration(problem, progress)
     found = _on_grids(problem, supply, flooded, [], progress)
     target, doubled, unknown = problem.target_error, 0, 0
+    problem.tell(found.last.level.mesh, found.error)
     while target is not None and (found.error is None or found.error > target):
         doubled, unknown = doubled + 1, unknown + 1 if found.error is None else 0
         if unknown >= UNKNOWN:
@@ -216,6 +217,7 @@ def _refined(problem: FilmProblem, supply: OilSupply, progress: Progress | None)
             break
         problem, flooded = finer, nested_iteration(finer, progress, flooded)
         found = _on_grids(problem, supply, flooded, found.solutions, progress, found.film)
+        problem.tell(found.last.level.mesh, found.error)
     return found
 
 
