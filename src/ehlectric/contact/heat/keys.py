@@ -23,7 +23,8 @@ def heat_keys(power: str) -> Keys:
             "error of the temperature rise",
         ),
         "traction_coefficient": ResultKey(
-            "mean shear stress at mid-film over the mean pressure, positive where surface 1 is faster",
+            "mean shear stress at mid-film over the mean pressure, positive where surface 1 is faster; "
+            "null, as rolling_coefficient and power_loss, if the film did not converge",
             "",
             "traction coefficient",
             r"$\mu$",

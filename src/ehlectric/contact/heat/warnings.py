@@ -20,6 +20,9 @@ from ehlectric.film.thermal.result import HeatedFilm
 # too large.
 _NEWTONIAN = 0.5e9
 
+# Shear stress over pressure above that of all oils: measured limits are 0.03 to 0.12.
+_CARRIED = 0.15
+
 # Rheologies whose shear stress grows without a bound, and that of oils does not.
 _UNBOUNDED = ("newtonian", "carreau")
 
@@ -42,6 +45,9 @@ _SMALL_RISE, _LARGE_RISE = 1.0, 200.0
 
 # Minimum film over the boundary film below which surfaces touch.
 _TOUCHING = 1.01
+
+# Temperatures at which the slope of the viscosity is looked at.
+_SAMPLES = 50
 
 _CELSIUS = 273.15
 
@@ -77,20 +83,44 @@ def heat_warnings(
                 "the surfaces would touch: films whose surfaces touch are solved without the table [film] "
                 "only; leave it out, lower the roughness, or raise speed or viscosity",
             )
+        elif physics.thermal is not None:
+            thicker = _thicker_from(physics.thermal.oil, conditions.max_pressure)
+            if thicker is not None:
+                text = _thicker(thicker, conditions.max_pressure)
+                yield ResultWarning("film-temperature-range", f"{text}; give other laws of the lubricant")
         return
     if heated.isothermal_minimum_thickness is None:
         yield ResultWarning(
             "isothermal-unsolved",
             "the isothermal Newtonian film of this contact did not converge, so that the effect of heat and "
-            "shear on the film is not known; the film itself may be used; raise solver.max_iterations or "
-            "grid.nodes",
+            "shear on the film is not known; the film itself may be used; try more solver.max_iterations "
+            "or grid.nodes",
         )
     yield from _traction(heated, conditions)
     if physics.thermal is not None and isinstance(case, Case):
-        yield from _temperatures(case, heated, physics.thermal.oil)
+        yield from _temperatures(case, heated, physics.thermal.oil, conditions.max_pressure)
         yield from _accuracy(film, heated)
         for number, (body, speed) in enumerate(zip(physics.thermal.bodies, physics.speeds, strict=True), 1):
             yield from _slow(number, body, speed, conditions)
+
+
+def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
+    """Advice about a film with heat that did not converge at a Hertz pressure [Pa].
+
+    Its turns of film and temperature have a limit of their own, so that more Newton steps do not help. What a
+    finer grid does is not known before it is tried.
+    """
+    stress = float(np.max(np.abs(heated.shear_stress)))
+    if heated.rheology == "newtonian" and not stress < _CARRIED * max_pressure:
+        return (
+            f"the film would have shear stresses up to {stress / max_pressure:.2g} times the Hertz pressure, "
+            f"and oils carry less than {_CARRIED:g} times: no oil is Newtonian there; give "
+            "lubricant.eyring_stress and film.rheology 'eyring'"
+        )
+    return (
+        "its temperature and its pressure do not settle together, which more Newton steps do not change; "
+        "another number of grid.nodes may, and film.thermal = false has no such turns"
+    )
 
 
 def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
@@ -98,6 +128,7 @@ def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> I
     slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
     if heated.rheology not in _UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
         return
+    assert heated.traction_coefficient is not None
     traction, above = f"{abs(heated.traction_coefficient):.3g}", f"{_NEWTONIAN / 1e9:g} GPa"
     numbers = f"the traction coefficient of {traction}"
     numbers += ", the temperature rise and the power loss" if heated.thermal else " and the power loss"
@@ -115,7 +146,23 @@ def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> I
     yield ResultWarning("newtonian-traction", text)
 
 
-def _temperatures(case: Case, heated: HeatedFilm, oil: HotOil) -> Iterator[ResultWarning]:
+def _thicker_from(oil: HotOil, pressure: float) -> float | None:
+    """Temperature [K] from which the laws of an oil make it thicker with temperature; None if nowhere."""
+    temperature = np.linspace(oil.lowest, oil.highest, _SAMPLES)
+    rises = oil.log_viscosity(np.full(_SAMPLES, pressure), temperature).by_temperature > 0.0
+    return float(temperature[np.argmax(rises)]) if rises.any() else None
+
+
+def _thicker(temperature: float, pressure: float) -> str:
+    return (
+        f"at {pressure / 1e9:.3g} GPa the laws of the oil make it thicker with temperature above "
+        f"{temperature - _CELSIUS:.3g} °C, which no oil does"
+    )
+
+
+def _temperatures(
+    case: Case, heated: HeatedFilm, oil: HotOil, max_pressure: float
+) -> Iterator[ResultWarning]:
     """Warnings about temperatures at which oil, laws or model are not known."""
     found, known = heated.temperature_range, case.lubricant.temperature_range
     assert found is not None
@@ -129,6 +176,9 @@ def _temperatures(case: Case, heated: HeatedFilm, oil: HotOil) -> Iterator[Resul
         reasons.append(
             f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight lines"
         )
+    thicker = _thicker_from(oil, max_pressure)
+    if thicker is not None and thicker < found[1]:
+        reasons.append(_thicker(thicker, max_pressure))
     if reasons:
         text = f"the film has {_celsius(*found)}, but {'; '.join(reasons)}"
         yield ResultWarning("film-temperature-range", text)

@@ -40,6 +40,10 @@ _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 _RISE, _KELVIN, _FILM = 3e-3, 5e-3, 5e-5
 _MULTIPLES = (1.0, 5.0, 25.0)
 
+# Largest number of solutions of the energy equation with the film held. From the cold, each brings the
+# viscosity down by a factor of e at most.
+_HELD = 60
+
 # Largest ratio of two successive changes in the estimate of the distance.
 _SLOWEST = 0.9
 
@@ -88,8 +92,9 @@ class Course:
     progress : callable or None
         Function that is called before every Newton step.
     careful : bool
-        Whether properties are evaluated again at the pressure of each film, and changes count as they are and
-        not as parts of a geometric sequence: slower, and it converges for hotter films.
+        Whether the flow follows the temperature within each turn, until the energy equation has converged at
+        the held pressure and film thickness, and changes count as they are and not as parts of a geometric
+        sequence: slower, and it converges for hotter films.
     """
 
     problem: FilmProblem
@@ -221,8 +226,9 @@ class Course:
             if stands or solution.status == "diverged":
                 break
             if self.careful:
-                flow = self.flow(solution.state, heat)
-            new = self._heated(solution, heat, flow, surfaces)
+                new = self._held(solution, heat, surfaces, weight, allowed)
+            else:
+                new = self._heated(solution, heat, flow, surfaces)
             if new is None:
                 solution = replace(solution, status="diverged")
                 break
@@ -234,6 +240,32 @@ class Course:
         else:
             solution = replace(solution, status="stalled")
         return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
+
+    def _held(
+        self,
+        solution: GridSolution,
+        heat: Heat,
+        surfaces: tuple[Surface, Surface],
+        weight: Array,
+        allowed: float,
+    ) -> Heat | None:
+        """Temperature of a held film together with its flow; None if it has no finite solution.
+
+        The heat of shear of a cold Newtonian film is many orders of magnitude too large. The film, and
+        above all its spike, would follow each temperature on the way. Where the pressure gradient and not the
+        slip drives the flow, the temperature of a film far from its solution may run away. The first
+        temperature counts then.
+        """
+        assert self.physics.thermal is not None
+        first = new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
+        for _ in range(_HELD):
+            if new is None or _change(weight, heat, new, self.physics.thermal) < allowed:
+                return new
+            if np.max(np.abs(new.temperature - heat.temperature)) > _MOST_CHANGE:
+                break
+            heat = new
+            new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
+        return first
 
     def _heated(
         self, solution: GridSolution, heat: Heat, flow: ShearedFlow, surfaces: tuple[Surface, Surface]

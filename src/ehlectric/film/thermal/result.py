@@ -20,11 +20,12 @@ class HeatedFilm(Values):
         Name of the law between shear stress and shear rate, such as "eyring".
     shear_stress : ndarray
         Shear stress at mid-film along entrainment [Pa], positive where surface 1 is the faster one.
-    traction_coefficient : float
+    traction_coefficient : float or None
         Mean shear stress at mid-film over the mean pressure, dimensionless; its sign is that of the stress.
-    rolling_coefficient : float
+        None, as the other friction, if the film did not converge.
+    rolling_coefficient : float or None
         Rolling friction over the load, dimensionless, of each of the two surfaces.
-    power_loss : float
+    power_loss : float or None
         Power that the film turns into heat [W]; of a line contact per length [W/m].
     isothermal_minimum_thickness, isothermal_central_thickness : float or None
         Film thicknesses of the same contact with an isothermal Newtonian film [m]; None if that film did not
@@ -47,9 +48,9 @@ class HeatedFilm(Values):
 
     rheology: str
     shear_stress: Array
-    traction_coefficient: float
-    rolling_coefficient: float
-    power_loss: float
+    traction_coefficient: float | None
+    rolling_coefficient: float | None
+    power_loss: float | None
     isothermal_minimum_thickness: float | None
     isothermal_central_thickness: float | None
     outer_iterations: int
