@@ -18,7 +18,8 @@ def heat_keys(power: str) -> Keys:
             r"$\Delta T_\mathrm{max}$",
         ),
         "temperature_rise_error": ResultKey(
-            "estimated error of max_temperature_rise by the grid and the iteration; null if unknown",
+            "estimated error of max_temperature_rise by the grids along and across the film, the iteration "
+            "and extrapolated properties of the oil; null if unknown",
             "K",
             "error of the temperature rise",
         ),

@@ -12,6 +12,7 @@ from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.film.sheared.laws import UNBOUNDED
 from ehlectric.film.thermal.oil import HotOil
 from ehlectric.film.thermal.physics import Body, Physics
 from ehlectric.film.thermal.result import HeatedFilm
@@ -23,9 +24,6 @@ _NEWTONIAN = 0.5e9
 # Shear stress over pressure above that of all oils: measured limits are 0.03 to 0.12.
 _CARRIED = 0.15
 
-# Rheologies whose shear stress grows without a bound, and that of oils does not.
-_UNBOUNDED = ("newtonian", "carreau")
-
 # Slide-to-roll ratio from which there is a traction to warn of.
 _PURE_ROLLING = 1e-4
 
@@ -35,6 +33,9 @@ _SLOW = {"line": 0.1, "point": 5.0}
 
 # Error of the temperature rise over the rise, and of the balance of heat, above which there is a warning.
 _RISE_ERROR, _IMBALANCE = 0.05, 0.02
+
+# Error of the rise of which there is no warning [K].
+_SMALL_ERROR = 0.1
 
 # Position from which a maximum of the pressure is the spike, and the distance from it that counts as at the
 # spike, in half-widths of the contact.
@@ -126,7 +127,7 @@ def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
 def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
     """Warning about the friction of a film at high pressure whose shear stress has no bound."""
     slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
-    if heated.rheology not in _UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
+    if heated.rheology not in UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
         return
     assert heated.traction_coefficient is not None
     traction, above = f"{abs(heated.traction_coefficient):.3g}", f"{_NEWTONIAN / 1e9:g} GPa"
@@ -173,8 +174,10 @@ def _temperatures(
             "extrapolated"
         )
     if not (oil.lowest <= found[0] and found[1] <= oil.highest):
+        effect = ", whose effect is part of temperature_rise_error" if found[1] > oil.highest else ""
         reasons.append(
-            f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight lines"
+            f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight "
+            f"lines{effect}"
         )
     thicker = _thicker_from(oil, max_pressure)
     if thicker is not None and thicker < found[1]:
@@ -200,7 +203,7 @@ def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarn
     rise, error, lost = heated.max_temperature_rise, heated.temperature_rise_error, heated.energy_imbalance
     if rise is None or rise < _SMALL_RISE:
         return
-    if error is not None and error > _RISE_ERROR * rise:
+    if error is not None and error > max(_SMALL_ERROR, _RISE_ERROR * rise):
         text = f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %"
         if _at_spike(film, heated):
             text += (

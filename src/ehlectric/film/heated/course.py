@@ -95,6 +95,8 @@ class Course:
         Whether the flow follows the temperature within each turn, until the energy equation has converged at
         the held pressure and film thickness, and changes count as they are and not as parts of a geometric
         sequence: slower, and it converges for hotter films.
+    degree : int
+        Degree of the polynomial across the film.
     """
 
     problem: FilmProblem
@@ -103,6 +105,7 @@ class Course:
     finer: int
     progress: Progress | None
     careful: bool = False
+    degree: int = DEGREE
 
     @property
     def physics(self) -> Physics:
@@ -121,7 +124,7 @@ class Course:
         physics, thermal, profile = self.physics, self.physics.thermal, None
         if thermal is not None and heat is not None:
             profile = FrozenTemperature(
-                Across.of(DEGREE),
+                Across.of(self.degree),
                 self.levels[0].mesh,
                 heat,
                 self._clipped(state),
@@ -198,7 +201,7 @@ class Course:
         """Temperature of a film that is nowhere heated: linear between the bodies."""
         shape = self.levels[0].mesh.shape
         a, b = (body.temperature for body in thermal.bodies)
-        zeta = Across.of(DEGREE).zeta[:, np.newaxis, np.newaxis]
+        zeta = Across.of(self.degree).zeta[:, np.newaxis, np.newaxis]
         temperature = np.broadcast_to(a + (b - a) * zeta, (zeta.size, *shape)).copy()
         return Heat(temperature, np.zeros((2, *shape)), np.zeros_like(temperature))
 

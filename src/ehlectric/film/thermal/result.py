@@ -41,7 +41,8 @@ class HeatedFilm(Values):
     max_temperature_rise : float or None
         Largest temperature at mid-film less that of the oil in the inlet [K].
     temperature_rise_error : float or None
-        Estimated error of ``max_temperature_rise`` by the grid and the iteration [K]; None if unknown.
+        Estimated error of ``max_temperature_rise`` by the grids along and across the film, the iteration and
+        extrapolated properties of the oil [K]; None if unknown.
     energy_imbalance : float or None
         Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
     """
