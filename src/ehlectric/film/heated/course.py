@@ -40,9 +40,9 @@ _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 _RISE, _KELVIN, _FILM = 3e-3, 5e-3, 5e-5
 _MULTIPLES = (1.0, 5.0, 25.0)
 
-# Largest number of solutions of the energy equation with the film held. From the cold, each brings the
-# viscosity down by a factor of e at most.
-_HELD = 60
+# Largest number of solutions of the energy equation with the film held, and of the turns that have them. From
+# the cold, each brings the viscosity down by a factor of e at most; later turns begin hot.
+_HELD, _HELD_TURNS = 60, 15
 
 # Largest ratio of two successive changes in the estimate of the distance.
 _SLOWEST = 0.9
@@ -92,9 +92,11 @@ class Course:
     progress : callable or None
         Function that is called before every Newton step.
     careful : bool
-        Whether the flow follows the temperature within each turn, until the energy equation has converged at
-        the held pressure and film thickness, and changes count as they are and not as parts of a geometric
-        sequence: slower, and it converges for hotter films.
+        Whether properties are evaluated again at the pressure of each film, and changes count as they are and
+        not as parts of a geometric sequence: slower, and it converges for hotter films.
+    held : bool
+        Whether the flow follows the temperature within the first turns, until the energy equation has
+        converged for a held film.
     degree : int
         Degree of the polynomial across the film.
     """
@@ -105,6 +107,7 @@ class Course:
     finer: int
     progress: Progress | None
     careful: bool = False
+    held: bool = False
     degree: int = DEGREE
 
     @property
@@ -228,9 +231,10 @@ class Course:
             stands = ends and solution.status == "converged" and films[-1] < allowed
             if stands or solution.status == "diverged":
                 break
-            if self.careful:
-                new = self._held(solution, heat, surfaces, weight, allowed)
+            if self.held and loop < _HELD_TURNS:
+                new = self._temperature_of_held(solution, heat, surfaces, weight, allowed)
             else:
+                flow = self.flow(solution.state, heat) if self.careful else flow
                 new = self._heated(solution, heat, flow, surfaces)
             if new is None:
                 solution = replace(solution, status="diverged")
@@ -244,7 +248,7 @@ class Course:
             solution = replace(solution, status="stalled")
         return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
 
-    def _held(
+    def _temperature_of_held(
         self,
         solution: GridSolution,
         heat: Heat,

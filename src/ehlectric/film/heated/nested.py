@@ -135,14 +135,34 @@ def _on_grids(
     found: list[tuple[Course, HeatedGrid]] = []
     for finer, posed in reversed(list(enumerate(grids))):
         course = replace(_course(posed, finer=finer, progress=progress), careful=careful)
-        state, heat = _start(course, simple, found)
-        grid = course(state, heat, spike=True)
-        if careful and not grid.converged and course.physics.slide_to_roll_ratio != 0.0:
-            grid = min(grid, _by_slip(course, simple), key=lambda each: not each.converged)
+        if careful:
+            course, grid = _careful(course, simple, found)
+        else:
+            grid = course(*_start(course, simple, found), spike=True)
         found.append((course, grid))
         if not careful and not grid.converged:
             break
     return found
+
+
+def _careful(
+    course: Course, simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]
+) -> tuple[Course, HeatedGrid]:
+    """Film with heat on a grid by the first careful way that converges, that of the coarser grid first."""
+    before = bool(found) and found[-1][0].held
+    ways = [replace(course, held=held) for held in (before, not before)]
+    state, heat = _start(course, simple, found)
+    tried: list[tuple[Course, HeatedGrid]] = []
+    for way in ways:
+        tried.append((way, way(state, heat, spike=True)))
+        if tried[-1][1].converged:
+            return tried[-1]
+    if course.physics.slide_to_roll_ratio != 0.0:
+        for way in ways:
+            tried.append((way, _by_slip(way, simple)))
+            if tried[-1][1].converged:
+                return tried[-1]
+    return tried[0]
 
 
 def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmProblem:
