@@ -10,6 +10,7 @@ import numpy as np
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid import MOST_DEGREE, Grid
 from ehlectric.contact.case_warnings import LINE_PERMANENT, POINT_PERMANENT
+from ehlectric.contact.heat.warnings import unconverged_heat
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field
@@ -116,10 +117,12 @@ def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
             f"{soft}lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are "
             "too few for the roughness"
         )
+    if film.heated is not None and film.heated.thermal:
+        return unconverged_heat(film.heated, film.scales.pressure)
     spacing = float(film.x[1] - film.x[0]) / film.scales.length
     resolved = film.central_thickness > spacing * film.scales.thickness
     if film.status == "stalled" and resolved and setup.solver.max_iterations < _MANY_STEPS:
-        return f"set solver.max_iterations to {_MANY_STEPS}"
+        return f"try solver.max_iterations = {_MANY_STEPS}"
     return "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
 
 

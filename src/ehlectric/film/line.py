@@ -110,13 +110,15 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
             return _film(supplied_solution(problem, progress))
         found = film_of(problem, progress)
         simple, film = _film(found.simple), _film(found.refined)
+        status = film_status_of(found, film.status)
         heated = heated_film(
             found,
             _on_line,
+            status=status,
             minimum_thickness=simple.minimum_thickness if simple.converged else None,
             central_thickness=simple.central_thickness if simple.converged else None,
         )
-        return replace(film, heated=heated, status=film_status_of(found, film.status))
+        return replace(film, heated=heated, status=status)
 
 
 def _film(found: RefinedSolution) -> Film:

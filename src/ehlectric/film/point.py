@@ -183,13 +183,15 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
             return _film(problem, supplied_solution(problem, progress))
         found = film_of(problem, progress)
         simple, film = _film(problem, found.simple), _film(problem, found.refined)
+        status = film_status_of(found, film.status)
         heated = heated_film(
             found,
             found.refined.last.level.mesh.mirrored,
+            status=status,
             minimum_thickness=simple.minimum_thickness if simple.converged else None,
             central_thickness=simple.central_thickness if simple.converged else None,
         )
-        return replace(film, heated=heated, status=film_status_of(found, film.status))
+        return replace(film, heated=heated, status=status)
 
 
 def _film(problem: FilmProblem, found: RefinedSolution) -> PointFilm:

@@ -37,6 +37,9 @@ def heat_rows(result: Result | PointResult) -> Iterator[Row]:
         note = f", {100.0 * (now / simple - 1.0):+.2g} % by {effect}" if result.converged else ""
         yield Row(label, simple, "µm", note)
     yield from _temperatures(heated)
+    if heated.traction_coefficient is None or heated.power_loss is None:
+        yield Row("friction", "not converged")
+        return
     yield Row("traction coefficient", heated.traction_coefficient, digits=".3g")
     rolling = heated.rolling_coefficient
     yield Row("coefficient of rolling friction", rolling, note=", of each surface", digits=".2g")

@@ -20,7 +20,7 @@ def heat_numbers(result: Result | PointResult) -> Iterator[Number]:
     Yields
     ------
     Number
-        Temperature rise, traction coefficient and power loss.
+        Temperature rise, and traction coefficient and power loss of a film that converged.
     """
     heated = result.film.heated
     if heated is None:
@@ -35,6 +35,8 @@ def heat_numbers(result: Result | PointResult) -> Iterator[Number]:
         rise = short_text(heated.max_temperature_rise, 3)
         yield Number("temperature-rise", "Temperature rise at mid-film", rise, "K", note)
         beside = ""
+    if heated.traction_coefficient is None or heated.power_loss is None:
+        return
     traction = f"{heated.traction_coefficient:.3g}".replace("-", "−")
     yield Number("traction", "Traction coefficient", traction, note=beside)
     unit = "W/m" if isinstance(result, Result) else "W"

@@ -192,6 +192,7 @@ def _friction(
     heated = film.heated
     assert heated is not None and heated.mid_temperature is not None
     assert heated.max_temperature_rise is not None
+    assert heated.rolling_coefficient is not None and heated.power_loss is not None
     return ContactFriction(
         load=conditions.load if isinstance(conditions, PointConditions) else conditions.load_per_length,
         rolling_coefficient=heated.rolling_coefficient,

@@ -27,9 +27,9 @@ _ZETA = "fraction of the film, from surface 1 to surface 2"
 # What the numbers are; those not named here may be null.
 _KINDS: Mapping[str, Callable[[Any], bool]] = {
     "rheology": lambda value: isinstance(value, str),
-    "traction_coefficient": is_number,
-    "rolling_coefficient": is_number,
-    "power_loss": partial(is_number, values="not negative"),
+    "traction_coefficient": is_number_or_null,
+    "rolling_coefficient": is_number_or_null,
+    "power_loss": lambda value: value is None or is_number(value, values="not negative"),
     "isothermal_minimum_thickness": lambda value: value is None or is_number(value, values="positive"),
     "isothermal_central_thickness": lambda value: value is None or is_number(value, values="positive"),
     "outer_iterations": partial(is_number, values="whole"),

@@ -18,12 +18,14 @@ def heat_keys(power: str) -> Keys:
             r"$\Delta T_\mathrm{max}$",
         ),
         "temperature_rise_error": ResultKey(
-            "estimated error of max_temperature_rise by the grid and the iteration; null if unknown",
+            "estimated error of max_temperature_rise by the grids along and across the film, the iteration "
+            "and extrapolated properties of the oil; null if unknown",
             "K",
             "error of the temperature rise",
         ),
         "traction_coefficient": ResultKey(
-            "mean shear stress at mid-film over the mean pressure, positive where surface 1 is faster",
+            "mean shear stress at mid-film over the mean pressure, positive where surface 1 is faster; "
+            "null, as rolling_coefficient and power_loss, if the film did not converge",
             "",
             "traction coefficient",
             r"$\mu$",

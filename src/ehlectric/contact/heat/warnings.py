@@ -12,6 +12,7 @@ from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.film.sheared.laws import UNBOUNDED
 from ehlectric.film.thermal.oil import HotOil
 from ehlectric.film.thermal.physics import Body, Physics
 from ehlectric.film.thermal.result import HeatedFilm
@@ -20,8 +21,8 @@ from ehlectric.film.thermal.result import HeatedFilm
 # too large.
 _NEWTONIAN = 0.5e9
 
-# Rheologies whose shear stress grows without a bound, and that of oils does not.
-_UNBOUNDED = ("newtonian", "carreau")
+# Shear stress over pressure above that of all oils: measured limits are 0.03 to 0.12.
+_CARRIED = 0.15
 
 # Slide-to-roll ratio from which there is a traction to warn of.
 _PURE_ROLLING = 1e-4
@@ -33,6 +34,9 @@ _SLOW = {"line": 0.1, "point": 5.0}
 # Error of the temperature rise over the rise, and of the balance of heat, above which there is a warning.
 _RISE_ERROR, _IMBALANCE = 0.05, 0.02
 
+# Error of the rise of which there is no warning [K].
+_SMALL_ERROR = 0.1
+
 # Position from which a maximum of the pressure is the spike, and the distance from it that counts as at the
 # spike, in half-widths of the contact.
 _OUTLET, _NEAR = 0.3, 0.05
@@ -42,6 +46,9 @@ _SMALL_RISE, _LARGE_RISE = 1.0, 200.0
 
 # Minimum film over the boundary film below which surfaces touch.
 _TOUCHING = 1.01
+
+# Temperatures at which the slope of the viscosity is looked at.
+_SAMPLES = 50
 
 _CELSIUS = 273.15
 
@@ -77,27 +84,52 @@ def heat_warnings(
                 "the surfaces would touch: films whose surfaces touch are solved without the table [film] "
                 "only; leave it out, lower the roughness, or raise speed or viscosity",
             )
+        elif physics.thermal is not None:
+            thicker = _thicker_from(physics.thermal.oil, conditions.max_pressure)
+            if thicker is not None:
+                text = _thicker(thicker, conditions.max_pressure)
+                yield ResultWarning("film-temperature-range", f"{text}; give other laws of the lubricant")
         return
     if heated.isothermal_minimum_thickness is None:
         yield ResultWarning(
             "isothermal-unsolved",
             "the isothermal Newtonian film of this contact did not converge, so that the effect of heat and "
-            "shear on the film is not known; the film itself may be used; raise solver.max_iterations or "
-            "grid.nodes",
+            "shear on the film is not known; the film itself may be used; try more solver.max_iterations "
+            "or grid.nodes",
         )
     yield from _traction(heated, conditions)
     if physics.thermal is not None and isinstance(case, Case):
-        yield from _temperatures(case, heated, physics.thermal.oil)
+        yield from _temperatures(case, heated, physics.thermal.oil, conditions.max_pressure)
         yield from _accuracy(film, heated)
         for number, (body, speed) in enumerate(zip(physics.thermal.bodies, physics.speeds, strict=True), 1):
             yield from _slow(number, body, speed, conditions)
 
 
+def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
+    """Advice about a film with heat that did not converge at a Hertz pressure [Pa].
+
+    Its turns of film and temperature have a limit of their own, so that more Newton steps do not help. What a
+    finer grid does is not known before it is tried.
+    """
+    stress = float(np.max(np.abs(heated.shear_stress)))
+    if heated.rheology == "newtonian" and not stress < _CARRIED * max_pressure:
+        return (
+            f"the film would have shear stresses up to {stress / max_pressure:.2g} times the Hertz pressure, "
+            f"and oils carry less than {_CARRIED:g} times: no oil is Newtonian there; give "
+            "lubricant.eyring_stress and film.rheology 'eyring'"
+        )
+    return (
+        "its temperature and its pressure do not settle together, which more Newton steps do not change; "
+        "another number of grid.nodes may, and film.thermal = false has no such turns"
+    )
+
+
 def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
     """Warning about the friction of a film at high pressure whose shear stress has no bound."""
     slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
-    if heated.rheology not in _UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
+    if heated.rheology not in UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
         return
+    assert heated.traction_coefficient is not None
     traction, above = f"{abs(heated.traction_coefficient):.3g}", f"{_NEWTONIAN / 1e9:g} GPa"
     numbers = f"the traction coefficient of {traction}"
     numbers += ", the temperature rise and the power loss" if heated.thermal else " and the power loss"
@@ -115,7 +147,23 @@ def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> I
     yield ResultWarning("newtonian-traction", text)
 
 
-def _temperatures(case: Case, heated: HeatedFilm, oil: HotOil) -> Iterator[ResultWarning]:
+def _thicker_from(oil: HotOil, pressure: float) -> float | None:
+    """Temperature [K] from which the laws of an oil make it thicker with temperature; None if nowhere."""
+    temperature = np.linspace(oil.lowest, oil.highest, _SAMPLES)
+    rises = oil.log_viscosity(np.full(_SAMPLES, pressure), temperature).by_temperature > 0.0
+    return float(temperature[np.argmax(rises)]) if rises.any() else None
+
+
+def _thicker(temperature: float, pressure: float) -> str:
+    return (
+        f"at {pressure / 1e9:.3g} GPa the laws of the oil make it thicker with temperature above "
+        f"{temperature - _CELSIUS:.3g} °C, which no oil does"
+    )
+
+
+def _temperatures(
+    case: Case, heated: HeatedFilm, oil: HotOil, max_pressure: float
+) -> Iterator[ResultWarning]:
     """Warnings about temperatures at which oil, laws or model are not known."""
     found, known = heated.temperature_range, case.lubricant.temperature_range
     assert found is not None
@@ -126,9 +174,14 @@ def _temperatures(case: Case, heated: HeatedFilm, oil: HotOil) -> Iterator[Resul
             "extrapolated"
         )
     if not (oil.lowest <= found[0] and found[1] <= oil.highest):
+        effect = ", whose effect is part of temperature_rise_error" if found[1] > oil.highest else ""
         reasons.append(
-            f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight lines"
+            f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight "
+            f"lines{effect}"
         )
+    thicker = _thicker_from(oil, max_pressure)
+    if thicker is not None and thicker < found[1]:
+        reasons.append(_thicker(thicker, max_pressure))
     if reasons:
         text = f"the film has {_celsius(*found)}, but {'; '.join(reasons)}"
         yield ResultWarning("film-temperature-range", text)
@@ -150,7 +203,7 @@ def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarn
     rise, error, lost = heated.max_temperature_rise, heated.temperature_rise_error, heated.energy_imbalance
     if rise is None or rise < _SMALL_RISE:
         return
-    if error is not None and error > _RISE_ERROR * rise:
+    if error is not None and error > max(_SMALL_ERROR, _RISE_ERROR * rise):
         text = f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %"
         if _at_spike(film, heated):
             text += (

@@ -282,6 +282,8 @@ def shear_text(result: AnyContact) -> str:
     """Traction coefficient, and what shear makes of the minimum film."""
     heated = result.film.heated
     assert heated is not None
+    if heated.traction_coefficient is None:
+        return "No traction: the film did not converge"
     return signed(f"Traction coefficient {heated.traction_coefficient:.3g}{_thinning(result)}")
 
 

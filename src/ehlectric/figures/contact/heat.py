@@ -77,11 +77,14 @@ def shear_stress(result: AnyContact, ax: Axes | None = None) -> Axes:
     heated = result.film.heated
     assert heated is not None
     x, stress = in_half_widths(result, result.film.x), _along(result, heated.shear_stress)
-    mean = heated.traction_coefficient * _along(result, result.film.pressure)
     shown = (x >= _WINDOW[0]) & (x <= _WINDOW[1])
-    factor, unit = unit_for(float(np.max(np.abs(np.stack([stress, mean])[:, shown]))) or 1.0, "Pa")
-    share = f"pressure × {heated.traction_coefficient:.3g}, the traction coefficient"
-    ax.plot(x, factor * mean, color=GREY, ls=":", lw=1.0, label=share.replace("-", "−"))
+    curves = [stress]
+    if heated.traction_coefficient is not None:
+        curves.append(heated.traction_coefficient * _along(result, result.film.pressure))
+    factor, unit = unit_for(float(np.max(np.abs(np.stack(curves)[:, shown]))) or 1.0, "Pa")
+    for mean in curves[1:]:
+        share = f"pressure × {heated.traction_coefficient:.3g}, the traction coefficient"
+        ax.plot(x, factor * mean, color=GREY, ls=":", lw=1.0, label=share.replace("-", "−"))
     ax.plot(x, factor * stress, color=BLUE, label="shear stress at mid-film")
     ax.axhline(0.0, color=GREY, lw=0.5, zorder=0.5)
     ax.set(xlim=_WINDOW, ylabel=f"shear stress [{unit}]")

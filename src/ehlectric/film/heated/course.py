@@ -40,6 +40,10 @@ _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
 _RISE, _KELVIN, _FILM = 3e-3, 5e-3, 5e-5
 _MULTIPLES = (1.0, 5.0, 25.0)
 
+# Largest number of solutions of the energy equation with the film held, and of the turns that have them. From
+# the cold, each brings the viscosity down by a factor of e at most; later turns begin hot.
+_HELD, _HELD_TURNS = 60, 15
+
 # Largest ratio of two successive changes in the estimate of the distance.
 _SLOWEST = 0.9
 
@@ -90,6 +94,11 @@ class Course:
     careful : bool
         Whether properties are evaluated again at the pressure of each film, and changes count as they are and
         not as parts of a geometric sequence: slower, and it converges for hotter films.
+    held : bool
+        Whether the flow follows the temperature within the first turns, until the energy equation has
+        converged for a held film.
+    degree : int
+        Degree of the polynomial across the film.
     """
 
     problem: FilmProblem
@@ -98,6 +107,8 @@ class Course:
     finer: int
     progress: Progress | None
     careful: bool = False
+    held: bool = False
+    degree: int = DEGREE
 
     @property
     def physics(self) -> Physics:
@@ -116,7 +127,7 @@ class Course:
         physics, thermal, profile = self.physics, self.physics.thermal, None
         if thermal is not None and heat is not None:
             profile = FrozenTemperature(
-                Across.of(DEGREE),
+                Across.of(self.degree),
                 self.levels[0].mesh,
                 heat,
                 self._clipped(state),
@@ -193,7 +204,7 @@ class Course:
         """Temperature of a film that is nowhere heated: linear between the bodies."""
         shape = self.levels[0].mesh.shape
         a, b = (body.temperature for body in thermal.bodies)
-        zeta = Across.of(DEGREE).zeta[:, np.newaxis, np.newaxis]
+        zeta = Across.of(self.degree).zeta[:, np.newaxis, np.newaxis]
         temperature = np.broadcast_to(a + (b - a) * zeta, (zeta.size, *shape)).copy()
         return Heat(temperature, np.zeros((2, *shape)), np.zeros_like(temperature))
 
@@ -220,9 +231,11 @@ class Course:
             stands = ends and solution.status == "converged" and films[-1] < allowed
             if stands or solution.status == "diverged":
                 break
-            if self.careful:
-                flow = self.flow(solution.state, heat)
-            new = self._heated(solution, heat, flow, surfaces)
+            if self.held and loop < _HELD_TURNS:
+                new = self._temperature_of_held(solution, heat, surfaces, weight, allowed)
+            else:
+                flow = self.flow(solution.state, heat) if self.careful else flow
+                new = self._heated(solution, heat, flow, surfaces)
             if new is None:
                 solution = replace(solution, status="diverged")
                 break
@@ -234,6 +247,32 @@ class Course:
         else:
             solution = replace(solution, status="stalled")
         return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
+
+    def _temperature_of_held(
+        self,
+        solution: GridSolution,
+        heat: Heat,
+        surfaces: tuple[Surface, Surface],
+        weight: Array,
+        allowed: float,
+    ) -> Heat | None:
+        """Temperature of a held film together with its flow; None if it has no finite solution.
+
+        The heat of shear of a cold Newtonian film is many orders of magnitude too large. The film, and
+        above all its spike, would follow each temperature on the way. Where the pressure gradient and not the
+        slip drives the flow, the temperature of a film far from its solution may run away. The first
+        temperature counts then.
+        """
+        assert self.physics.thermal is not None
+        first = new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
+        for _ in range(_HELD):
+            if new is None or _change(weight, heat, new, self.physics.thermal) < allowed:
+                return new
+            if np.max(np.abs(new.temperature - heat.temperature)) > _MOST_CHANGE:
+                break
+            heat = new
+            new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
+        return first
 
     def _heated(
         self, solution: GridSolution, heat: Heat, flow: ShearedFlow, surfaces: tuple[Surface, Surface]

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
-
-import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import RefinedSolution, refined_solution
-from ehlectric.film.heated.course import Course, HeatedGrid, close_enough
+from ehlectric.film.heated.accuracy import largest_rise, mid_film, rise_error
+from ehlectric.film.heated.course import Course, HeatedGrid
 from ehlectric.film.levels import Level
 from ehlectric.film.nested import DIRECT, NESTED_TOLERANCE, interpolated_state, levels_of
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.sheared.profile import Across, on_mesh
+from ehlectric.film.sheared.profile import on_mesh
 from ehlectric.film.sheared.traction import traction
 from ehlectric.film.state import GridSolution, Progress, State, Status
 from ehlectric.film.thermal.balance import energy_imbalance
@@ -50,7 +48,7 @@ class HeatedSolution:
         Temperature at mid-film [K].
     max_temperature_rise, temperature_rise_error : float or None
         Largest rise of the mid-film temperature over that of the oil that enters [K], and the estimate of its
-        error from up to three grids, at least that of the outer iteration.
+        error (``accuracy.rise_error``).
     shear_stress : ndarray, shape (nx, ny)
         Shear stress along x at mid-film [Pa].
     traction_coefficient, rolling_coefficient : float
@@ -137,14 +135,34 @@ def _on_grids(
     found: list[tuple[Course, HeatedGrid]] = []
     for finer, posed in reversed(list(enumerate(grids))):
         course = replace(_course(posed, finer=finer, progress=progress), careful=careful)
-        state, heat = _start(course, simple, found)
-        grid = course(state, heat, spike=True)
-        if careful and not grid.converged and course.physics.slide_to_roll_ratio != 0.0:
-            grid = min(grid, _by_slip(course, simple), key=lambda each: not each.converged)
+        if careful:
+            course, grid = _careful(course, simple, found)
+        else:
+            grid = course(*_start(course, simple, found), spike=True)
         found.append((course, grid))
         if not careful and not grid.converged:
             break
     return found
+
+
+def _careful(
+    course: Course, simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]
+) -> tuple[Course, HeatedGrid]:
+    """Film with heat on a grid by the first careful way that converges, that of the coarser grid first."""
+    before = bool(found) and found[-1][0].held
+    ways = [replace(course, held=held) for held in (before, not before)]
+    state, heat = _start(course, simple, found)
+    tried: list[tuple[Course, HeatedGrid]] = []
+    for way in ways:
+        tried.append((way, way(state, heat, spike=True)))
+        if tried[-1][1].converged:
+            return tried[-1]
+    if course.physics.slide_to_roll_ratio != 0.0:
+        for way in ways:
+            tried.append((way, _by_slip(way, simple)))
+            if tried[-1][1].converged:
+                return tried[-1]
+    return tried[0]
 
 
 def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmProblem:
@@ -217,7 +235,7 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
     scales, level = problem.scales, course.levels[0]
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
     heat = last.heat
-    middle = None if heat is None else _middle(heat.temperature)
+    middle = None if heat is None else mid_film(heat.temperature)
     imbalance = None
     if heat is not None and physics.thermal is not None:
         stream = course.stream(last.solution, heat, columns, filled)
@@ -229,8 +247,8 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
         zeta=columns.across.zeta,
         heat_flux=None if heat is None else heat.flux,
         mid_temperature=middle,
-        max_temperature_rise=_rise(course, last),
-        temperature_rise_error=_rise_error(found),
+        max_temperature_rise=largest_rise(course, last),
+        temperature_rise_error=rise_error(found),
         shear_stress=course.stress_scale * columns.middle[0] * filled,
         traction_coefficient=friction.sliding,
         rolling_coefficient=friction.rolling,
@@ -243,35 +261,3 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
         outer_iterations=sum(grid.loops for _, grid in found),
         status=last.solution.status,
     )
-
-
-def _middle(temperature: Array) -> Array:
-    """Temperature at mid-film (nx, ny) [K]."""
-    weights = Across.of(len(temperature) - 1).at(np.array([0.5]))[0]
-    return np.asarray(np.tensordot(weights, temperature, axes=1))
-
-
-def _rise(course: Course, grid: HeatedGrid) -> float | None:
-    """Largest rise of the mid-film temperature [K]."""
-    thermal = course.physics.thermal
-    if grid.heat is None or thermal is None:
-        return None
-    return float(np.max(_middle(grid.heat.temperature))) - thermal.inlet_temperature
-
-
-def _rise_error(found: list[tuple[Course, HeatedGrid]]) -> float | None:
-    """Estimated error of the largest rise [K]; None without a converged film on the next coarser grid.
-
-    At first order the error is the difference to the next coarser grid, and half of the difference between
-    the two grids before. The larger one counts, as a difference of two maxima passes through zero.
-    """
-    rises = []
-    for course, grid in reversed(found[-3:]):
-        rise = _rise(course, grid)
-        if rise is None or not grid.converged:
-            break
-        rises.append(rise)
-    if len(rises) < 2:
-        return None
-    changes = (0.5**k * abs(fine - coarse) for k, (fine, coarse) in enumerate(pairwise(rises)))
-    return max(*changes, close_enough(rises[0]))

@@ -29,6 +29,7 @@ def heated_film(
     found: HeatedSolution,
     shaped: Callable[[NDArray[Any]], NDArray[Any]],
     *,
+    status: Status,
     minimum_thickness: float | None,
     central_thickness: float | None,
 ) -> HeatedFilm:
@@ -40,6 +41,8 @@ def heated_film(
         Film with its temperature and shear stress.
     shaped : callable
         Function that brings nodal values (nx, ny) into their shape in the film.
+    status : str
+        Status of the film; without "converged" it has no friction.
     minimum_thickness, central_thickness : float or None
         Film thicknesses without heat and shear [m]; None if the film without them did not converge.
 
@@ -50,6 +53,7 @@ def heated_film(
     """
     physics = found.refined.problem.physics
     assert physics is not None
+    converged = status == "converged"
     rows, bodies = found.temperature, () if physics.thermal is None else physics.thermal.bodies
     # Equal surfaces drag none of each other. The iteration leaves a stress of its tolerance.
     alike = physics.slide_to_roll_ratio == 0.0 and len(set(bodies)) <= 1
@@ -57,9 +61,9 @@ def heated_film(
         rheology=physics.rheology.name,
         # A slide-to-roll ratio is positive where surface 1 is the faster one.
         shear_stress=-shaped(found.shear_stress),
-        traction_coefficient=0.0 if alike else -found.traction_coefficient,
-        rolling_coefficient=found.rolling_coefficient,
-        power_loss=found.power_loss,
+        traction_coefficient=(0.0 if alike else -found.traction_coefficient) if converged else None,
+        rolling_coefficient=found.rolling_coefficient if converged else None,
+        power_loss=found.power_loss if converged else None,
         isothermal_minimum_thickness=minimum_thickness,
         isothermal_central_thickness=central_thickness,
         outer_iterations=found.outer_iterations,

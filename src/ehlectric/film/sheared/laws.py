@@ -254,6 +254,9 @@ def _limiting_stress(rate: Array, _constants: Constants) -> tuple[Array, Array]:
     return stress, slope
 
 
+# Laws whose shear stress grows with pressure as a power of the viscosity. That of oils does not.
+UNBOUNDED = ("newtonian", "carreau")
+
 # Shear-thinning laws by name.
 RHEOLOGY: Mapping[str, ShearLaw] = {
     "newtonian": ShearLaw((), newtonian_factor, _unit_scale, _newtonian_stress, even=True),

@@ -29,12 +29,15 @@ class Property:
         Temperature on the range of the series, mapped to -1 ... 1.
     half_range : float
         Half of this range [K].
+    curved : bool
+        Whether the property goes on beyond the range as a parabola, up to its vertex, in place of a line.
     """
 
     values: Array
     slopes: Array
     t: Array
     half_range: float
+    curved: bool = False
 
     @cached_property
     def _inside(self) -> Array:
@@ -61,10 +64,25 @@ class Property:
         return beyond if beyond.any() else None
 
     @cached_property
+    def _curvature(self) -> Array:
+        """Second derivative by ``t`` at the end of the range, of parabolas; zero for straight lines."""
+        return self._series(_derived(_derived(self.values))) if self.curved else np.zeros_like(self.t)
+
+    @cached_property
+    def _reach(self) -> Array:
+        """Distance from the range, of a parabola at most that of its vertex."""
+        beyond = self.t - self._inside
+        slope, curvature = self._by_t, self._curvature
+        vertex = np.divide(-slope, curvature, out=np.full_like(slope, np.inf), where=curvature != 0.0)
+        return np.where(vertex * beyond > 0.0, np.sign(beyond) * np.minimum(abs(beyond), abs(vertex)), beyond)
+
+    @cached_property
     def value(self) -> Array:
         """Values of the property."""
         inside = self._series(self.values)
-        return inside if self._beyond is None else inside + self._by_t * self._beyond
+        if self._beyond is None:
+            return inside
+        return inside + (self._by_t + 0.5 * self._curvature * self._reach) * self._reach
 
     @cached_property
     def by_pressure(self) -> Array:
@@ -77,7 +95,9 @@ class Property:
     @cached_property
     def by_temperature(self) -> Array:
         """Derivative by temperature [1/K]."""
-        return self._by_t / self.half_range
+        if self._beyond is None:
+            return self._by_t / self.half_range
+        return (self._by_t + self._curvature * self._reach) / self.half_range
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +113,8 @@ class HotOil:
         Oils at the Chebyshev temperatures between ``lowest`` and ``highest``.
     lowest, highest : float
         Range of temperature [K].
+    curved : bool
+        Whether properties go on beyond the range as parabolas, up to their vertices, in place of lines.
 
     Examples
     --------
@@ -118,6 +140,7 @@ class HotOil:
     oils: tuple[Oil, ...]
     lowest: float
     highest: float
+    curved: bool = False
 
     @classmethod
     def through(
@@ -215,6 +238,7 @@ class HotOil:
             np.tensordot(self._to_coefficients, slopes, axes=1),
             (temperature - self.lowest) / half - 1.0,
             half,
+            self.curved,
         )
 
 

@@ -20,11 +20,12 @@ class HeatedFilm(Values):
         Name of the law between shear stress and shear rate, such as "eyring".
     shear_stress : ndarray
         Shear stress at mid-film along entrainment [Pa], positive where surface 1 is the faster one.
-    traction_coefficient : float
+    traction_coefficient : float or None
         Mean shear stress at mid-film over the mean pressure, dimensionless; its sign is that of the stress.
-    rolling_coefficient : float
+        None, as the other friction, if the film did not converge.
+    rolling_coefficient : float or None
         Rolling friction over the load, dimensionless, of each of the two surfaces.
-    power_loss : float
+    power_loss : float or None
         Power that the film turns into heat [W]; of a line contact per length [W/m].
     isothermal_minimum_thickness, isothermal_central_thickness : float or None
         Film thicknesses of the same contact with an isothermal Newtonian film [m]; None if that film did not
@@ -40,16 +41,17 @@ class HeatedFilm(Values):
     max_temperature_rise : float or None
         Largest temperature at mid-film less that of the oil in the inlet [K].
     temperature_rise_error : float or None
-        Estimated error of ``max_temperature_rise`` by the grid and the iteration [K]; None if unknown.
+        Estimated error of ``max_temperature_rise`` by the grids along and across the film, the iteration and
+        extrapolated properties of the oil [K]; None if unknown.
     energy_imbalance : float or None
         Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
     """
 
     rheology: str
     shear_stress: Array
-    traction_coefficient: float
-    rolling_coefficient: float
-    power_loss: float
+    traction_coefficient: float | None
+    rolling_coefficient: float | None
+    power_loss: float | None
     isothermal_minimum_thickness: float | None
     isothermal_central_thickness: float | None
     outer_iterations: int

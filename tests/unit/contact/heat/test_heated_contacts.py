@@ -13,6 +13,7 @@ from ehlectric.contact.heat.oil import hot_oil, oil_over_temperature
 from ehlectric.contact.heat.physics import physics_of
 from ehlectric.contact.heat.warnings import heat_warnings
 from ehlectric.contact.resolve import resolve
+from ehlectric.contact.result_warnings import film_warnings
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.errors import DamagedError
 from ehlectric.figures.contact.save import figure
@@ -254,6 +255,72 @@ def test_surfaces_that_touch_are_solved_without_heat_and_shear_only():
     assert result.film.collapsed_positions.size
     (told,) = (each.text for each in result.warnings if each.code == "surfaces-touch")
     assert "solved without the table [film] only" in told
+
+
+def test_a_film_that_did_not_converge_has_no_friction(tmp_path):
+    """Neither in Python, summary.json and the table of command and report, nor in the app and in figures."""
+    contact = HOT_LINE["contact"] | {"entrainment_speed": 0.003}
+    table = HOT_LINE | {"contact": contact, "grid": {"nodes": 101}, "film": {"rheology": "eyring"}}
+    result = solve(Case.from_dict(table))
+    assert not result.converged
+    save(result, tmp_path)
+    for each in (result, load(tmp_path / "result.nc")):
+        film = each.summary()["film"]
+        for key in ("traction_coefficient", "rolling_coefficient", "power_loss"):
+            assert film[key] is None, key
+            assert getattr(each.film.heated, key) is None, key
+    assert not {"traction coefficient", "power loss"} & {row.name for row in result_rows(result)}
+    assert not {"traction", "power-loss"} & {number.key for number in heat_numbers(result)}
+    drawn = figure(result, "shear_stress.png")
+    texts = [*drawn.axes[0].get_legend().get_texts(), *drawn.texts]
+    assert not any("raction coefficient" in text.get_text() for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("rheology", "part", "named"),
+    [
+        ("newtonian", 0.2, "lubricant.eyring_stress"),
+        ("newtonian", 0.0, "grid.nodes"),
+        ("eyring", 0.2, "grid.nodes"),
+    ],
+)
+def test_advice_for_heat_that_did_not_converge_is_true_of_all(hot, rheology, part, named):
+    """More Newton steps do not help where film and temperature take turns, whose number is fixed."""
+    stress = np.full_like(hot.film.x, part * hot.film.scales.pressure)
+    heated = replace(hot.film.heated, rheology=rheology, shear_stress=stress)
+    film = replace(hot.film, status="stalled", heated=heated)
+    (text,) = (each.text for each in film_warnings(hot.case, film) if each.code == "not-converged")
+    assert named in text
+    assert "max_iterations" not in text
+
+
+def test_oil_that_gets_thicker_with_temperature_is_told(hot):
+    """As some oils of the library do far above their data sheets. Here the temperatures are reversed."""
+    oil = physics_of(hot.case, resolve(hot.case)).thermal.oil
+    turned = replace(oil, oils=oil.oils[::-1])
+    physics = physics_of(hot.case, resolve(hot.case))
+    physics = replace(physics, thermal=replace(physics.thermal, oil=turned))
+    for film in (hot.film, replace(hot.film, status="stalled")):
+        (told,) = (
+            each.text
+            for each in heat_warnings(hot.case, resolve(hot.case), film, physics)
+            if each.code == "film-temperature-range"
+        )
+        assert "0.6 GPa" in told
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("speed", "ratio", "thinnest", "traction"), [(0.5, 0.5, 0.0726, 0.214), (2.0, 0.1, 0.248, 0.297)]
+)
+def test_newtonian_heat_at_two_gigapascals(speed, ratio, thinnest, traction):
+    """Cold, the stress would be 1e9 times the pressure; the numbers are those of an independent program."""
+    keys = {"entrainment_speed": speed, "slide_to_roll_ratio": ratio, "max_hertz_pressure": "2 GPa"}
+    case = case_with("contact", **keys).replace({"film.rheology": "newtonian"})
+    film = solve(Case.from_dict({key: part for key, part in case.to_dict().items() if key != "grid"})).film
+    assert film.converged
+    assert film.minimum_thickness * 1e6 == pytest.approx(thinnest, rel=0.04)
+    assert film.heated.traction_coefficient == pytest.approx(traction, rel=0.01)
 
 
 def test_heat_that_does_not_fit_into_memory_is_refused():
