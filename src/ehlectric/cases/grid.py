@@ -137,6 +137,13 @@ class Grid(Table):
         return self.field_side is not None
 
     @property
+    def default_domain(self) -> bool:
+        """Whether the domain has its default ends and sides, so that a solver may make it larger."""
+        defaults = _POINT_GRID if self.of_point else {}
+        ends = (defaults.get(key, type(self).model_fields[key].default) for key in ("inlet", "outlet"))
+        return self.side is None and (self.inlet, self.outlet) == tuple(ends)
+
+    @property
     def nodes_across(self) -> int:
         """Number of nodes across a point contact; that along it if ``nodes_y`` is not given."""
         return self.first().nodes_along if self.nodes_y is None else self.nodes_y

@@ -158,15 +158,15 @@ def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWa
 
 def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:
     """Warnings about the inlet of a line contact and about the grid and range of its field."""
-    deficit = film.inlet_deficit
+    deficit = film.domain_loss
     if deficit is not None and deficit > _DEFICIT:
         code, effect = "inlet-too-short", "the film is wrong by about as much"
         if deficit > 0.2:
             code, effect = "inlet-far-too-short", "do not use this film"
         yield ResultWarning(
             code,
-            f"the inlet is too short: {100 * deficit:.2g} % of the pressure would build up upstream of it; "
-            f"{effect}; lower grid.inlet from {setup.grid.inlet:g} to about "
+            f"the inlet is too short: {100 * deficit:.2g} % of the pressure, or of the load, is missing "
+            f"upstream of it; {effect}; lower grid.inlet from {setup.grid.inlet:g} to about "
             f"{_longer_inlet(setup.grid.inlet, deficit):g}",
         )
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))

@@ -17,6 +17,7 @@ from ehlectric.cases.grid import Electric, Grid, Solver
 from ehlectric.cases.roughness import Roughness
 from ehlectric.contact.check import PreparedContact, check_case, with_laws
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.domain import STEPS, may_widen, widened
 from ehlectric.contact.heat.warnings import heat_warnings
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.memory import check_grid
@@ -37,7 +38,7 @@ from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
-from ehlectric.film.problem import OnGrid
+from ehlectric.film.problem import FilmProblem, OnGrid
 from ehlectric.film.state import Progress
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.own import Laws
@@ -253,13 +254,8 @@ def _solved(
     """Solve the film and then the field of a prepared contact, and collect the warnings."""
     kind, case, conditions, rough = contact.kind, contact.case, contact.conditions, contact.rough
     geometry = conditions.geometry
-    films = refined(
-        Setup.of(case),
-        geometry,
-        contact.film_problem,
-        lambda problem: solvers.film[geometry](problem, progress=_logged(progress)),
-        on_grid,
-    )
+    contact, films = _on_large_domain(contact, solvers, progress, on_grid)
+    conditions = contact.conditions
     film = films.film
     LOGGER.info(
         "%s contact: film %s on %s nodes in %.2g s, residual %.1e",
@@ -275,7 +271,7 @@ def _solved(
     # The field of an unconverged film is for inspection only. Solvers other than OWN may not converge for it.
     field_solvers = solvers if film.converged else OWN
     started = time.perf_counter()
-    field = field_solvers.field[geometry](kind.field_problem(case, conditions, film, roughness))
+    field = field_solvers.field[geometry](kind.field_problem(contact.case, conditions, film, roughness))
     own, smooth = field_solvers.name == OWN.name, None
     if rough and beside_smooth:
         smooth = _smooth(contact, films, field.axes, solvers)
@@ -295,7 +291,7 @@ def _solved(
             *films.warnings,
             *_of_film(contact, films),
             *spot_warnings(case, conditions, film, coarser),
-            *kind.result_warnings(case, film, field),
+            *kind.result_warnings(contact.case, film, field),
             *meter_warnings(case, film),
             # Where surfaces touch, the largest field is that of the boundary film.
             *(() if film.contact_pressure is not None else _of_field(contact, film, field)),
@@ -312,6 +308,35 @@ def _solved(
         version=__version__,
         date=now(),
     )
+
+
+def _on_large_domain(
+    contact: PreparedContact, solvers: Solvers, progress: Progress | None, on_grid: OnGrid | None
+) -> tuple[PreparedContact, Refined]:
+    """Contact on the domain that its film needs, and its films on all grids."""
+    geometry, seconds, free = contact.conditions.geometry, 0.0, may_widen(contact)
+    area = contact.film_problem(Setup.of(contact.case)).area
+    found: tuple[PreparedContact, Refined] | None = None
+    for _ in range(STEPS):
+
+        def solved(problem: FilmProblem) -> Film | PointFilm:
+            # What the ambient pressure carries on the default domain is part of the load, as in the paper.
+            film: Film | PointFilm = solvers.film[geometry](
+                problem.bearing_ambient_pressure_on(area), progress=_logged(progress)
+            )
+            return film
+
+        films = refined(Setup.of(contact.case), geometry, contact.film_problem, solved, on_grid)
+        seconds += films.seconds
+        if found is not None and not films.film.converged:
+            break
+        found = contact, films
+        wider = widened(contact, films.film) if free and solvers.name == OWN.name else None
+        if wider is None:
+            break
+        contact = wider
+    assert found is not None
+    return found[0], replace(found[1], seconds=seconds)
 
 
 def _of_film(contact: PreparedContact, films: Refined) -> Iterator[ResultWarning]:

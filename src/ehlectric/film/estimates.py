@@ -242,8 +242,79 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
     pressure is then that of a line contact, divided by 1 + (2/3) Rx/Ry (P. Kapitza, Zh. Tekh. Fiz. 25 (1955)
     747).
     """
-    if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
+    found = _reduced_pressures(fluid, geometry, mesh, pressure, mass)
+    if found is None:
         return 0.0
+    before, inside = found
+    return before / (before + inside) if before > 0.0 else 0.0
+
+
+def load_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:
+    """Share of the load of a line contact that the oil would carry without an end of the inlet.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    geometry : Geometry
+        Kind of contact.
+    mesh : Mesh
+        Grid.
+    pressure, mass : ndarray, shape (nx, 1)
+        Pressure P and oil mass rho H, dimensionless.
+
+    Returns
+    -------
+    float
+        Share of the load, from 0 to 1; 0 for an invalid iterate.
+
+    Notes
+    -----
+    Far upstream P falls with the cube of the distance. With P_e at the edge X_e of the domain, P_e X_e/2 is
+    carried upstream of it, and the film within lacks about P_e over the length X_e. A film of rigid bodies is
+    thinner by this share (A. Martin 1916: the film of a given load goes with 1/w). The pressure at the edge
+    is low, and the viscosity that of the oil at ambient pressure.
+    """
+    found = _reduced_pressures(fluid, geometry, mesh, pressure, mass)
+    if found is None or found[0] <= 0.0:
+        return 0.0
+    missing = 1.5 * found[0] * abs(float(mesh.x[0])) / geometry.load
+    return missing / (1.0 + missing)
+
+
+def point_load_deficit(problem: FilmProblem) -> float:
+    """Load that oil would carry upstream of the domain of a point contact and beside it, over its load.
+
+    The Kapitza pressure of ``side_deficit``, for a parabolic gap, is integrated over the half-plane X < 0
+    outside of the domain. With the angle t from the inlet in the plane of X and sqrt(Rx/Ry) Y, and R(t) from
+    the centre to the edge of the domain, it is 4 lambda/((3 + 2 k) sqrt(k)) times the integral of cos(t)/R(t)
+    with k = Rx/Ry.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact, with its ``width``.
+    """
+    assert problem.width is not None
+    k = problem.geometry.radius_ratio
+    points, weights = _gauss_points()
+    angle = 0.5 * np.pi * points
+    side = np.sqrt(k) * problem.width.side
+    reach = np.minimum(-problem.inlet / np.cos(angle), side / np.abs(np.sin(angle)))
+    integral = float(np.sum(0.5 * np.pi * weights * np.cos(angle) / reach))
+    missing = 4.0 * problem.fluid.velocity_parameter / ((3.0 + 2.0 * k) * np.sqrt(k)) * integral
+    return float(missing / problem.geometry.load)
+
+
+def _reduced_pressures(
+    fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array
+) -> tuple[float, float] | None:
+    """Reduced pressure that would build up upstream of the domain, and that within it, on the line Y = 0.
+
+    None for an invalid iterate.
+    """
+    if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
+        return None
     middle = int(np.argmin(np.abs(mesh.y)))
     x, pressure, mass = mesh.x, pressure[:, middle], mass[:, middle]
     flow = float(mass[np.argmax(pressure)])
@@ -256,8 +327,7 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
     gap = float(mass[0]) + 0.5 * float(x[0]) ** 2 * (1.0 / t**2 - 1.0)
     gradient = fluid.velocity_parameter * (gap - flow) / gap**3
     before = float(np.sum(0.5 * weights * gradient * abs(float(x[0])) / t**2))
-    before /= 1.0 + 2.0 * geometry.radius_ratio / 3.0
-    return before / (before + inside) if before > 0.0 else 0.0
+    return before / (1.0 + 2.0 * geometry.radius_ratio / 3.0), inside
 
 
 @cache

@@ -47,6 +47,17 @@ class Film(FilmSolution):
         return float(np.interp(0.0, self.x, self.thickness))
 
     @property
+    def domain_loss(self) -> float | None:
+        """Estimated relative loss of film thickness because the domain is too small, dimensionless.
+
+        It is the share of the pressure that is missing, or that of the load where this is more, as in thick
+        films of light loads. None for an instant of a transient film.
+        """
+        if self.inlet_deficit is None:
+            return None
+        return max(self.inlet_deficit, self.load_deficit or 0.0)
+
+    @property
     def mean_thickness(self) -> float:
         """Mean film thickness over the Hertz zone [m], by the trapezoidal rule."""
         b = self.scales.length

@@ -207,6 +207,9 @@ def _mixed(
         if found[-1].status == "converged":
             return found
     dry = np.broadcast_to(problem.geometry.dry_pressure(level.mesh.x, level.mesh.y), level.mesh.shape)
+    if not np.any(dry):
+        # The dry contact lies between two nodes of this grid.
+        return found
     counted_full = mixed_film(
         problem.fluid,
         levels,

@@ -151,6 +151,18 @@ class FilmProblem:
         """Order of the discretisation, 1 or 2: the flow through the faces is accurate to second order."""
         return min(2, self.wedge_order)
 
+    @property
+    def area(self) -> float:
+        """Area of the domain, or its length in a line contact, in half-widths."""
+        return (self.outlet - self.inlet) * (1.0 if self.width is None else 2.0 * self.width.side)
+
+    def bearing_ambient_pressure_on(self, area: float) -> FilmProblem:
+        """Problem in which the ambient pressure carries no more of the load than on a domain of some area."""
+        extra = self.fluid.ambient_pressure * (self.area - area)
+        if extra <= 0.0:
+            return self
+        return replace(self, geometry=replace(self.geometry, load=self.geometry.load + extra))
+
     def edge_excess(self, mesh: Mesh) -> Array | float:
         """Pressure above ambient on the edges of a mesh (nx, ny), zero inside."""
         if self.edge_pressure is None:

@@ -13,7 +13,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.accuracy.adaptive import RefinedSolution
 from ehlectric.film.accuracy.max_pressure import max_pressure_error
 from ehlectric.film.accuracy.starved import Starvation, StarvedSolution
-from ehlectric.film.estimates import inlet_deficit
+from ehlectric.film.estimates import inlet_deficit, load_deficit, point_load_deficit
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
 from ehlectric.film.starved.reformed import oil_fraction
@@ -69,6 +69,9 @@ class FilmSolution(Values):
     inlet_deficit : float or None
         Share of the reduced pressure that is missing because it would build up upstream of the domain. None
         for an instant of a transient film.
+    load_deficit : float or None
+        Share of the load of a line contact that oil would carry without an end of the inlet; load that it
+        would carry outside of the domain of a point contact, over its load. None of starved films.
     max_pressure_error : float or None
         Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
         highest peak of the pressure. None if there is no estimate.
@@ -100,6 +103,7 @@ class FilmSolution(Values):
     steps: tuple[NewtonStep, ...] = ()
     discretisation_error: float | None = None
     inlet_deficit: float | None = None
+    load_deficit: float | None = None
     max_pressure_error: float | None = None
     film_fraction: Array | None = None
     mass_residual: float | None = None
@@ -158,6 +162,14 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
     problem, finest, whole = found.problem, found.last, found.whole
     scales, coarser = problem.scales, found.coarser
     steps = tuple(step for solution in found.solutions for step in solution.steps)
+    upstream = (
+        problem.fluid,
+        problem.geometry,
+        whole.level.mesh,
+        whole.state.pressure,
+        whole.final.coefficients.density * whole.state.thickness,
+    )
+    starved = isinstance(found, StarvedSolution)
     x, values = _nodal(found, shaped)
     touching, fraction = values.pop("contact_pressure"), values.pop("film_fraction", None)
     return FilmSolution(
@@ -173,15 +185,12 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
         ),
         steps=steps,
         discretisation_error=found.error,
-        inlet_deficit=found.inlet_deficit
-        if isinstance(found, StarvedSolution)
-        else inlet_deficit(
-            problem.fluid,
-            problem.geometry,
-            whole.level.mesh,
-            whole.state.pressure,
-            whole.final.coefficients.density * whole.state.thickness,
-        ),
+        inlet_deficit=found.inlet_deficit if isinstance(found, StarvedSolution) else inlet_deficit(*upstream),
+        load_deficit=None
+        if starved
+        else load_deficit(*upstream)
+        if problem.width is None
+        else point_load_deficit(problem),
         max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
         film_fraction=fraction,
         mass_residual=None if found.fraction is None else mass_residual(found),

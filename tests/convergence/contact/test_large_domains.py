@@ -1,0 +1,69 @@
+"""Films of light contacts, whose domain is made larger until it costs less than the error asked for."""
+
+import pytest
+
+from ehlectric import Case, solve
+
+OIL = {"base": "paper", "ambient_pressure": 0.0}
+BODIES = {"reduced_radius": "10 mm", "reduced_modulus": "226 GPa"}
+BALL = {"geometry": "point", "radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa"}
+
+
+def line(load, speed, oil=OIL, **grid):
+    contact = BODIES | {"load_per_length": load, "entrainment_speed": speed}
+    return Case.from_dict({"contact": contact, "lubricant": oil, "grid": grid})
+
+
+def ball(load, speed, **grid):
+    contact = BALL | {"load": load, "entrainment_speed": speed}
+    return Case.from_dict({"contact": contact, "lubricant": OIL, "grid": grid})
+
+
+def far(film):
+    return film.x[0] / film.scales.length
+
+
+@pytest.mark.parametrize(("load", "speed"), [(3e5, 4.0), (5e4, 4.0), (1e4, 4.0), (3e3, 2.0)])
+def test_the_error_asked_for_has_the_domain_in_it(load, speed):
+    """Beside an inlet of 240 half-widths, which costs 0.2 % at most; the default one costs up to 75 %."""
+    found = solve(line(load, speed)).film
+    reference = solve(line(load, speed, inlet=-240.0, outlet=20.0, nodes=16641)).film
+    assert found.central_thickness == pytest.approx(reference.central_thickness, rel=0.012)
+    assert found.domain_loss <= 0.01
+    default = solve(line(load, speed, nodes=1601)).film
+    assert default.domain_loss > 0.01
+    lost = 1.0 - default.central_thickness / reference.central_thickness
+    assert 0.9 * lost < default.domain_loss < 2.0 * lost + 0.01
+
+
+def test_a_given_inlet_stays_and_is_warned_of():
+    result = solve(line(1e4, 4.0, inlet=-5.0))
+    assert far(result.film) == pytest.approx(-5.0)
+    assert "inlet-far-too-short" in [warning.code for warning in result.warnings]
+
+
+def test_the_ambient_pressure_carries_no_more_on_a_larger_domain():
+    """On 67 half-widths it would carry 2 % of the load more than on the default ones."""
+    films = [solve(line(1e4, 4.0, oil)).film for oil in (OIL, {"base": "paper"})]
+    assert films[1].central_thickness == pytest.approx(films[0].central_thickness, rel=5e-3)
+
+
+@pytest.mark.slow
+def test_a_ball():
+    """A ball of 3 N, beside a domain of 32 semi-axes ahead and 16 beside."""
+    found = solve(ball(3.0, 2.0)).film
+    reference = solve(ball(3.0, 2.0, inlet=-32.0, outlet=4.0, side=16.0, nodes=577, nodes_y=513)).film
+    assert found.central_thickness == pytest.approx(reference.central_thickness, rel=0.03)
+    assert found.domain_loss <= 0.02
+
+
+@pytest.mark.slow
+def test_a_ball_that_hardly_presses_is_warned_of():
+    """A ball of 1 N: no domain is large enough, as what it costs falls with its size only.
+
+    The film without an end of the domain is extrapolated from domains of 24 and 48 semi-axes: 0.893 um.
+    """
+    result = solve(ball(1.0, 2.0, inlet=-24.0, outlet=4.0, side=12.0, nodes=225, nodes_y=225))
+    lost = 1.0 - result.film.central_thickness / 0.893e-6
+    assert 0.7 * lost < result.film.domain_loss < 1.5 * lost
+    assert "domain-far-too-small" in [warning.code for warning in result.warnings]
