@@ -30,9 +30,9 @@ _LOSS_AT = np.log([0.02, 0.2, 0.8, 1.5, 2.5])
 _LOST_UPSTREAM = (1.2, 1.0, 0.9, 0.9, 1.4)
 _LOST_AT_SIDES = (0.6, 0.6, 0.6, 0.6, 1.4)
 
-# The same over the load that is missing outside of the domain, which falls with its size and not with its cube.
-# It decides where the bodies hardly deform: a ball with H = 4.6 lost 31, 48 and 59 % on domains of 24, 12 and 6
-# semi-axes (extrapolated from 24 and 48), and one with H = 0.9 not more than by the other parts.
+# The same over the load that is missing outside of the domain, which falls with the size of the domain and
+# not with its cube. It decides where the bodies hardly deform: a ball with H = 4.6 lost 31, 48 and 59 % on
+# domains of 24, 12 and 6 semi-axes (extrapolated from 24 and 48), and one with H = 0.9 no more than above.
 _LOAD_AT = np.log([1.0, 4.6])
 _LOST_BY_LOAD = (0.05, 1.6)
 
