@@ -366,7 +366,7 @@ def test_a_local_cluster_from_python(tmp_path, swept):
         "import ehlectric\n"
         "if __name__ == '__main__':\n"
         "    sweep = ehlectric.Sweep.from_toml('sweep.toml')\n"
-        "    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None,\n"
+        "    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=':0',\n"
         "                      silence_logs=50) as cluster:\n"
         "        with Client(cluster) as client, client.get_executor() as executor:\n"
         "            results = ehlectric.run_sweep(sweep, 'out', executor)\n"
