@@ -5,6 +5,8 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.contact.spots.oil_balance import oil_balance
+from tests.helpers.each import each
+from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.share import share
 
 CONTACT = {
@@ -157,3 +159,27 @@ def test_oil_enters_a_spot_at_its_edge():
     assert film.contact.any()
     assert np.min(carried[inside]) > 0.9 * result.conditions.boundary_film
     assert np.sum(film.contact_pressure) < 0.01 * np.sum(film.pressure)
+
+
+@pytest.mark.slow
+@each("film", [{"rheology": "eyring"}, {"thermal": True, "rheology": "eyring"}])
+def test_hot_and_sheared_films_keep_their_oil(film):
+    """A Gaussian line that forms again behind a cavity, which made oil where the cavity counted as full."""
+    rough = GAUSSIAN | {"surface": 2, "rq": "150 nm"}
+    tables = HOT_LINE | {"film": film, "roughness": [rough], "grid": {"nodes": 401}}
+    tables["contact"] = HOT_LINE["contact"] | {"entrainment_speed": "0.5 m/s", "boundary_film": "0 m"}
+    result = solve(Case.from_dict(tables), beside_smooth=False)
+    assert result.film.converged
+    assert np.any(result.film.film_fraction[np.abs(result.film.x) < result.conditions.half_width] < 1.0)
+    assert result.film.mass_residual <= 1e-6
+    assert "oil-not-conserved" not in [warning.code for warning in result.warnings]
+
+
+@pytest.mark.slow
+def test_a_hot_film_without_cavities_makes_no_oil():
+    rough = GAUSSIAN | {"surface": 2, "rq": "100 nm", "seed": 4}
+    tables = HOT_LINE | {"roughness": [rough], "grid": {"nodes": 401}}
+    tables["contact"] = HOT_LINE["contact"] | {"entrainment_speed": "0.2 m/s", "boundary_film": "0 m"}
+    result = solve(Case.from_dict(tables), beside_smooth=False)
+    assert result.film.converged
+    assert "oil-not-conserved" not in [warning.code for warning in result.warnings]

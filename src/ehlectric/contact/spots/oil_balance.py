@@ -89,6 +89,9 @@ def oil_balance(
     zone, contact = _in_zone(conditions, mesh), film.contact.reshape(mesh.shape)
     full = oil - fluid.ambient_pressure > _ROUNDING
     made = _refilled(full & zone) & (zone | contact) & (r > 0.0)
+    if film.heated is not None:
+        # The viscosity of a hot or sheared film is not that of the oil at rest; a cavity has no such flow.
+        made &= ~full
     lost = contact & (r < 0.0)
     carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
     parts = [abs(float(np.vdot(mesh.weights, np.where(part, r, 0.0)))) / carried for part in (lost, made)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.newton import newton
@@ -15,6 +15,7 @@ from ehlectric.film.sheared.columns import Columns
 from ehlectric.film.sheared.flow import ShearedFlow
 from ehlectric.film.sheared.profile import Across
 from ehlectric.film.sheared.traction import filled_part
+from ehlectric.film.starved.reformed import conserving_film, forms_again
 from ehlectric.film.state import GridSolution, NewtonStep, Progress, State
 from ehlectric.film.thermal.columns import HeatColumns, Stream
 from ehlectric.film.thermal.energy import Heat, solve_energy
@@ -33,6 +34,9 @@ _MOST_CHANGE = 40.0
 # Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most,
 # as far as this residual: its temperature is still to change.
 _LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
+
+# Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step.
+_CARRYING = 3
 
 # Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
 # central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
@@ -99,6 +103,9 @@ class Course:
         converged for a held film.
     degree : int
         Degree of the polynomial across the film.
+    filled : ndarray of bool, shape (nx, ny), or None
+        Nodes that oil fills at first, of a film that carries its oil through cavities; None of one whose
+        cavities count as full.
     """
 
     problem: FilmProblem
@@ -109,6 +116,7 @@ class Course:
     careful: bool = False
     held: bool = False
     degree: int = DEGREE
+    filled: Mask | None = None
 
     @property
     def physics(self) -> Physics:
@@ -148,20 +156,42 @@ class Course:
         return np.maximum(state.pressure, self.problem.fluid.ambient_pressure)
 
     def film(
-        self, state: State, heat: Heat | None, *, steps: int, tolerance: float, spike: bool
+        self,
+        state: State,
+        heat: Heat | None,
+        *,
+        steps: int,
+        tolerance: float,
+        spike: bool,
+        filled: Mask | None = None,
     ) -> tuple[GridSolution, ShearedFlow, Heat | None]:
-        """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure."""
+        """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure.
+
+        With the nodes ``filled`` that oil fills at first, the film carries its oil through cavities.
+        """
         flow = self.flow(state, heat)
-        solution = newton(
-            replace(self.problem.fluid, flow=flow),
-            self.levels,
-            state,
-            tolerance=tolerance,
-            max_iterations=steps,
-            min_iterations=1,
-            progress=self.progress,
-            eliminate_spike=spike and self.problem.width is None,
-        )
+        fluid = replace(self.problem.fluid, flow=flow)
+        if filled is None:
+            solution = newton(
+                fluid,
+                self.levels,
+                state,
+                tolerance=tolerance,
+                max_iterations=steps,
+                min_iterations=1,
+                progress=self.progress,
+                eliminate_spike=spike and self.problem.width is None,
+            )
+        else:
+            solution = conserving_film(
+                fluid,
+                self.levels,
+                (state, filled),
+                order=self.problem.wedge_order,
+                tolerance=tolerance,
+                max_iterations=steps,
+                progress=self.progress,
+            )
         if isinstance(flow.profile, FrozenTemperature):
             heat = flow.profile.at(self._clipped(solution.state))
         return solution, flow, heat
@@ -170,6 +200,8 @@ class Course:
         """Stresses and speeds across the film, and the share of the gap that oil fills."""
         state, mesh = solution.state, self.levels[0].mesh
         found = flow.columns(self.problem.fluid, state.pressure, state.thickness, mesh)
+        if solution.fraction is not None:
+            return found, solution.fraction
         mass = solution.final.coefficients.density * state.thickness
         return found, filled_part(solution.final.full_film, mass)
 
@@ -209,10 +241,29 @@ class Course:
         return Heat(temperature, np.zeros((2, *shape)), np.zeros_like(temperature))
 
     def __call__(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
-        """Film and temperature from an initial guess of both."""
-        thermal, most = self.physics.thermal, self.problem.max_iterations
+        """Film and temperature from an initial guess of both.
+
+        A film that forms again behind a cavity is solved once more, with the oil carried through it.
+        """
+        found = self._turns(state, heat, spike=spike)
+        full = found.solution.final.full_film
+        if self.filled is not None or not found.converged or not forms_again(full):
+            return found
+        again = replace(self, filled=full)._turns(found.solution.state, found.heat, spike=False)
+        if not again.converged:
+            return found
+        taken = found.solution.steps + again.solution.steps
+        return replace(again, solution=replace(again.solution, steps=taken), loops=found.loops + again.loops)
+
+    def _turns(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
+        """Film and temperature in turns, from an initial guess of both."""
+        thermal, most, filled = self.physics.thermal, self.problem.max_iterations, self.filled
         if thermal is None:
-            solution, flow, _ = self.film(state, None, steps=most, tolerance=self.tolerance, spike=spike)
+            if filled is not None:
+                most *= _CARRYING
+            solution, flow, _ = self.film(
+                state, None, steps=most, tolerance=self.tolerance, spike=spike, filled=filled
+            )
             return HeatedGrid(solution, None, flow, 0)
         heat = self.start(thermal) if heat is None else heat
         surfaces, weight = self.surfaces(thermal), _weight(self.levels[0], state)
@@ -221,10 +272,13 @@ class Course:
         rises, films, central, ends = list[float](), list[float](), np.inf, False
         for loop in range(_LOOPS):
             steps, tolerance = (most, self.tolerance) if ends else (_STEPS, max(self.tolerance, _LOOSE))
+            if filled is not None:
+                steps *= _CARRYING
             solution, flow, heat = self.film(
-                state, heat, steps=steps, tolerance=tolerance, spike=spike and loop == 0
+                state, heat, steps=steps, tolerance=tolerance, spike=spike and loop == 0, filled=filled
             )
             assert heat is not None
+            filled = None if filled is None else solution.final.full_film
             taken += solution.steps
             before, central = central, at_centre(self.levels[0].mesh, solution.state.thickness)
             films.append(abs(central - before) / (_FILM * central))
