@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -40,6 +39,9 @@ _LIGHTEST = 0.002
 # distances, a power of their number, are shortest at the light end. There the film of rigid bodies, which is
 # proportional to 1/Q for a roller and to 1/Q^2 for a ball, turns into the film of bodies that deform.
 _BETWEEN, _MOST_BETWEEN, _CROWDED = 1.5, 6, 1.5
+
+# Exponents of ten between which the least load is searched [N], and their distance at which the search ends.
+_EXPONENTS, _CLOSE = (-6.0, 6.0), 1e-7
 
 # Ratio of the largest to the least load below which all loads count as equal.
 _ALIKE = 1.001
@@ -245,16 +247,24 @@ def largest_load(prepared: PreparedBearing, ring: RingContacts[Any]) -> float:
 
 
 def least_load(ring: RingContacts[Any]) -> float:
-    """Least load [N], to within a third, at which the domain holds the length over which the film builds up.
+    """Least load at which the domain holds the length over which the film builds up [N].
 
     Lighter contacts have thicker films, so that the breakdown voltage at this load is a lower bound of
-    theirs.
+    theirs. It is found to 1e-6, so that it changes with the speed without steps.
     """
     kind = kind_of(ring)
-    loads = np.geomspace(1e-6, 1e6, 121)
-    # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
-    first = bisect_left(loads, 1, key=lambda load: int(kind.fits(kind.contact(ring, float(load)))))
-    return float(loads[first]) if first < loads.size else math.inf
+
+    def holds(exponent: float) -> bool:
+        # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
+        return bool(kind.fits(kind.contact(ring, 10.0**exponent)))
+
+    small, large = _EXPONENTS
+    if not holds(large):
+        return math.inf
+    while large - small > _CLOSE:
+        middle = 0.5 * (small + large)
+        small, large = (small, middle) if holds(middle) else (middle, large)
+    return 10.0**large
 
 
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from ehlectric import BearingCase, solve
 from ehlectric.bearing.domain import ball_grid, roller_grid
 from ehlectric.bearing.preparation import least_load
 from ehlectric.cases.grid import Grid
@@ -15,6 +16,7 @@ from ehlectric.formulas.hertz_point import dry_contact
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_case, contact_of, ring_of
 from tests.helpers.each import each
 from tests.helpers.oils import alpha_star
+from tests.helpers.places import EXAMPLES
 
 D, PITCH, ROLLER, LENGTH = 11.906e-3, 60e-3, 11e-3, 10e-3
 MODULUS = 208e9 / (1.0 - 0.3**2)
@@ -99,15 +101,15 @@ def test_a_light_balls_domain(inner):
 
 @pytest.mark.parametrize("inner", [True, False])
 def test_the_least_load_is_the_first_that_fits(inner):
-    """Found among powers of 10^0.1: its lengths fit into the domain's end, those of a tenth less do not."""
+    """Its lengths fit into the domain's end, those of a slightly smaller load do not."""
     least = least_load(of(ROLLERS, inner=inner))
 
     def fits(load):
         b, length = roller(load, inner=inner)
         return min(10.0 * length, max(100.0 * b, 8.0 * length)) <= min(0.25 * ROLLER, 300.0 * b)
 
-    assert fits(1.0001 * least)
-    assert not fits(10**-0.1 * least)
+    assert fits(1.00001 * least)
+    assert not fits(0.99999 * least)
 
 
 @each("inner", [True, False])
@@ -125,3 +127,15 @@ def test_cases_take_these_domains(inner, load):
             assert [conditions.semi_axis_x, conditions.semi_axis_y] == pytest.approx(
                 [b, a], rel=1e-9, abs=0.0
             )
+
+
+def test_films_of_light_contacts_change_with_the_speed_without_steps():
+    """The least load that is solved was one of 10^0.1 to the other: from 0.83 to 0.57 um within 10 rpm."""
+    films = []
+    for speed in (2180.0, 2190.0, 2200.0):
+        case = BearingCase.from_toml(EXAMPLES / "bearing_6208.toml")
+        case = case.replace({"contacts": "atlas", "bearing.inner_speed": f"{speed:g} rpm"})
+        curve = solve(case).solution.outer_curve
+        films.append(curve.at(curve.loads[:1]).central_thickness[0])
+    assert films[2] / films[0] == pytest.approx(1.0, abs=0.02)
+    assert films[1] / films[0] == pytest.approx(1.0, abs=0.01)
