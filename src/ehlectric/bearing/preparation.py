@@ -264,7 +264,7 @@ def least_load(ring: RingContacts[Any]) -> float:
     while large - small > _CLOSE:
         middle = 0.5 * (small + large)
         small, large = (small, middle) if holds(middle) else (middle, large)
-    return 10.0**large
+    return float(10.0**large)
 
 
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:
