@@ -15,6 +15,10 @@ from ehlectric.film.nested import accurate_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.state import GridSolution, State
 
+# Loss of the film of a point contact over the load that is missing outside of its domain, by ln H.
+_LOAD_AT = np.log([1.0, 4.6])
+_LOST_BY_LOAD = (0.05, 1.6)
+
 # Factor by which the change of the minimum from the coarser grid exceeds its error on the finer one, with the
 # scheme of third order; see ``of_three_grids``.
 _MINIMUM_GAIN = 1.8
@@ -280,6 +284,18 @@ def load_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, 
         return 0.0
     missing = 1.5 * found[0] * abs(float(mesh.x[0])) / geometry.load
     return missing / (1.0 + missing)
+
+
+def lost_by_load(thickness: float) -> float:
+    """Relative loss of the film of a point contact over ``point_load_deficit``, by the central film H.
+
+    The load that is missing falls with the size of the domain, and not with its cube as the pressure does.
+    It decides where the bodies hardly deform: a ball with H = 4.6 lost 31, 48 and 59 % on domains of 24, 12
+    and 6 semi-axes (extrapolated from 24 and 48), and one with H = 0.9 no more than the missing pressure
+    explains.
+    """
+    at = np.log(max(thickness, 1e-12))
+    return float(np.interp(at, _LOAD_AT, _LOST_BY_LOAD))
 
 
 def point_load_deficit(problem: FilmProblem) -> float:

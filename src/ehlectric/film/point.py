@@ -10,7 +10,7 @@ from scipy.interpolate import RegularGridInterpolator
 from ehlectric.arrays import Array
 from ehlectric.film.accuracy.adaptive import RefinedSolution
 from ehlectric.film.accuracy.starved import StarvedSolution, supplied_solution
-from ehlectric.film.estimates import side_deficit
+from ehlectric.film.estimates import lost_by_load, side_deficit
 from ehlectric.film.heated.nested import film_of
 from ehlectric.film.heated.outcome import film_status_of, heated_film
 from ehlectric.film.problem import FilmProblem
@@ -29,12 +29,6 @@ _RADII, _ANGLES = 64, 256
 _LOSS_AT = np.log([0.02, 0.2, 0.8, 1.5, 2.5])
 _LOST_UPSTREAM = (1.2, 1.0, 0.9, 0.9, 1.4)
 _LOST_AT_SIDES = (0.6, 0.6, 0.6, 0.6, 1.4)
-
-# The same over the load that is missing outside of the domain, which falls with the size of the domain and
-# not with its cube. It decides where the bodies hardly deform: a ball with H = 4.6 lost 31, 48 and 59 % on
-# domains of 24, 12 and 6 semi-axes (extrapolated from 24 and 48), and one with H = 0.9 no more than above.
-_LOAD_AT = np.log([1.0, 4.6])
-_LOST_BY_LOAD = (0.05, 1.6)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -83,8 +77,7 @@ class PointFilm(FilmSolution):
         central = self.central_thickness if flooded is None else flooded
         thickness = central / self.scales.thickness
         lost = lost_film(thickness, self.inlet_deficit, self.side_deficit)
-        at = np.log(max(thickness, 1e-12))
-        return max(lost, float(np.interp(at, _LOAD_AT, _LOST_BY_LOAD)) * (self.load_deficit or 0.0))
+        return max(lost, lost_by_load(thickness) * (self.load_deficit or 0.0))
 
     @property
     def minimum_position(self) -> tuple[float, float]:
