@@ -40,6 +40,13 @@ def test_files_of_results_are_named_without_the_compiler_of_drives():
     assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
 
 
+@pytest.mark.slow
+def test_a_sweep_of_contacts_begins_without_the_compiler_of_drives():
+    loaded = modules_after("import ehlectric.sweep.preview, ehlectric.sweep.run")
+    assert "ehlectric.drive.quick" in loaded
+    assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
+
+
 def test_public_names():
     for name in ehlectric.__all__:
         assert getattr(ehlectric, name) is not None
