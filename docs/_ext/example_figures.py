@@ -27,7 +27,10 @@ _RUNS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "drive": (
         ("drive", "drive.toml"),
-        ("drive_voltages.png", "drive_histogram.png", "drive_discharges.png", "drive_remedies.png"),
+        (
+            *("drive_voltages.png", "drive_histogram.png", "drive_spectrum.png"),
+            *("drive_discharges.png", "drive_remedies.png"),
+        ),
     ),
     "oil_contact": (("run", "oil_contact.toml"), ("meter.png",)),
     "hot_contact": (("run", "hot_contact.toml"), ("temperature.png",)),

@@ -104,6 +104,16 @@ def sweep(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
     yield ("check", "sweep.toml")
 
 
+def cluster(stock: Stock, folder: Path, draw: random.Random) -> Iterator[Words]:
+    """A sweep on a Dask cluster whose workers lack the package: half of the sweep files are mutated."""
+    plan = SWEEPS[draw.choice(tuple(SWEEPS))]
+    if draw.random() < 0.5:
+        plan = mutated_table(plan, draw, (*SWEEPS.values(), *CASES.values()))
+    _link(stock, folder, "profile.csv", "line.toml")
+    _write(folder / "sweep.toml", plan, draw)
+    yield ("sweep", "sweep.toml", "-o", "out", "--scheduler", stock.scheduler())
+
+
 _SURFACE_OPTIONS = (
     "--x-unit", "--z-unit", "--line", "--along", "--form", "--cutoff-long", "--cutoff-short", "--trim",
     "--rescale-rq", "--truncate",
@@ -356,7 +366,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
     {
         "case": Kind(case, 2000),
         "bearing": Kind(bearing, 100),
-        "sweep": Kind(sweep, 1300),
+        "sweep": Kind(sweep, 1280),
+        "cluster": Kind(cluster, 20),
         "surface": Kind(surface, 1150),
         "result": Kind(result, 150),
         "database": Kind(database, 200),

@@ -22,7 +22,7 @@ from PIL import Image
 from tests.attack.attack import Report
 from tests.attack.judge import faults, hidden
 from tests.attack.runner import Runner, workers_gone
-from tests.attack.stock import CASES, SWEEPS, Stock, write_toml
+from tests.attack.stock import CASES, DRIVE, SWEEPS, Stock, write_toml
 
 # Kills of a command between two runs that may end.
 _BETWEEN = 10
@@ -118,6 +118,9 @@ SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
             ("bearing", "bearing_6208.toml", "-o", "out", "--contacts", "formula", "--no-plots"),
             _linked("bearing_6208.toml"),
             kills=40,
+        ),
+        "drive": Scenario(
+            ("drive", "drive.toml", "-o", "out", "--no-plots"), _titled("drive.toml", DRIVE), kills=40
         ),
         "sweep": Scenario(
             ("sweep", "sweep.toml", "-o", "out", "--workers", "1"), _swept, kills=25, progress=_saved_points

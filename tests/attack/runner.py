@@ -10,6 +10,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.helpers.dask import Dask
 from tests.helpers.no_home import package_without_folders, without_home
 from tests.helpers.processes import PATIENCE
 
@@ -68,7 +69,7 @@ class Runner:
 
     def __init__(self, home: Path, *, poor: bool = False) -> None:
         self.home, self.told = home / "home", home / "told"
-        self.temporary = home / "tmp"
+        self.temporary, self._of_cluster = home / "tmp", home / "cluster"
         for folder in (self.home, self.told, self.temporary):
             folder.mkdir(parents=True)
         environment = {
@@ -87,12 +88,16 @@ class Runner:
             [sys.executable, "-B", "-m", "tests.attack.server", *(["poor"] if poor else [])],
             cwd=REPOSITORY, env=environment, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
         )  # fmt: skip
+        self._cluster: Dask | None = None
+        self._scheduler = ""
         self._line()
 
     def __enter__(self) -> Runner:
         return self
 
     def __exit__(self, *_: object) -> None:
+        if self._cluster is not None:
+            self._cluster.end()
         self._server.communicate(timeout=PATIENCE)
 
     def _line(self) -> dict[str, float]:
@@ -129,6 +134,15 @@ class Runner:
             answer["processor"], int(answer["peak"]), tuple(dict.fromkeys(changes.splitlines())),
             int(answer["group"]),
         )  # fmt: skip
+
+    def scheduler(self) -> str:
+        """Address of a Dask scheduler whose worker lacks the package; both are started by the first call."""
+        if self._cluster is None:
+            self._of_cluster.mkdir()
+            self._cluster = Dask(self._of_cluster)
+            _, self._scheduler = self._cluster.scheduler()
+            self._cluster.worker_without_package(self._scheduler)
+        return self._scheduler
 
     def left_behind(self) -> list[str]:
         """Temporary files, and files of the home folder that are none of matplotlib's."""

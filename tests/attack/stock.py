@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -80,6 +81,14 @@ BEARINGS: dict[str, dict[str, Any]] = {
 }
 
 
+# A drive for a few periods of its carrier, with contacts by formula.
+DRIVE: dict[str, Any] = {
+    "title": "drive",
+    "drive": {"speed": "1500 rpm", "contacts": "formula", "duration": "2 ms", "seed": 4},
+    **{name: _example("drive")[name] for name in ("source", "circuit", "breakdown")},
+    "drive_end": _BALL,
+}
+
 SWEEPS: dict[str, dict[str, Any]] = {
     "grid": {
         "title": "grid", "case": "line.toml",
@@ -117,12 +126,15 @@ class Stock:
         NetCDF files of stationary, moving and whole-bearing results.
     databases : tuple of Path
         Databases of sweeps: a grid and a Sobol design.
+    scheduler : callable
+        Starts a Dask cluster whose workers lack the package, when it is first called; the address.
     """
 
     folder: Path
     surfaces: tuple[Path, ...]
     results: tuple[Path, ...]
     databases: tuple[Path, ...]
+    scheduler: Callable[[], str]
 
 
 def write_inputs(folder: Path) -> tuple[Path, ...]:
@@ -153,7 +165,8 @@ def make(folder: Path, runner: Runner) -> Stock:
         _done(runner, folder, "sweep", f"{name}.toml", "-o", name, "--workers", "1")
     results = tuple(sorted(folder.glob("*/*.nc")))
     databases = tuple(folder / name / "sweep.sqlite" for name in SWEEPS)
-    return Stock(folder, surfaces, tuple(path for path in results if path.name != "sweep.nc"), databases)
+    stored = tuple(path for path in results if path.name != "sweep.nc")
+    return Stock(folder, surfaces, stored, databases, runner.scheduler)
 
 
 def _done(runner: Runner, folder: Path, *words: str) -> None:

@@ -3,6 +3,7 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 
 from ehlectric.figures.names import DRIVE_FIGURE_FILES, in_formats
@@ -38,7 +39,8 @@ def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     done = ehlectric("drive", "drive.toml", "-o", "out", "--format", "svg")
     assert done.returncode == 0, done.stderr
     written = {path.name for path in (tmp_path / "out").iterdir()}
-    assert written == {"summary.json", "events.csv", "drive.nc", *in_formats(DRIVE_FIGURE_FILES, ["svg"])}
+    figures = in_formats(DRIVE_FIGURE_FILES, ["svg"])
+    assert written == {"summary.json", "events.csv", "spectrum.csv", "drive.nc", *figures}
     for text in ("drive end", "non-drive end", "discharges per second", "as it is", "Ceramic"):
         assert text in done.stdout
     summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
@@ -58,6 +60,13 @@ def test_a_drive_and_its_remedy(ehlectric, drive, tmp_path):
     times = [float(row["time [s]"]) for row in rows]
     assert times == sorted(times)
     assert 0.0 <= times[0] <= times[-1] <= 0.02
+    with (tmp_path / "out" / "spectrum.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert float(rows[1]["frequency [Hz]"]) == pytest.approx(1.0 / 0.02)
+    assert float(rows[-1]["frequency [Hz]"]) == pytest.approx(1e7)
+    # Parseval's equation; edges of 100 ns have a part of their voltage above 10 MHz.
+    squares = np.square([float(row["shaft_voltage [V]"]) for row in rows])
+    assert 0.9 < np.sqrt(squares[0] + 0.5 * np.sum(squares[1:])) / found["rms_voltage"] < 1.0
 
 
 @pytest.mark.slow

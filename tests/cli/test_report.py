@@ -1,7 +1,10 @@
 """The command report: results of every kind as HTML and PDF, and what it refuses."""
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 import tomllib
 
 import pytest
@@ -36,6 +39,19 @@ def reported(ehlectric, folder):
     page = Page((folder / "report.html").read_text(encoding="utf-8"))
     paper = text_of_pdf((folder / "report.pdf").read_bytes()) if shutil.which("pdftotext") else page.text
     return page, paper
+
+
+@pytest.mark.slow
+def test_of_a_service_whose_home_is_no_folder(ehlectric, tmp_path):
+    """Its home is /dev/null, in which reportlab looks for settings."""
+    folder = solved(ehlectric, tmp_path, "run", CASE, "--no-plots")
+    home = os.environ | {"HOME": "/dev/null", "MPLCONFIGDIR": str(tmp_path / "matplotlib")}
+    done = subprocess.run(
+        [sys.executable, "-m", "ehlectric", "report", str(folder)],
+        env=home, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
 
 
 @pytest.mark.slow

@@ -1,7 +1,6 @@
 """The sweep command as a user types it: its options, what it prints, and every way it may be stopped."""
 
 import csv
-import json
 import os
 import random
 import signal
@@ -14,16 +13,16 @@ from contextlib import closing
 
 import pytest
 import xarray as xr
-from distributed import Client
 
 from ehlectric import read_sweep
 from ehlectric.errors import CODES
 from tests.cli.conftest import CASE
 from tests.cli.test_reproduce import children, gone
 from tests.helpers.commands import Begun
+from tests.helpers.dask import Dask
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
-from tests.helpers.processes import PATIENCE, wait_until, workers_of
+from tests.helpers.processes import wait_until, workers_of
 
 SWEEP = """\
 case = "case.toml"
@@ -264,54 +263,28 @@ def test_the_example_and_again(ehlectric, tmp_path):
 
 @pytest.fixture
 def dask(tmp_path):
-    """Starts a process by a command of Dask; all of them end with the test."""
-    processes = []
-
-    def start(what, *options, **environment):
-        log = (tmp_path / f"{what}.log").open("w")
-        arguments = [sys.executable, "-m", f"distributed.cli.dask_{what}", "--no-dashboard", *options]
-        taken = os.environ | environment
-        processes.append(subprocess.Popen(arguments, cwd=tmp_path, env=taken, stdout=log, stderr=log))
-        log.close()
-        return processes[-1]
-
-    yield start
-    for process in reversed(processes):
-        process.terminate()
-        process.wait(timeout=PATIENCE)
+    """Cluster without processes, which end with the test."""
+    with Dask(tmp_path) as cluster:
+        yield cluster
 
 
 @pytest.fixture
-def scheduler(tmp_path, dask):
+def scheduler(dask):
     """Process of a scheduler without workers, and its address."""
-    address = tmp_path / "scheduler.json"
-    process = dask("scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(address))
-    # The scheduler writes the file while it is looked for.
-    assert wait_until(lambda: address.exists() and "}" in address.read_text())
-    return process, json.loads(address.read_text())["address"]
-
-
-def with_worker(dask, where, folder, **environment):
-    """Start a worker of a scheduler, and wait until both answer."""
-    dask("worker", where, "--nthreads", "1", "--local-directory", str(folder), **environment)
-    # The scheduler answers in the time that a sweep waits for it once it has answered before.
-    with Client(where, timeout=PATIENCE, set_as_default=False) as client:
-        client.wait_for_workers(1, timeout=PATIENCE)
+    return dask.scheduler()
 
 
 @pytest.fixture
-def cluster(tmp_path, dask, scheduler):
+def cluster(dask, scheduler):
     """Address and process of a scheduler that has a worker, both started by their own commands."""
     process, where = scheduler
-    with_worker(dask, where, tmp_path)
+    dask.worker(where)
     return where, process
 
 
 @pytest.mark.slow
-def test_a_worker_without_the_package_ends_the_sweep(ehlectric, tmp_path, swept, dask, scheduler):
-    (tmp_path / "packages").mkdir()
-    (tmp_path / "packages" / "ehlectric.py").write_text("raise ImportError('not on this machine')\n")
-    with_worker(dask, scheduler[1], tmp_path, PYTHONPATH=str(tmp_path / "packages"))
+def test_a_worker_without_the_package_ends_the_sweep(ehlectric, swept, dask, scheduler):
+    dask.worker_without_package(scheduler[1])
     done = ehlectric("sweep", swept(SWEEP), "-o", "out", "--scheduler", scheduler[1])
     assert done.returncode == 3
     (line,) = failures(done.stderr).splitlines()

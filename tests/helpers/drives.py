@@ -10,7 +10,7 @@ from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.circuit import Circuit
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.modes import modes_of
-from ehlectric.drive.circuit.motor import film_nodes, states_of
+from ehlectric.drive.circuit.motor import states_of, voltage_nodes
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Segments
 from tests.helpers.places import EXAMPLES
@@ -97,7 +97,7 @@ def march(
     at_event=False,
 ):
     """Record of a march through segments of a source, from its begin on."""
-    modes = modes_of(systems(circuit, bearings, breakdown), film_nodes(bearings), ring)
+    modes = modes_of(systems(circuit, bearings, breakdown), voltage_nodes(bearings), ring)
     chunks = segments if isinstance(segments, list) else [segments]
     duration = float(sum(np.sum(one.duration) for one in chunks))
     measuring = Measuring(0.0, duration, highest, limits, trace, at_event)

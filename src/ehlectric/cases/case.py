@@ -43,8 +43,8 @@ class Case(Tabled, Table):
     """Charged line or point contact: all inputs on which film and electric field depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
-    the keys of its contact by ``Case.line`` or ``Case.point``. It is frozen; ``replace`` returns a changed
-    copy. Numbers are in SI units.
+    the keys of its contact by ``Case.line`` or ``Case.point``. Wrong inputs raise an ``InputError`` that
+    names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in SI units.
 
     Parameters
     ----------
@@ -58,21 +58,6 @@ class Case(Tabled, Table):
         Tables of the rough surfaces.
     film, electric, discharge, meter, inlet, motion, grid, solver : mapping, optional
         Further tables, as in a case file.
-
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing, or a value is not allowed.
-
-    Examples
-    --------
-    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
-    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
-    >>> case = Case(contact=contact, lubricant={"base": "paper"})
-    >>> case
-    <Case line contact, max_hertz_pressure 1 GPa, entrainment_speed 4 m/s>
-    >>> case.replace({"contact.entrainment_speed": "2 m/s"}).contact.entrainment_speed
-    2.0
     """
 
     if TYPE_CHECKING:
@@ -197,44 +182,13 @@ class Case(Tabled, Table):
     ) -> LineCase:
         """Make the case of a line contact from the keys of its table ``contact``.
 
-        Parameters
-        ----------
-        lubricant : str, mapping or Lubricant
-            Name of a lubricant of the library, or its table.
-        title : str, optional
-            Title of tables and figures.
-        roughness, film, electric, discharge, meter, inlet, grid, solver : optional
-            Further tables, as in a case file.
-        **contact
-            Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.types.LineKeys``.
+        ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
+        SI units, texts with units, or quantities of pint (``ehlectric.cases.keywords.types.LineKeys``); all
+        others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
 
-        Returns
-        -------
-        LineCase
-            Case of a line contact, whose result is a ``Result``.
-
-        Raises
-        ------
-        InputError
-            If a key is unknown or missing, or a value is not allowed.
-
-        Warns
-        -----
-        UserWarning
-            If a radius or modulus is one that no machine has, probably for its unit.
-
-        Examples
-        --------
-        >>> case = Case.line(
-        ...     reduced_radius="14.1 mm",
-        ...     reduced_modulus=226e9,
-        ...     max_hertz_pressure="1 GPa",
-        ...     entrainment_speed=4.0,
-        ...     lubricant="paper",
-        ... )
-        >>> case.contact.reduced_radius
-        0.0141
+        >>> steel = {"reduced_radius": "14.1 mm", "reduced_modulus": 226e9}
+        >>> Case.line(**steel, max_hertz_pressure="1 GPa", entrainment_speed=4.0, lubricant="paper")
+        <LineCase line contact, max_hertz_pressure 1 GPa, entrainment_speed 4 m/s>
         """
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
         given |= tables(film=film, meter=meter, inlet=inlet, grid=grid, solver=solver)
@@ -263,44 +217,12 @@ class Case(Tabled, Table):
     ) -> PointCase:
         """Make the case of a point contact from the keys of its table ``contact``.
 
-        Parameters
-        ----------
-        lubricant : str, mapping or Lubricant
-            Name of a lubricant of the library, or its table.
-        title : str, optional
-            Title of tables and figures.
-        roughness, film, electric, discharge, meter, inlet, grid, solver : optional
-            Further tables, as in a case file.
-        **contact
-            Keys of the table ``contact``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.types.PointKeys``.
+        ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
+        SI units, texts with units, or quantities of pint (``ehlectric.cases.keywords.types.PointKeys``); all
+        others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
 
-        Returns
-        -------
-        PointCase
-            Case of a point contact, whose result is a ``PointResult``.
-
-        Raises
-        ------
-        InputError
-            If a key is unknown or missing, or a value is not allowed.
-
-        Warns
-        -----
-        UserWarning
-            If a radius or modulus is one that no machine has, probably for its unit.
-
-        Examples
-        --------
-        >>> ball = Case.point(
-        ...     radius_x="10 mm",
-        ...     radius_y="10 mm",
-        ...     reduced_modulus="226 GPa",
-        ...     load="20 N",
-        ...     entrainment_speed="2 m/s",
-        ...     lubricant="paper",
-        ... )
-        >>> ball
+        >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa"}
+        >>> Case.point(**ball, load="20 N", entrainment_speed="2 m/s", lubricant="paper")
         <PointCase point contact, load 20 N, entrainment_speed 2 m/s>
         """
         given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
@@ -312,23 +234,7 @@ class Case(Tabled, Table):
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Read a case from a TOML file.
-
-        Parameters
-        ----------
-        path : str or Path
-            TOML file.
-
-        Returns
-        -------
-        Case
-            Case with the values of the file, in SI units.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read, is not TOML, or is not a valid case.
-        """
+        """Read a case from a TOML file; files that it names are looked for beside it."""
         table = read_toml(path)
         if "bearing" in table and "contact" not in table:
             raise InputError(
@@ -362,16 +268,6 @@ class Case(Tabled, Table):
         **tables
             New values by table, as in ``contact={"entrainment_speed": "2 m/s"}``, or by key of the case, as
             in ``title="A"``. Other keys of a table stay.
-
-        Returns
-        -------
-        Case
-            Case with the new values.
-
-        Raises
-        ------
-        InputError
-            If a key is unknown, or the changed case is not valid.
         """
         refuse_deep({**tables, "changes": changes})
         flat = {**flattened(tables), **(changes or {})}

@@ -24,9 +24,12 @@ from ehlectric.runtime.reading import read_text
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
     "ADVICE",
+    "first_grid",
     "from_written",
     "known_keys",
+    "own_laws",
     "sign_of",
+    "with_laws",
 }
 
 
@@ -101,24 +104,11 @@ class Table(BaseModel, metaclass=_Listed):
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
-        """Validate nested tables, as read from a TOML file, and make an instance from them.
+        """Make an instance from nested tables, as read from a TOML file.
 
-        Parameters
-        ----------
-        table : mapping
-            Nested tables. A value is a number in SI units, a string with its unit, or a quantity of pint. A
-            rotational speed is a string, a quantity, or a float in rad/s; a whole number is refused, because
-            it is nearly always meant in rpm.
-
-        Returns
-        -------
-        Table
-            Instance of this class, with numbers in SI units.
-
-        Raises
-        ------
-        InputError
-            If the tables are not valid; the message names the key, its value, and what is allowed.
+        A value is a number in SI units, a string with its unit, or a quantity of pint. A rotational speed is
+        a string, a quantity, or a float in rad/s; a whole number is refused, because it is nearly always
+        meant in rpm. An ``InputError`` names each wrong key, its value, and what is allowed.
         """
         return cls._validated(table, written=False)
 

@@ -48,9 +48,10 @@ def drive(
 ) -> None:
     """Simulate inverter, motor and both bearings over time; write tables, drive.nc and figures.
 
-    The files are summary.json, events.csv with the discharges, drive.nc for ehlectric plot, and figures of
-    the bearing voltage, the discharges of each bearing with their voltage, charge, energy and current, and
-    the same for each remedy of the file.
+    The files are summary.json, events.csv with the discharges, spectrum.csv with the amplitudes of the shaft
+    voltage over the frequency, drive.nc for ehlectric plot, and figures of the bearing voltage, its spectrum,
+    the discharges of each bearing with their voltage, charge, energy and current, and the same for each
+    remedy of the file.
 
     The folder then holds this result alone: files of an earlier result are removed, other files stay. A
     folder with a sweep or with moving roughness is refused.

@@ -1,4 +1,4 @@
-"""Run of a drive and the files of its result: summary.json, events.csv and drive.nc."""
+"""Run of a drive and the files of its result: summary.json, events.csv, spectrum.csv and drive.nc."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ehlectric.cases.drives.case import DriveCase
-from ehlectric.drive.keys import EVENT_COLUMNS
+from ehlectric.drive.keys import EVENT_COLUMNS, SPECTRUM_COLUMNS
 from ehlectric.runtime.checks.formats import check_format
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from ehlectric.drive.result import DriveResult
 
-SUMMARY, EVENTS, NETCDF = "summary.json", "events.csv", "drive.nc"
-FILES = (SUMMARY, EVENTS, NETCDF)
+SUMMARY, EVENTS, SPECTRUM, NETCDF = "summary.json", "events.csv", "spectrum.csv", "drive.nc"
+FILES = (SUMMARY, EVENTS, SPECTRUM, NETCDF)
 
 
 def run(
@@ -34,7 +34,7 @@ def run(
     workers: int | None = None,
     others: Sequence[str] = (),
 ) -> RunOutcome[DriveResult]:
-    """Solve a drive, and write summary.json, events.csv and drive.nc.
+    """Solve a drive, and write summary.json, events.csv, spectrum.csv and drive.nc.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def run(
 
 
 def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
-    """Save the result of a drive: summary.json, events.csv and drive.nc, all or none.
+    """Save the result of a drive: summary.json, events.csv, spectrum.csv and drive.nc, all or none.
 
     Parameters
     ----------
@@ -94,9 +94,11 @@ def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = (
         If the folder cannot be written to, its disk is full, or another command writes into it.
     """
     heads = ["bearing", *(column_head(name, unit) for name, unit in EVENT_COLUMNS.items())]
+    lines = [column_head(name, unit) for name, unit in SPECTRUM_COLUMNS.items()]
     contents: dict[str, Content] = {
         SUMMARY: json_of(result.summary()),
         EVENTS: csv_of(heads, (row.values() for row in result.events())),
+        SPECTRUM: csv_of(lines, result.spectrum().itertuples(index=False)),
         NETCDF: content_of(result.to_xarray()),
     }
     with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:

@@ -190,6 +190,9 @@ DRIVE_KEYS: Keys = {
     "seconds": ResultKey("computing time", "s", "computing time"),
 }
 
+# Columns of the spectrum of the shaft voltage, with their units.
+SPECTRUM_COLUMNS = {"frequency": "Hz", "shaft_voltage": "V"}
+
 # Columns of the table of events, with their units.
 EVENT_COLUMNS = {
     "time": "s",

@@ -13,7 +13,7 @@ import numpy as np
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
-from ehlectric.drive.keys import EVENT_COLUMNS, NAMES_OF_ENDS
+from ehlectric.drive.keys import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.storage.dataset import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
@@ -105,6 +105,44 @@ class DriveResult(Shown):
 
         frame = pd.DataFrame(self.events(), columns=["bearing", *EVENT_COLUMNS])
         frame.attrs["units"] = dict(EVENT_COLUMNS)
+        return frame
+
+    def spectrum(self) -> pd.DataFrame:
+        """One-sided amplitude spectrum of the shaft voltage over the measured time, as in spectrum.csv.
+
+        The shaft voltage is that of the rotor against the frame, which is the voltage across the films of a
+        bearing without a coating.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns ``frequency`` [Hz] and ``shaft_voltage`` [V], a row for each line;
+            ``attrs["units"]`` has the units. Without rows for a file of version 1.0, which has no spectrum.
+
+        Notes
+        -----
+        The lines are at whole multiples of the resolution, which is one over the measured time. The highest
+        one is at 10 MHz, or is line 200 000 where that is lower: at 200 kHz for a time of 1 s.
+
+        Amplitudes are peak values: a sine of 1 V has a line of 1 V, and an rms voltage of 0.707 V. The line
+        at 0 Hz is the absolute mean. By Parseval's equation the rms voltage is the root of the squared mean
+        and half of the sum of all other squared amplitudes.
+
+        The Fourier coefficients are integrals over the exact voltage between two switchings, with eight
+        triangular means for each line, whose frequency response is divided out. A component above the highest
+        frequency F is folded onto a line f as by sampling with 8 F; that at 8 F - f has a weight of
+        (f/(8 F - f))^2, at most 1/49.
+
+        There is no window. Lines are sharp where the measured time is a whole number of periods of the
+        source, such as the 50 periods of the fundamental without ``drive.duration``. Otherwise lines leak
+        into their neighbours, as those of most measured sources do.
+        """
+        import pandas as pd
+
+        amplitudes = self.solution.record.spectrum
+        frequencies = np.arange(amplitudes.size) / self.solution.record.duration
+        frame = pd.DataFrame(dict(zip(SPECTRUM_COLUMNS, (frequencies, amplitudes), strict=True)))
+        frame.attrs["units"] = dict(SPECTRUM_COLUMNS)
         return frame
 
     def to_xarray(self) -> xr.Dataset:

@@ -14,7 +14,7 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.bearings import BearingElement, bearing_element
 from ehlectric.drive.circuit.divider import capacitive_divider
 from ehlectric.drive.circuit.modes import Modes, modes_of
-from ehlectric.drive.circuit.motor import film_nodes, states_of
+from ehlectric.drive.circuit.motor import states_of, voltage_nodes
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Films, Segments
 from ehlectric.drive.keys import LIMITS
@@ -121,7 +121,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
     _check_extinction(case, elements)
     films, ringing = films_of(elements, case.breakdown), ringing_of(case.running_source)
     systems = states_of(case.circuit, elements, case.breakdown, touches=bool(films.states[0] == 3))
-    modes = modes_of(systems, film_nodes(elements), None if ringing is None else ringing.rate)
+    modes = modes_of(systems, voltage_nodes(elements), None if ringing is None else ringing.rate)
     waveform, told = measured_source(case.source, case.drive.duration)
     return PreparedDrive(
         case, results, elements, films, modes, ringing, waveform, *_times(case, waveform), told

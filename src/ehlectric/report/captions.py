@@ -56,6 +56,8 @@ CAPTIONS: Mapping[str, str] = MappingProxyType(
         "parallel.",
         "drive_histogram": "Share of time at the voltages across the films, and share of time above a "
         "voltage of either sign; dots are the limits of the key numbers.",
+        "drive_spectrum": "Amplitudes (peak values) of the shaft voltage over the frequency, without a "
+        "window. Where lines are too close to be seen apart, the largest one is drawn.",
         "drive_discharges": "Distributions of voltage, charge, energy and peak current of the discharges of "
         "each bearing. Charge, energy and current follow from the given resistance of an arc.",
         "drive_remedies": "Discharges per second with bounds of 95 %, and mean energy of a discharge, of the "

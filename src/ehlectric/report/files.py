@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, ModuleType
 
 from ehlectric.errors import InputError, shown
 from ehlectric.report.content import Report
@@ -20,9 +21,23 @@ def _html(report: Report) -> bytes:
 
 
 def _pdf(report: Report) -> bytes:
+    _load_reportlab()
     from ehlectric.report.pdf import pdf_of
 
     return pdf_of(report)
+
+
+def _load_reportlab() -> None:
+    """Load reportlab, also where its settings cannot be looked for in the home of the user.
+
+    Its own import goes on without the file ``.reportlab_mods`` of a home, but not where the home is no
+    folder, as that of many services is /dev/null.
+    """
+    try:
+        import reportlab  # noqa: F401
+    except OSError:
+        # The module that the file would have been: reportlab then does not look into the home.
+        sys.modules["reportlab_mods"] = ModuleType("reportlab_mods")
 
 
 _CONTENTS: Mapping[str, Callable[[Report], bytes]] = MappingProxyType({"html": _html, "pdf": _pdf})

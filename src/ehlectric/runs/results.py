@@ -96,7 +96,7 @@ def save(result: Result | PointResult | BearingResult | DriveResult, folder: str
     result : Result, PointResult, BearingResult or DriveResult
         Result of ``solve``. A contact writes summary.json, result.nc and film.csv; a bearing writes
         summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv; a drive writes
-        summary.json, events.csv and drive.nc.
+        summary.json, events.csv, spectrum.csv and drive.nc.
     folder : str or Path
         Folder of the files; it is made if it does not exist.
 

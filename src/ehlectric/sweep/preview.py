@@ -9,7 +9,6 @@ from typing import Any
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import end_and_key
 from ehlectric.drive.quick import quick_drive
-from ehlectric.drive.solver import prepare
 from ehlectric.errors import InputError
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Planned
@@ -59,6 +58,9 @@ def lacking_point(sweep: Sweep, planned: Sequence[Planned]) -> Lacking | None:
     valid = [point for point in planned if point.key is not None]
     if not isinstance(sweep.case, DriveCase) or not valid:
         return None
+    # Loads the compiler of the simulation, which other sweeps do not need.
+    from ehlectric.drive.solver import prepare
+
     point = min(valid, key=_films)
     case: Any = sweep.case.replace(point.inputs)
     try:

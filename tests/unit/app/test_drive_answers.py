@@ -202,7 +202,7 @@ def test_remedies_stand_side_by_side(simulated):
 @pytest.mark.slow
 def test_figures_are_plain_and_small(simulated):
     answer, *_ = simulated
-    assert {"voltages", "remedies", "histogram", "discharge-voltage"} <= set(answer.figures)
+    assert {"voltages", "remedies", "histogram", "spectrum", "discharge-voltage"} <= set(answer.figures)
     for figure in answer.figures.values():
         assert len(json.dumps(figure.plot, allow_nan=False)) < 100_000
         assert figure.table.rows
@@ -236,7 +236,7 @@ def test_without_discharges_there_are_no_distributions(tmp_path):
     assert answer.judged.lead in ("No discharge expected", "Discharges possible")
     assert "None in 2 ms" in answer.judged.numbers
     assert answer.judged.bound == "upper bound"
-    assert list(answer.figures) == ["voltages", "histogram"]
+    assert list(answer.figures) == ["voltages", "histogram", "spectrum"]
     assert not answer.number("energy").known
 
 

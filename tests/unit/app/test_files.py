@@ -103,7 +103,7 @@ def test_a_drive_is_written_as_by_the_command(tmp_path):
     table = tomllib.loads(example("drive").decode())
     table = {**table, "drive": {**table["drive"], "duration": "1 ms"}, "remedies": []}
     found = write(table, "", tmp_path, silent)
-    assert set(found.names) == {"summary.json", "events.csv", "drive.nc"}
+    assert set(found.names) == {"summary.json", "events.csv", "spectrum.csv", "drive.nc"}
     path = packed(Path(found.folder), "all", table, "drive", tmp_path)
     with zipfile.ZipFile(path) as archive:
         assert {"drive.toml", *found.names} <= set(archive.namelist())

@@ -233,8 +233,25 @@ def test_the_size_is_told_before_the_run():
 def test_the_first_inputs_can_run():
     found = sweep.choices(CASE)
     assert [one.key for one in found.variables[:2]] == ["bearing.inner_speed", "bearing.radial_load"]
-    assert next(iter(found.values)) == "bearing.first_break"
     assert sweep.sweep_of(dict(SWEEP.table)).size == 64
+
+
+def test_a_bearing_with_a_motor_is_ranked_by_its_margin_on_its_page_too():
+    """Its map shows what the capacitances of the motor change; without a motor there is no margin."""
+    alone = {name: table for name, table in CASE.items() if name != "motor"}
+    assert list(sweep.choices(CASE).values)[:2] == ["bearing.margin", "bearing.first_break"]
+    assert next(iter(sweep.choices(alone).values)) == "bearing.first_break"
+
+
+def test_a_line_of_margins_is_compared_with_one(tmp_path):
+    vary = {"motor": {"winding_rotor_capacitance": ["5 pF", "20 pF"]}}
+    table = {"case": CASE, "vary": vary}
+    sweep.solved(table, str(tmp_path / "sweep"), 1, silent)
+    chart = sweep_view.seen(str(tmp_path / "sweep"), "bearing.margin", table).chart
+    low, high = chart.points
+    assert low.value > 2.0 * high.value
+    assert (low.voltage, high.voltage) == (1.0, 1.0)
+    assert "1" in chart.voltage
 
 
 @pytest.mark.parametrize("name", ["bearing_6208", "discharge", "oil_contact"])

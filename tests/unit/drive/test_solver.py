@@ -50,6 +50,22 @@ def test_a_measured_square_wave_is_the_computed_one(case, square):
     assert len(solution.record.events) == 0
 
 
+def test_the_spectrum_of_a_measured_square_wave_has_its_harmonics(case, square):
+    """Four periods in 200 us: lines of 4/(pi n) of 200 V times the divider, and Parseval's equation."""
+    strong = case.replace({"bearings.discharge.dielectric_strength": "190 V/um"})
+    result = solve_drive(measured(strong, square), workers=1)
+    table = result.spectrum()
+    assert table.attrs["units"] == {"frequency": "Hz", "shaft_voltage": "V"}
+    amplitude = table.set_index(table["frequency"].round())["shaft_voltage"]
+    n = np.array([1, 3, 5, 7, 9])
+    level = 200.0 * result.solution.divider[0]
+    assert amplitude[20e3 * n].to_numpy() == pytest.approx(4.0 * level / (np.pi * n), rel=0.02)
+    total = amplitude[0.0] ** 2 + 0.5 * np.sum(np.square(amplitude[1:]))
+    summary = result.summary()
+    assert np.sqrt(total) == pytest.approx(summary["drive_end"]["rms_voltage"], rel=2e-3)
+    assert np.diff(table["frequency"]) == pytest.approx(1.0 / summary["drive"]["duration"])
+
+
 @pytest.fixture
 def square(tmp_path):
     """File of a square wave of 400 V from peak to peak that begins at its low level."""

@@ -84,7 +84,7 @@ WRITTEN = {
     "contact": ["summary.json", "result.nc", "film.csv"],
     "motion": ["summary.json", "motion.nc"],
     "bearing": ["summary.json", "contacts.csv", "bearing.nc"],
-    "drive": ["summary.json", "events.csv", "drive.nc"],
+    "drive": ["summary.json", "events.csv", "spectrum.csv", "drive.nc"],
     "sweep": ["sweep.csv", "sweep.parquet", "sweep.nc"],
 }
 

@@ -35,7 +35,8 @@ class DriveAnswer:
     remedies : Table or None
         The drive and its remedies side by side; None before a simulation, and without remedies.
     figures : mapping of str to Figure
-        "voltages", "histogram", "discharge-voltage" and others, and "remedies"; empty before a simulation.
+        "voltages", "histogram", "spectrum", "discharge-voltage" and others, and "remedies"; empty before a
+        simulation.
     seconds : float
         Computing time of a simulation [s].
     """

@@ -117,7 +117,7 @@ class ChartPoint:
     margin : float or None
         Breakdown voltage divided by applied voltage.
     voltage : float or None
-        Applied voltage in the unit of the chart, where a breakdown voltage is shown.
+        Applied voltage in the unit of the chart where a breakdown voltage is shown, 1 where a margin is.
     """
 
     number: int
@@ -143,7 +143,7 @@ class Chart:
     critical : str
         What a margin of 1 means; empty where no point has a margin.
     voltage : str
-        Name of the applied voltage.
+        Name of what the shown number is compared with: the applied voltage, or a margin of 1.
     points : tuple of ChartPoint
         Points in the order of the design.
     """

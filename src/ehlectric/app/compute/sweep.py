@@ -28,7 +28,7 @@ from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.breakdown_keys import breakdown_of
+from ehlectric.sweep.breakdown_keys import breakdown_of, ranked_value
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.labels import label_of
@@ -58,7 +58,8 @@ _COMMON = (
     *swept.COMMON,
 )
 
-# Results that are shown most often, the breakdown voltage of the case before them.
+# Results that are shown most often. The one by which inputs are ranked and the breakdown voltage of the case
+# stand before them.
 _RESULTS = {
     "bearing": (
         "bearing.margin",
@@ -120,7 +121,7 @@ def choices(table: Mapping[str, Any]) -> SweepChoices:
     """
     case = run_case_of(table)
     kind = next((name for name, one in _KINDS.items() if isinstance(case, one)), "contact")
-    keys = dict.fromkeys(filter(None, (breakdown_of(case).value, *_RESULTS[kind])))
+    keys = dict.fromkeys(filter(None, (ranked_value(case), breakdown_of(case).value, *_RESULTS[kind])))
     return SweepChoices(kind, tuple(_variables(table, case)), {key: named(key, case) for key in keys})
 
 

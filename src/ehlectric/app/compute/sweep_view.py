@@ -134,6 +134,8 @@ def _chart(results: SweepResults, shown: str) -> Chart:
     scale = _scale(label.unit, [value for value in usable if value is not None])
     margins = [_margin(row, about) for row in rows]
     applied = [row.get(about.voltage) if shown == about.value else None for row in rows]
+    if shown == about.margin:
+        applied = [None if margin is None else 1.0 for margin in margins]
     points = tuple(
         _point(results, point, name_of=(name, scale), value=value, margin=margin, voltage=voltage)
         for point, value, margin, voltage in zip(results.points, values, margins, applied, strict=True)
@@ -142,7 +144,8 @@ def _chart(results: SweepResults, shown: str) -> Chart:
     critical = f"margin 1: {about.name} = {about.voltage_name}"
     some = any(point.margin is not None for point in points)
     second = axes[1] if len(axes) > 1 else None
-    return Chart(axes[0], second, title, critical if some else "", about.voltage_name, points)
+    limit = critical if shown == about.margin else about.voltage_name
+    return Chart(axes[0], second, title, critical if some else "", limit, points)
 
 
 def _axis(results: SweepResults, key: str) -> Axis:

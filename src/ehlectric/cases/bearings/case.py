@@ -105,8 +105,8 @@ class BearingCase(Tabled, Table):
     """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
-    the keys of its bearing by ``BearingCase.of``. It is frozen; ``replace`` returns a changed copy. Numbers
-    are in SI units.
+    the keys of its bearing by ``BearingCase.of``. Wrong inputs raise an ``InputError`` that names their keys.
+    A case is frozen; ``replace`` returns a changed copy. Numbers are in SI units.
 
     Parameters
     ----------
@@ -120,11 +120,6 @@ class BearingCase(Tabled, Table):
         "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
     discharge, motor, solver, ranges : mapping, optional
         Further tables, as in a bearing file.
-
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing, or a value is not allowed.
     """
 
     if TYPE_CHECKING:
@@ -259,32 +254,10 @@ class BearingCase(Tabled, Table):
     ) -> BearingCase:
         """Make a bearing case from the keys of its table ``bearing``.
 
-        Parameters
-        ----------
-        lubricant : str, mapping or Lubricant
-            Name of a lubricant of the library, or its table.
-        title : str, optional
-            Title of tables and figures.
-        contacts : str, optional
-            "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
-        discharge, motor, solver, ranges : optional
-            Further tables, as in a bearing file.
-        **bearing
-            Keys of the table ``bearing``: floats in SI units, texts with units, or quantities of pint; see
-            ``ehlectric.cases.keywords.types.BearingKeys``.
+        ``lubricant`` is the name of one of the library or its table. The keys of ``bearing`` are floats in SI
+        units, texts with units, or quantities of pint (``ehlectric.cases.keywords.types.BearingKeys``); all
+        others are keys and tables of a bearing file.
 
-        Returns
-        -------
-        BearingCase
-            Case of the bearing.
-
-        Raises
-        ------
-        InputError
-            If a key is unknown or missing, or a value is not allowed.
-
-        Examples
-        --------
         >>> BearingCase.of(
         ...     base="6208",
         ...     radial_clearance="10 um",
@@ -301,23 +274,7 @@ class BearingCase(Tabled, Table):
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Read a bearing case from a TOML file.
-
-        Parameters
-        ----------
-        path : str or Path
-            TOML file.
-
-        Returns
-        -------
-        BearingCase
-            Case with the values of the file, in SI units.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read, is not TOML, or is not a valid bearing case.
-        """
+        """Read a bearing case from a TOML file."""
         table = read_toml(path)
         if "contact" in table and "bearing" not in table:
             raise InputError(
@@ -351,16 +308,6 @@ class BearingCase(Tabled, Table):
         **tables
             New values by table, as in ``bearing={"radial_load": "1 kN"}``, or by key of the case, as in
             ``title="A"``. Other keys of a table stay; ``ranges`` is replaced as a whole.
-
-        Returns
-        -------
-        BearingCase
-            Case with the new values.
-
-        Raises
-        ------
-        InputError
-            If a key is unknown, or the changed case is not valid.
         """
         refuse_deep({**tables, "changes": changes})
         changes = _with_class(_flat_changes(tables) | dict(changes or {}))

@@ -64,8 +64,9 @@ class Remedy(Table):
 class DriveCase(Tabled, Table):
     """Drive: inverter, motor and both bearings; all inputs on which discharges over time depend.
 
-    A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. It is frozen;
-    ``replace`` returns a changed copy. Numbers are in SI units.
+    A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. Wrong inputs raise an
+    ``InputError`` that names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in
+    SI units.
 
     Parameters
     ----------
@@ -81,11 +82,6 @@ class DriveCase(Tabled, Table):
         Title of tables and figures.
     remedies : sequence of mapping, optional
         Changes that are computed beside the drive, each with its title.
-
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing, or a value is not allowed.
     """
 
     if TYPE_CHECKING:
@@ -133,13 +129,7 @@ class DriveCase(Tabled, Table):
         return self
 
     def variants(self) -> tuple[Self, ...]:
-        """Changed copies of the drive, one for each of its remedies.
-
-        Raises
-        ------
-        InputError
-            If a remedy changes a key that does not exist, or gives it a value that is not allowed.
-        """
+        """Changed copies of the drive, one for each of its remedies."""
         return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
 
     def _changed(self, number: int, remedy: Remedy) -> Self:
@@ -159,23 +149,7 @@ class DriveCase(Tabled, Table):
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Read a drive case from a TOML file; files that it names are looked for beside it.
-
-        Parameters
-        ----------
-        path : str or Path
-            TOML file.
-
-        Returns
-        -------
-        DriveCase
-            Case with the values of the file, in SI units.
-
-        Raises
-        ------
-        InputError
-            If a file cannot be read, is not TOML, or is not valid.
-        """
+        """Read a drive case from a TOML file; files that it names are looked for beside it."""
         return cls.from_written(with_files(read_toml(path), Path(path).parent))
 
     def to_dict(self) -> dict[str, Any]:
@@ -205,16 +179,6 @@ class DriveCase(Tabled, Table):
             ``drive_end`` or ``non_drive_end`` are those of a bearing file; ``bearings`` stands for both ends.
         **tables
             New values by table, as in ``drive={"seed": 2}``.
-
-        Returns
-        -------
-        DriveCase
-            Case with the new values.
-
-        Raises
-        ------
-        InputError
-            If a key is unknown, or the changed case is not valid.
         """
         refuse_deep({**tables, "changes": changes})
         flat = flattened(tables) | dict(changes or {})

@@ -33,7 +33,7 @@ class Modes:
     force : ndarray of complex, shape (states, n)
         Force of each mode per volt of the source.
     films : ndarray of complex, shape (states, films, n)
-        Voltage across each film per amplitude of each mode [V].
+        Voltage across each film, and any other voltage that is asked for, per amplitude of each mode [V].
     films_source : ndarray, shape (states, films)
         Voltage across each film per volt of the source with all modes at zero.
     ring_state : ndarray of complex, shape (states, n)

@@ -33,6 +33,11 @@ def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
     ]
 
 
+def voltage_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
+    """Nodes of the voltages that are measured: across the films of each bearing, and of the shaft."""
+    return [*film_nodes(elements), (ROTOR, FRAME)]
+
+
 def source_nodes(circuit: Circuit) -> tuple[str, str]:
     """Positive and negative node of the inverter's common-mode voltage."""
     return SOURCE if _reactor(circuit) else WINDING, EARTH if _parted(circuit) else FRAME

@@ -10,7 +10,17 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import inner
-from ehlectric.drive.discharges.pieces import FILMS, FORCE, LOWEST, RATE, SERIES, SLOPE, START, Complex
+from ehlectric.drive.discharges.pieces import (
+    FILMS,
+    FORCE,
+    LOWEST,
+    RATE,
+    SERIES,
+    SLOPE,
+    START,
+    VOLTAGES,
+    Complex,
+)
 
 # Terms of the power series of modes that change little in a piece, and of those below another change. The
 # first term that is left out is that of the slope of the source, change^(n - 2) 2/n! of what it does.
@@ -18,11 +28,11 @@ _POWERS, _FEW, _SLOWEST = 10, 5, 1e-4
 
 
 class Course(NamedTuple):
-    """Voltages across both films over a piece, as a power series and exponentials; changed in place.
+    """Voltages over a piece, as a power series and exponentials; changed in place.
 
-    The voltage across film b is the sum of ``powers[b, k] t^k``, and of the real parts of
-    ``amplitudes[b, m] exp(rates[m] t)`` of the first ``number[0]`` rates; the first
-    ``number[1]`` powers count.
+    Voltage b, across one of both films or of the shaft, is the sum of ``powers[b, k] t^k``, and of the real
+    parts of ``amplitudes[b, m] exp(rates[m] t)`` of the first ``number[0]`` rates; the first ``number[1]``
+    powers count.
     """
 
     powers: Array
@@ -34,9 +44,9 @@ class Course(NamedTuple):
 def course_of(modes: int) -> Course:
     """Empty course of a number of modes."""
     return Course(
-        np.zeros((2, _POWERS)),
+        np.zeros((VOLTAGES, _POWERS)),
         np.zeros(modes, dtype=np.complex128),
-        np.zeros((2, modes), dtype=np.complex128),
+        np.zeros((VOLTAGES, modes), dtype=np.complex128),
         np.zeros(2, dtype=np.int64),
     )
 
@@ -65,48 +75,52 @@ def unfold(piece: Complex, duration: float, course: Course) -> None:
                     term = 0.5 * (rate * term + slope)
                 elif k > 2:
                     term = rate * term / k
-                for film in range(2):
-                    course.powers[film, k] += (piece[FILMS + film, m] * term).real
+                for b in range(VOLTAGES):
+                    course.powers[b, k] += (piece[FILMS + b, m] * term).real
             continue
         rising = slope / rate
         steady = (force + rising) / rate
-        for film in range(2):
-            weight = piece[FILMS + film, m]
-            course.powers[film, 0] -= (weight * steady).real
-            course.powers[film, 1] -= (weight * rising).real
-            course.amplitudes[film, count] = weight * (start + steady)
+        for b in range(VOLTAGES):
+            weight = piece[FILMS + b, m]
+            course.powers[b, 0] -= (weight * steady).real
+            course.powers[b, 1] -= (weight * rising).real
+            course.amplitudes[b, count] = weight * (start + steady)
         course.rates[count] = rate
         count += 1
     course.number[0], course.number[1] = count, powers
 
 
 @inner
-def both_at(course: Course, t: float) -> tuple[float, float]:
-    """Voltages across both films at a time t of the piece [V]."""
-    first, second = 0.0, 0.0
+def all_at(course: Course, t: float) -> tuple[float, float, float]:
+    """Voltages across both films, and of the shaft, at a time t of the piece [V]."""
+    first, second, shaft = 0.0, 0.0, 0.0
     for k in range(course.number[1] - 1, -1, -1):
         first, second = first * t + course.powers[0, k], second * t + course.powers[1, k]
+        shaft = shaft * t + course.powers[2, k]
     for m in range(course.number[0]):
         rate, one, other = course.rates[m], course.amplitudes[0, m], course.amplitudes[1, m]
+        third = course.amplitudes[2, m]
         if rate.real * t > LOWEST:
             grown = math.exp(rate.real * t)
             if rate.imag == 0.0:
                 first, second = first + one.real * grown, second + other.real * grown
+                shaft += third.real * grown
             else:
                 cosine, sine = math.cos(rate.imag * t), math.sin(rate.imag * t)
                 first += grown * (one.real * cosine - one.imag * sine)
                 second += grown * (other.real * cosine - other.imag * sine)
-    return first, second
+                shaft += grown * (third.real * cosine - third.imag * sine)
+    return first, second, shaft
 
 
 @inner
-def course_at(course: Course, film: int, t: float) -> float:
-    """Voltage across a film at a time t of the piece [V]."""
+def course_at(course: Course, b: int, t: float) -> float:
+    """Voltage b, across a film or of the shaft, at a time t of the piece [V]."""
     value = 0.0
     for k in range(course.number[1] - 1, -1, -1):
-        value = value * t + course.powers[film, k]
+        value = value * t + course.powers[b, k]
     for m in range(course.number[0]):
-        rate, size = course.rates[m], course.amplitudes[film, m]
+        rate, size = course.rates[m], course.amplitudes[b, m]
         if rate.real * t > LOWEST:
             grown = math.exp(rate.real * t)
             if rate.imag == 0.0:

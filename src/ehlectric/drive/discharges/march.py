@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import compiled, inner
-from ehlectric.drive.discharges.course import Course, both_at, course_at, course_of, unfold
+from ehlectric.drive.discharges.course import Course, all_at, course_at, course_of, unfold
 from ehlectric.drive.discharges.meters import Meters, measure
 from ehlectric.drive.discharges.pieces import (
     FALLS,
@@ -36,6 +36,7 @@ from ehlectric.drive.discharges.pieces import (
     voltages,
 )
 from ehlectric.drive.discharges.record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
+from ehlectric.drive.discharges.spectrum import add_parabola
 from ehlectric.drive.discharges.states import (
     ARC,
     INSULATING,
@@ -72,6 +73,9 @@ POINTS, WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
 # larger voltage at the start, and at least by that part of the tolerance of all other times. A parabola that
 # turns back is taken as straight where it bends by less than a part of the tolerance.
 _OF_ARC, _LEAST, _STRAIGHT = 8e-3, 0.05, 0.01
+
+# Time from which on the shaft voltage is measured, in spacings of its means from their first one.
+_MEASURED = -0.5
 
 # Part of the voltage of extinction above which an arc is taken as fed again, and not as just gone out.
 _FED = 1.0 + 1e-9
@@ -166,24 +170,29 @@ def _measure(meters: Meters, rough: float, piece: Complex, course: Course, sourc
              ) -> None:  # fmt: skip
     """Measure the voltages between t and end of a piece that began at ``now``, as parabolas.
 
-    Each of them differs from its straight line by ``rough`` [V] at the most.
+    Those across the films differ from their straight lines by ``rough`` [V] at the most.
     """
+    shaft = all_at(course, t)[2]
     while t < end:
         h = _panel(piece, t, end - t, rough)
         # A parabola that turns back within its panel is parted, down to straight ones.
         while True:
             after, then = end, last
+            at_end = all_at(course, min(t + h, end))
             if t + h < end:
-                after, then = t + h, both_at(course, t + h)
+                after, then = t + h, (at_end[0], at_end[1])
             # Height of the straight lines over the voltages in the middle.
-            middle = both_at(course, 0.5 * (t + after))
+            middle = all_at(course, 0.5 * (t + after))
             bend = 0.5 * (first[0] + then[0]) - middle[0], 0.5 * (first[1] + then[1]) - middle[1]
             turns = max(_turn(bend[0], first[0], then[0]), _turn(bend[1], first[1], then[1]))
             if turns <= _STRAIGHT * rough:
                 break
             h = 0.5 * (after - t)
         measure(meters, now + t, after - t, source.level + source.slope * t, first, then, bend)
-        t, first = after, then
+        begin, lasts = (now + t - meters.spaced[0]) / meters.spaced[1], (after - t) / meters.spaced[1]
+        if begin > _MEASURED:
+            add_parabola(meters.shaft, begin, lasts, shaft, middle[2], at_end[2])
+        t, first, shaft = after, then, at_end[2]
 
 
 @inner

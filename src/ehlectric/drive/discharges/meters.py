@@ -25,6 +25,10 @@ class Meters(NamedTuple):
         Time at which the absolute voltage is above each limit [s].
     peak : ndarray, shape (2,)
         Largest absolute voltage [V].
+    shaft : ndarray, shape (n,)
+        Triangular means of the shaft voltage over the measured time [V], as in ``spectrum``.
+    spaced : ndarray, shape (2,)
+        Time of the first mean and spacing of the means [s].
     touching : ndarray, shape (2,)
         Largest absolute voltage while asperities touch [V].
     square : ndarray, shape (2,)
@@ -45,6 +49,8 @@ class Meters(NamedTuple):
     limits: Array
     above: Array
     peak: Array
+    shaft: Array
+    spaced: Array
     touching: Array
     square: Array
     trace: Array

@@ -26,11 +26,15 @@ RECIPROCALS = tuple(1.0 / (k + 2.0) for k in range(_TERMS, 0, -1))
 # Exponents below which exp is taken as zero.
 LOWEST = -700.0
 
-# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, amplitudes at a time; and of each film
-# the voltage across it per amplitude, and the size of its second derivative at the start. Its columns are the
-# modes of the circuit, the source without its ringing, and the ringing, which are modes of their own.
-RATE, START, FORCE, SLOPE, NOW, FILMS, CURVATURE = 0, 1, 2, 3, 4, 5, 7
-ROWS, FURTHER = 9, 2
+# Number of the voltages of a circuit: across both films, and of the shaft.
+VOLTAGES = 3
+
+# Rows of a piece: rates, amplitudes at its start, forces f0 and f1, amplitudes at a time; each voltage, both
+# films' and the shaft's, per amplitude; and of each film the size of the second derivative of its voltage at
+# the start. Its columns are the modes of the circuit, the source without its ringing, and the ringing, which
+# are modes of their own.
+RATE, START, FORCE, SLOPE, NOW, FILMS, CURVATURE = 0, 1, 2, 3, 4, 5, 5 + VOLTAGES
+ROWS, FURTHER = CURVATURE + 2, 2
 
 # Steps of the search for a crossing, and the part of the level within which it is found.
 _STEPS, _CLOSE = 200, 1e-13
@@ -109,14 +113,14 @@ def begin(circuits: Circuits, c: int, x: Array, source: Source, piece: Complex) 
         piece[RATE, m], piece[START, m] = circuits.rates[c, m], y
         piece[FORCE, m] = circuits.force[c, m] * source.level
         piece[SLOPE, m] = circuits.force[c, m] * source.slope
-        for film in range(2):
-            piece[FILMS + film, m] = circuits.films[c, film, m]
+        for across in range(VOLTAGES):
+            piece[FILMS + across, m] = circuits.films[c, across, m]
     piece[RATE, n], piece[START, n], piece[FORCE, n], piece[SLOPE, n] = 0.0, source.level, source.slope, 0.0
     piece[RATE, n + 1], piece[START, n + 1] = circuits.ring[0], source.ring
     piece[FORCE, n + 1], piece[SLOPE, n + 1] = 0.0, 0.0
-    for film in range(2):
-        piece[FILMS + film, n] = circuits.films_source[c, film]
-        piece[FILMS + film, n + 1] = circuits.ring_films[c, film]
+    for across in range(VOLTAGES):
+        piece[FILMS + across, n] = circuits.films_source[c, across]
+        piece[FILMS + across, n + 1] = circuits.ring_films[c, across]
     for m in range(n + FURTHER):
         rate = piece[RATE, m]
         curvature = rate * (rate * piece[START, m] + piece[FORCE, m]) + piece[SLOPE, m]

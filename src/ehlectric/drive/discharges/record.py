@@ -1,4 +1,4 @@
-"""Record of a simulated time: its events, its histograms, and a trace of its voltages. SI units."""
+"""Record of a simulated time: events, histograms, a spectrum, and a trace of voltages. SI units."""
 
 from __future__ import annotations
 
@@ -42,6 +42,9 @@ class Record:
         Time above each limit [s].
     peak, rms : ndarray, shape (2,)
         Largest and root mean square voltage across each film [V].
+    spectrum : ndarray, shape (lines,)
+        Absolute mean of the shaft voltage, and amplitudes of its lines at whole multiples of one over the
+        duration [V]; empty where a file of an earlier version has none.
     touching : ndarray, shape (2,)
         Largest voltage across each film while its asperities touch [V].
     burning : ndarray, shape (2,)
@@ -62,6 +65,7 @@ class Record:
     above: Array
     peak: Array
     rms: Array
+    spectrum: Array
     touching: Array
     burning: Array
     trace: Array

@@ -18,6 +18,7 @@ from ehlectric.drive.discharges.march import advance, work_of
 from ehlectric.drive.discharges.meters import Meters
 from ehlectric.drive.discharges.pieces import Circuits
 from ehlectric.drive.discharges.record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
+from ehlectric.drive.discharges.spectrum import empty_means, spectrum_of
 from ehlectric.drive.discharges.states import ARC, RECOVERING, Films, Segments, State
 
 # Events and random numbers that are held at once.
@@ -191,7 +192,7 @@ def simulate(
     Returns
     -------
     Record
-        Events, histograms and a trace.
+        Events, histograms, a spectrum and a trace.
     """
     state = _state(circuits.jump.shape[1])
     random = _Random(seed)
@@ -273,12 +274,15 @@ def _state(size: int) -> State:
 
 def _meters(measuring: Measuring) -> Meters:
     highest, limits = measuring.highest, np.array(measuring.limits)
+    shaft = empty_means(measuring.duration)
     return Meters(
         edges=_NARROWEST * np.array([-highest, highest]),
         histogram=np.zeros((2, BINS)),
         limits=limits,
         above=np.zeros((2, limits.size)),
         peak=np.zeros(2),
+        shaft=shaft,
+        spaced=np.array([measuring.start, measuring.duration / shaft.size]),
         touching=np.zeros(2),
         square=np.zeros(2),
         trace=np.zeros((TRACE, 4)),
@@ -307,6 +311,7 @@ def _record(measuring: Measuring, meters: Meters, log: _Log, trace: Array | None
         limits=meters.limits,
         above=meters.above,
         peak=meters.peak,
+        spectrum=spectrum_of(meters.shaft),
         touching=meters.touching,
         rms=np.sqrt(meters.square / measuring.duration),
         burning=log.burning,

@@ -54,8 +54,8 @@ ELEMENTS = {
     "real_area": ("not negative", "m**2"),
 }
 
-# Variables that files of earlier versions lack; their values are zero there.
-LATER = ("element_real_area", "touching_voltage")
+# Variables that files of earlier versions lack; their values are zero there, and they have no spectrum.
+LATER = ("element_real_area", "touching_voltage", "line_count")
 
 # Numbers of what lies beside the films; a breakdown voltage that a coating does not have is NaN.
 PATHS = {
@@ -68,8 +68,14 @@ PATHS = {
 # Variables of the trace.
 SAMPLES = ("sample_time", "sample_source", "sample_voltage")
 
-# Events and rows of the trace of all variants follow each other; these are their numbers.
-COUNTS = {"event": "event_count", "sample": "sample_count", "position": "position_count"}
+# Events, rows of the trace and lines of the spectrum of all variants follow each other; these are their
+# numbers.
+COUNTS = {
+    "event": "event_count",
+    "sample": "sample_count",
+    "line": "line_count",
+    "position": "position_count",
+}
 
 RULES = {
     **{name: Rule(("event",), values, unit, needed=False) for name, (values, unit) in EVENTS.items()},
@@ -86,6 +92,8 @@ RULES = {
     "sample_time": Rule(("sample",), "finite", "s", needed=False),
     "sample_source": Rule(("sample",), "finite", "V", needed=False),
     "sample_voltage": Rule(("sample", END), "finite", "V", needed=False),
+    "line_count": Rule((VARIANT,), "whole", needed=False),
+    "line_amplitude": Rule(("line",), "not negative", "V", needed=False),
     "duration": Rule((VARIANT,), "positive", "s"),
     "highest_source": Rule((VARIANT,), "not negative", "V"),
     "divider": Rule(_BOTH, "not negative", ""),
@@ -128,7 +136,7 @@ def check(dataset: xr.Dataset, variants: int) -> None:
     if np.any(np.diff(dataset["voltage_edge"].values, axis=1) <= 0.0):
         raise UnfitError("voltage_edge is not increasing")
     for dimension, counts in COUNTS.items():
-        if int(np.sum(dataset[counts].values)) != sizes.get(dimension, 0):
+        if (int(np.sum(dataset[counts].values)) if counts in dataset else 0) != sizes.get(dimension, 0):
             raise UnfitError(f"{counts} is not the number of values along {dimension}")
     if np.any(dataset["position_count"].values < 1):
         raise UnfitError("position_count is not positive")

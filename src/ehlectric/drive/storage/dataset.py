@@ -14,7 +14,18 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import COLUMNS, FILM, PLACE, Record
 from ehlectric.drive.solution import DriveSolution
-from ehlectric.drive.storage.content import COUNTS, ELEMENTS, END, EVENTS, LATER, PATHS, RULES, SAMPLES, check
+from ehlectric.drive.storage.content import (
+    COUNTS,
+    ELEMENTS,
+    END,
+    EVENTS,
+    LATER,
+    PATHS,
+    RULES,
+    SAMPLES,
+    VARIANT,
+    check,
+)
 from ehlectric.runtime.checks.schema import case_of
 from ehlectric.runtime.stored_warnings import TEXTS, texts_and_codes, warnings_of
 
@@ -48,8 +59,9 @@ def dataset_of(solution: DriveSolution, remedies: Remedies, seconds: float, vers
     Returns
     -------
     xarray.Dataset
-        Variables over the drive and its remedies, both bearings, events, bins of the voltage and samples of
-        the trace; SI units. Its attributes hold the case, so that ``parts_of`` returns equal values.
+        Variables over the drive and its remedies, both bearings, events, bins of the voltage, lines of the
+        spectrum and samples of the trace; SI units. Its attributes hold the case, so that ``parts_of``
+        returns equal values.
         Without events it has no variables of events.
     """
     import xarray as xr
@@ -60,6 +72,7 @@ def dataset_of(solution: DriveSolution, remedies: Remedies, seconds: float, vers
     values: dict[str, Any] = {
         "limit": records[0].limits,
         "event_count": [len(one.events) for one in records],
+        "line_count": [len(one.spectrum) for one in records],
         "sample_count": [len(one.trace) for one in records],
         "position_count": [[one.capacitance.size for one in pair] for pair in elements],
         "position_capacitance": np.concatenate([one.capacitance for pair in elements for one in pair]),
@@ -85,6 +98,8 @@ def dataset_of(solution: DriveSolution, remedies: Remedies, seconds: float, vers
         pairs = [[getattr(one.path, name) for one in pair] for pair in elements]
         values[f"path_{name}"] = np.array(pairs, dtype=float)  # None becomes NaN
     values |= _events(np.concatenate([one.events for one in records]))
+    lines = np.concatenate([one.spectrum for one in records])
+    values |= {"line_amplitude": lines} if len(lines) else {}
     values |= _samples(np.concatenate([one.trace for one in records]))
     return xr.Dataset(
         {name: _variable(name, found) for name, found in values.items()},
@@ -136,7 +151,8 @@ def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
     attributes = dataset.attrs
     case = case_of(attributes, DriveCase.from_dict)
     check(dataset, 1 + len(case.remedies))
-    arrays = dict.fromkeys(LATER, np.zeros((1 + len(case.remedies), 2)))
+    sizes = {VARIANT: 1 + len(case.remedies), END: 2}
+    arrays = {name: np.zeros([sizes[one] for one in RULES[name].dims]) for name in LATER}
     arrays |= {str(name): np.asarray(dataset[name].values) for name in dataset.variables}
     cases = [case, *case.variants()]
     told = [warnings_of(one) for one in json.loads(attributes[TEXTS])]
@@ -194,6 +210,7 @@ def _record_of(arrays: dict[str, np.ndarray], k: int) -> Record:
         above=arrays["time_above"][k],
         peak=arrays["peak_voltage"][k],
         rms=arrays["rms_voltage"][k],
+        spectrum=arrays.get("line_amplitude", np.zeros(0))[_part(arrays, "line", k)],
         burning=arrays["burning_time"][k],
         touching=arrays["touching_voltage"][k],
         trace=_columns(arrays, SAMPLES, 4, _part(arrays, "sample", k)),

@@ -51,6 +51,15 @@ def histogram(result: DriveResult) -> str:
     return f"Above {record.limits[k]:g} V for {told_of} of the time"
 
 
+def spectrum(result: DriveResult) -> str:
+    """Sentence: the largest line of the shaft voltage, and the spacing of the lines."""
+    record = result.solution.record
+    line = 1 + int(np.argmax(record.spectrum[1:]))
+    largest, at = prefixed(float(record.spectrum[line]), "V"), prefixed(line / record.duration, "Hz")
+    spacing = prefixed(1.0 / record.duration, "Hz")
+    return f"Largest line of the shaft voltage {largest} at {at}; lines every {spacing}"
+
+
 def discharges(result: DriveResult) -> str:
     """Sentence: mean energy of the discharges of each bearing, and the largest one."""
     ends = _ends(result)

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import discharges, findings, remedies, voltages
 from ehlectric.figures.drive.histogram import time_above, time_at_voltage
+from ehlectric.figures.drive.spectrum import has_spectrum, shaft_spectrum
 from ehlectric.figures.names import DRIVE_FIGURE_FILES
 from ehlectric.figures.style import drawing_of, new_panels, save_figure, share_below, style, titled
 
@@ -37,15 +38,17 @@ class _Drawing:
 def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
     """Figures of a drive by the names of their files.
 
-    Figures with nothing to show are left out: distributions without discharges, remedies where the file has
-    none, and voltages over time where no time was recorded.
+    Figures with nothing to show are left out: a spectrum in a file of version 1.0, distributions without
+    discharges, remedies where the file has none, and voltages over time where no time was recorded.
     """
-    over_time, over_voltage, of_events, side_by_side = DRIVE_FIGURE_FILES
+    over_time, over_voltage, over_frequency, of_events, side_by_side = DRIVE_FIGURE_FILES
     found: dict[str, _Drawing] = {}
     if len(result.solution.record.trace) > 1:
         panels = voltages.VOLTAGE_PANELS
         found[over_time] = _Drawing(panels, 3, (6.3, 5.4), findings.voltages, voltages.legend_of, shared=True)
     found[over_voltage] = _Drawing((time_at_voltage, time_above), 2, (6.3, 5.0), findings.histogram)
+    if has_spectrum(result):
+        found[over_frequency] = _Drawing((shaft_spectrum,), 1, (6.3, 3.6), findings.spectrum)
     if len(result.solution.record.events):
         found[of_events] = _Drawing(
             discharges.DISTRIBUTIONS, 2, (6.3, 5.0), findings.discharges, discharges.legend_of

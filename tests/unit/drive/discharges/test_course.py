@@ -6,8 +6,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.drive.discharges.compiled import compiled
-from ehlectric.drive.discharges.course import both_at, course_at, course_of, unfold
-from ehlectric.drive.discharges.pieces import FILMS, FORCE, RATE, ROWS, SLOPE, START, move, voltage, voltages
+from ehlectric.drive.discharges.course import all_at, course_at, course_of, unfold
+from ehlectric.drive.discharges.pieces import (
+    FILMS,
+    FORCE,
+    RATE,
+    ROWS,
+    SLOPE,
+    START,
+    VOLTAGES,
+    move,
+    voltage,
+    voltages,
+)
 
 SIZES = st.floats(-1.0, 1.0)
 # Rates times the duration of the piece, from modes that do not change to those that are over at once.
@@ -19,9 +30,9 @@ def four_ways(piece, course, duration, times, found):
     unfold(piece, duration, course)
     for k in range(times.size):
         move(piece, times[k])
-        for film in range(2):
-            found[0, film, k], found[1, film, k] = course_at(course, film, times[k]), voltage(piece, film)
-        found[2, 0, k], found[2, 1, k] = both_at(course, times[k])
+        for b in range(VOLTAGES):
+            found[0, b, k], found[1, b, k] = course_at(course, b, times[k]), voltage(piece, b)
+        found[2, 0, k], found[2, 1, k], found[2, 2, k] = all_at(course, times[k])
         found[3, 0, k], found[3, 1, k] = voltages(piece)
 
 
@@ -41,12 +52,12 @@ def test_a_course_is_the_voltage_of_its_modes(modes, duration):
             # The steady part of a fast mode is of volts too.
             size = max(change, 1.0) / duration
             column[[RATE, START, FORCE, SLOPE]] = rate, start, force * size, slope * size / duration
-            column[FILMS : FILMS + 2] = weight, 0.5 * weight
+            column[FILMS : FILMS + VOLTAGES] = weight, 0.5 * weight, -0.25 * weight
             columns.append(column)
     times = duration * np.linspace(0.0, 1.0, 7)
     piece = np.array(columns).T.copy()
-    found, moved, both_found, both_moved = all_ways = np.zeros((4, 2, times.size))
+    found, moved, all_found, both_moved = all_ways = np.zeros((4, VOLTAGES, times.size))
     four_ways(piece, course_of(piece.shape[1]), duration, times, all_ways)
     assert found == pytest.approx(moved, rel=0.0, abs=3e-12)
-    assert np.array_equal(both_found, found)
-    assert np.array_equal(both_moved, moved)
+    assert np.array_equal(all_found, found)
+    assert np.array_equal(both_moved[:2], moved[:2])

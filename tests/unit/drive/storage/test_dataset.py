@@ -29,16 +29,32 @@ def drive():
 @pytest.mark.slow
 def test_a_loaded_result_equals_the_saved_one(drive, tmp_path):
     files = save(drive, tmp_path)
-    assert [file.name for file in files] == ["summary.json", "events.csv", "drive.nc"]
+    assert [file.name for file in files] == ["summary.json", "events.csv", "spectrum.csv", "drive.nc"]
     for path in (tmp_path, tmp_path / "drive.nc", tmp_path / "events.csv"):
         again = load(path)
         assert again == drive
         assert again.summary() == drive.summary()
         assert again.events() == drive.events()
+        assert again.spectrum().equals(drive.spectrum())
         assert list(map(str, again.warnings)) == list(map(str, drive.warnings))
     assert again.solution.bearings == ()
     assert len(drive.solution.bearings) == 2
     assert of_drives.load(tmp_path / "drive.nc") == drive
+
+
+def test_a_file_of_version_1_0_has_no_spectrum(drive, tmp_path):
+    """Its variables are missing, and half of them are a damaged file."""
+    whole = drive.to_xarray()
+    earlier = of_drives.result_of(whole.drop_vars(["line_count", "line_amplitude"]), tmp_path / "drive.nc")
+    assert len(earlier.spectrum()) == 0
+    assert earlier.summary() == drive.summary()
+    save(earlier, tmp_path)
+    assert (tmp_path / "spectrum.csv").read_text().splitlines() == ["frequency [Hz],shaft_voltage [V]"]
+    assert load(tmp_path) == earlier
+    with pytest.raises(UnfitError):
+        check(whole.drop_vars("line_count"), 2)
+    with pytest.raises(UnfitError):
+        check(whole.drop_vars("line_amplitude"), 2)
 
 
 def test_a_result_without_discharges_is_loaded_too(drive, tmp_path):

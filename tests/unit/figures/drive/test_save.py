@@ -14,7 +14,9 @@ from ehlectric.figures.names import DRIVE_FIGURE_FILES, FORMATS, in_formats
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.titles import title_of
 
-VOLTAGES, HISTOGRAM, DISCHARGES, REMEDIES = (name.removesuffix(".png") for name in DRIVE_FIGURE_FILES)
+VOLTAGES, HISTOGRAM, SPECTRUM, DISCHARGES, REMEDIES = (
+    name.removesuffix(".png") for name in DRIVE_FIGURE_FILES
+)
 
 
 @pytest.fixture(scope="module")
@@ -42,11 +44,28 @@ def markers(ax, label):
 
 
 def test_names_are_those_of_the_files(drive, grounded):
-    assert figure_names(drive) == [VOLTAGES, HISTOGRAM, DISCHARGES, REMEDIES]
-    assert figure_names(grounded) == [VOLTAGES, HISTOGRAM]
+    assert figure_names(drive) == [VOLTAGES, HISTOGRAM, SPECTRUM, DISCHARGES, REMEDIES]
+    assert figure_names(grounded) == [VOLTAGES, HISTOGRAM, SPECTRUM]
     with pytest.raises(InputError, match=r"^figure: .*'drive_remedies'.* drive_voltages"):
         figure(grounded, REMEDIES)
     assert title_of(drive.plot()) == title_of(figure(drive, VOLTAGES))
+
+
+def test_the_spectrum_is_drawn_with_its_largest_lines(drive):
+    """Every line where they are far apart, and the largest of its neighbours elsewhere."""
+    table = drive.spectrum()
+    (ax,) = figure(drive, SPECTRUM).axes
+    (curve,) = ax.get_lines()
+    frequency, amplitude = curve.get_data()
+    assert frequency[:20] == pytest.approx(table["frequency"][1:21].to_numpy())
+    scale = {"V": 1.0, "mV": 1e3}[ax.get_ylabel().split("[")[1].rstrip("]")]
+    assert np.max(amplitude) == pytest.approx(scale * np.max(table["shaft_voltage"][1:]))
+    known = table.set_index("frequency")["shaft_voltage"]
+    shown = amplitude > 2e-6 * np.max(amplitude)
+    assert amplitude[shown] == pytest.approx(scale * known[frequency[shown]].to_numpy())
+    record = replace(drive.solution.record, spectrum=np.zeros(0))
+    earlier = replace(drive, solution=replace(drive.solution, record=record))
+    assert SPECTRUM not in figure_names(earlier)
 
 
 @pytest.mark.slow

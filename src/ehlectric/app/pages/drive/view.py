@@ -23,7 +23,7 @@ _NUMBERS = (
     *("capacitance", "divider", "source", "machine"),
 )
 _FIGURES = (
-    *("voltages", "remedies", "histogram"),
+    *("voltages", "remedies", "histogram", "spectrum"),
     *("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"),
 )
 _WIDE = ("voltages",)
