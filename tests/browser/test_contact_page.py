@@ -161,7 +161,8 @@ def assert_touching(page, folder, *, nanometres):
     legend.filter(has_text="surfaces touch").wait_for()
     legend.filter(has_text="pressure of asperities").wait_for()
     summary = summary_by_command("run", downloaded(page, "download-toml", folder), folder)
-    mean = 1e6 * summary["film"]["mean_thickness"]
+    in_nanometres = "nm" in page.get_by_test_id("number-central-film").inner_text()
+    mean = (1e9 if in_nanometres else 1e6) * summary["film"]["mean_thickness"]
     assert shown(page, "central-film") == pytest.approx(mean, rel=1e-3)
     return summary
 

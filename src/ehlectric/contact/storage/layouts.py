@@ -82,6 +82,7 @@ FILM_NUMBERS = (
     "inlet_deficit",
     "max_pressure_error",
     "mass_residual",
+    "load_deficit",
 )
 FIELD_NUMBERS = (
     "voltage",
