@@ -1,6 +1,7 @@
 """Page of a drive: its first answer, its simulation, its remedies, and what is told of wrong values."""
 
 import tomllib
+import zipfile
 
 import pytest
 
@@ -70,8 +71,9 @@ def test_a_simulation_has_the_numbers_of_the_command_and_a_remedy_stands_beside_
     # The circles are the discharges of the shown time.
     circles = page.locator("[data-testid=figure-voltages] .js-plotly-plot .scatterlayer .point")
     assert wait_until(lambda: circles.count() > 0)
-    files = downloaded(page, "download-csv", tmp_path)
-    assert files.name == "events.csv"
+    seen(page, "figure-spectrum").wait_for()
+    with zipfile.ZipFile(downloaded(page, "download-csv", tmp_path)) as archive:
+        assert {"events.csv", "spectrum.csv"} <= set(archive.namelist())
     # Another input has no simulation yet; one step leads back to it.
     type_into(page, "drive.seed", "7")
     page.locator("[data-testid=answer][data-simulated=false]").wait_for()
