@@ -167,9 +167,10 @@ def test_example_is_the_first_case_of_the_paper(ehlectric, tmp_path):
     done = ehlectric("run", EXAMPLES / "line_contact.toml", "-o", "out", "--no-plots", "-q")
     assert done.returncode == 0
     film = json.loads((tmp_path / "out" / "summary.json").read_text())["film"]
-    # tests/published/data/line_contact_films.csv, converged.
-    assert film["minimum_thickness"] == pytest.approx(0.6390e-6, rel=1e-3, abs=0.0)
-    assert film["central_thickness"] == pytest.approx(0.7076e-6, rel=2e-4, abs=0.0)
+    # tests/published/data/line_contact_films.csv, converged on a domain that begins at -4 half-widths, where
+    # 1.5 % of the pressure is missing; the solver takes a longer one.
+    assert film["minimum_thickness"] == pytest.approx(0.6390e-6, rel=2e-3, abs=0.0)
+    assert film["central_thickness"] == pytest.approx(0.7076e-6, rel=2e-3, abs=0.0)
 
 
 @pytest.mark.slow

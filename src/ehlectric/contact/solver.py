@@ -255,7 +255,6 @@ def _solved(
     kind, case, conditions, rough = contact.kind, contact.case, contact.conditions, contact.rough
     geometry = conditions.geometry
     contact, films = _on_large_domain(contact, solvers, progress, on_grid)
-    conditions = contact.conditions
     film = films.film
     LOGGER.info(
         "%s contact: film %s on %s nodes in %.2g s, residual %.1e",

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ehlectric import Case, solve
+from ehlectric import Case, load, save, solve
 
 OIL = {"base": "paper", "ambient_pressure": 0.0}
 BODIES = {"reduced_radius": "10 mm", "reduced_modulus": "226 GPa"}
@@ -67,3 +67,13 @@ def test_a_ball_that_hardly_presses_is_warned_of():
     lost = 1.0 - result.film.central_thickness / 0.893e-6
     assert 0.7 * lost < result.film.domain_loss < 1.5 * lost
     assert "domain-far-too-small" in [warning.code for warning in result.warnings]
+
+
+@pytest.mark.slow
+def test_a_film_on_a_larger_domain_survives_the_disk(tmp_path):
+    for case in (line(1e4, 4.0), ball(3.0, 2.0)):
+        result = solve(case)
+        back = load(save(result, tmp_path / case.contact.geometry)[1])
+        assert far(back.film) == far(result.film) < -10.0
+        assert back.summary() == result.summary()
+        assert back.case == case
