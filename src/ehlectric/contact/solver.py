@@ -135,7 +135,7 @@ def solve(
     >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
     >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
     >>> round(solve(case).film.minimum_thickness * 1e6, 2)
-    0.74
+    0.75
     """
     case = solvers.accept(case)
     if case.motion is not None:

@@ -133,7 +133,7 @@ def assess(
     >>> case = {"contact": contact, "lubricant": {"base": "paper"}}
     >>> result = solve(Case.from_dict(case | {"discharge": {"dielectric_strength": "15 V/um"}}))
     >>> round(result.discharge.breakdown_voltage, 1)
-    11.1
+    11.2
     """
     size = Size.of(semi_axes, discharge)
     utilisation = FieldUtilisation.of(discharge, film, field)

@@ -117,7 +117,7 @@ def solve_many(
     >>> tables = [{"contact": contact | {"entrainment_speed": u}, "lubricant": oil} for u in (2.0, 4.0)]
     >>> films = {one.number: one.result.film.minimum_thickness for one in solve_many(tables, workers=1)}
     >>> round(films[1] / films[0], 2)
-    1.63
+    1.64
     """
     if isinstance(workers, bool) or not (workers is None or (isinstance(workers, int) and workers >= 1)):
         raise InputError("workers", got=shown(workers), takes="a whole number of at least 1")
