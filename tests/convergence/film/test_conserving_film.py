@@ -142,7 +142,12 @@ def test_random_lines_keep_their_oil(seed):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", share(range(40), 8))
 def test_random_points_keep_their_oil(seed):
-    keeps_its_oil(random_point(seed))
+    """Balls keep it; of one in forty, with most of its load on asperities, no such film is found."""
+    result = solve(random_point(seed), beside_smooth=False)
+    error = oil_balance(result.case, result.conditions, result.film).mass_error
+    told = "oil-not-conserved" in [warning.code for warning in result.warnings]
+    assert result.film.converged
+    assert error <= 1e-6 or (told and error > 1e-3)
 
 
 @pytest.mark.slow

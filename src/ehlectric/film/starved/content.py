@@ -28,7 +28,7 @@ from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import ALONG, Stencil, residual
 
 # Ratio of the full gaps of two nodes above which the gap closes too steeply to be extrapolated.
-_STEEP = 2.0
+_STEEP = 1.8
 
 
 @dataclass(frozen=True)
@@ -56,9 +56,9 @@ class Supply:
     def bounded(self, full: Array) -> Supply:
         """Supply with an upwind difference also where the full gap closes steeply, as at the edge of a spot.
 
-        The mass at the face behind a node, 3/2 m of the node minus 1/2 m of the node before, falls below a
-        half of the node's where the gap falls to a half from node to node. It may become negative there: no
-        oil would enter the spot.
+        The mass at the face behind a node is 3/2 m of the node minus 1/2 m of the node before, little where
+        the gap falls steeply, and negative where it falls to less than a third from node to node: no oil
+        would enter the spot.
         """
         steep = np.zeros(full.shape, dtype=bool)
         steep[1:] = full[:-1] > _STEEP * full[1:]
