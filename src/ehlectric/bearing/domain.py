@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from ehlectric.bearing.ring_contacts import BallContact, RollerContact
 from ehlectric.cases.grid import Grid, point_grid
+from ehlectric.contact.domain import FARTHEST
 
 # Discretisation error of the minimum film, relative, to which the grid of each contact is refined.
 REFINE = 0.02
@@ -14,14 +15,14 @@ REFINE = 0.02
 # Domain of a ball's contact ahead of it, beside it and behind it, in lengths sqrt(2 R h) over which the
 # pressure builds up, and the most that a grid holds ahead and beside, in semi-axes. The domain costs below
 # 1 % of the film, or 15 % where a ball hardly presses.
-_ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, (48.0, 24.0)
+_ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, FARTHEST["point"]
 
 # Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.6 % of the film.
 # Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most, which
 # costs 2.5 % of the film and 1.3 % of the capacitance: with longer inlets the films of hardly loaded rollers
 # often did not converge.
 _LINE_INLET, _LINE_OUTLET = 10.0, 2.0
-_LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, 300.0
+_LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, FARTHEST["line"][0]
 
 
 def roller_grid(contact: RollerContact) -> Grid:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.optimize import bisect
 
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
 from ehlectric.bearing.fits.mounted import MountedClearance, mounted_clearance
@@ -258,13 +259,12 @@ def least_load(ring: RingContacts[Any]) -> float:
         # The heavier the load, the shorter the length over which the film builds up, relative to the contact.
         return bool(kind.fits(kind.contact(ring, 10.0**exponent)))
 
-    small, large = _EXPONENTS
-    if not holds(large):
+    smallest, largest = _EXPONENTS
+    if not holds(largest):
         return math.inf
-    while large - small > _CLOSE:
-        middle = 0.5 * (small + large)
-        small, large = (small, middle) if holds(middle) else (middle, large)
-    return float(10.0**large)
+    if holds(smallest):
+        return float(10.0**smallest)
+    return float(10.0 ** bisect(lambda exponent: holds(exponent) - 0.5, smallest, largest, xtol=_CLOSE))
 
 
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:

@@ -26,10 +26,10 @@ _AIM, _LEAST, _MOST = 0.3, 1.25, 4.0
 # over which the pressure builds up.
 _AHEAD, _BEHIND, _BESIDE = 6.0, 2.0, 3.0
 
-# Largest domain ahead and beside, in half-widths or semi-axes, and largest number of steps. Films of hardly
-# loaded contacts often do not converge on longer ones.
-_FARTHEST = {"line": (300.0, 0.0), "point": (48.0, 24.0)}
-STEPS = 4
+# Largest domain ahead and beside, in half-widths or semi-axes, and largest number of larger domains. Films of
+# hardly loaded contacts often do not converge on longer ones.
+FARTHEST = {"line": (300.0, 0.0), "point": (48.0, 24.0)}
+MOST_STEPS = 3
 
 # Loss of the film above which no domain that is taken here is large enough.
 _HOPELESS = {"line": math.inf, "point": 1.0}
@@ -70,18 +70,13 @@ def widened(contact: PreparedContact, film: Film | PointFilm) -> PreparedContact
     return PreparedContact(case, conditions, contact.kind.domain(case, conditions), ())
 
 
-def may_widen(contact: PreparedContact) -> bool:
-    """Whether the solver chooses the domain of a contact, as its case gives none."""
-    return contact.case.grid.default_domain
-
-
 def _larger(
     contact: PreparedContact, film: Film | PointFilm, loss: float, target: float
 ) -> tuple[Grid, float] | None:
     """Grid and side of a larger domain; None where the film has the largest one."""
     grid, conditions = contact.case.grid, contact.conditions
     geometry = conditions.geometry
-    ahead, beside = _FARTHEST[geometry]
+    ahead, beside = FARTHEST[geometry]
     factor = min(_MOST, max(_LEAST, math.cbrt(loss / (_AIM * target))))
     length = math.sqrt(2.0 * film.central_thickness / film.scales.thickness)
     inlet = min(ahead, max(factor * -grid.inlet, _AHEAD * length))
@@ -97,8 +92,7 @@ def _larger(
     along, wide, least = _DENSITY[geometry]
     table["outlet"] = outlet = _rounded(outlet)
     nodes = max(least, along * math.ceil(inlet + outlet) + 1, wide * math.ceil(side) + 1)
-    if "nodes" not in table or table["nodes"] < nodes:
-        table["nodes"] = nodes
+    table["nodes"] = max(nodes, table.get("nodes", 0))
     table["refine"] = table.pop("error", target)
     try:
         larger = Grid.from_dict(point_grid(table) if geometry == "point" else table)

@@ -17,7 +17,7 @@ from ehlectric.cases.grid import Electric, Grid, Solver
 from ehlectric.cases.roughness import Roughness
 from ehlectric.contact.check import PreparedContact, check_case, with_laws
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.domain import STEPS, may_widen, widened
+from ehlectric.contact.domain import MOST_STEPS, widened
 from ehlectric.contact.heat.warnings import heat_warnings
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.memory import check_grid
@@ -313,29 +313,42 @@ def _on_large_domain(
     contact: PreparedContact, solvers: Solvers, progress: Progress | None, on_grid: OnGrid | None
 ) -> tuple[PreparedContact, Refined]:
     """Contact on the domain that its film needs, and its films on all grids."""
-    geometry, seconds, free = contact.conditions.geometry, 0.0, may_widen(contact)
-    area = contact.film_problem(Setup.of(contact.case)).area
-    found: tuple[PreparedContact, Refined] | None = None
-    for _ in range(STEPS):
-
-        def solved(problem: FilmProblem) -> Film | PointFilm:
-            # What the ambient pressure carries on the default domain is part of the load, as in the paper.
-            film: Film | PointFilm = solvers.film[geometry](
-                problem.bearing_ambient_pressure_on(area), progress=_logged(progress)
-            )
-            return film
-
-        films = refined(Setup.of(contact.case), geometry, contact.film_problem, solved, on_grid)
-        seconds += films.seconds
-        if found is not None and not films.film.converged:
-            break
-        found = contact, films
-        wider = widened(contact, films.film) if free and solvers.name == OWN.name else None
+    films = _films(contact, solvers, progress, on_grid)
+    if solvers.name != OWN.name or not contact.case.grid.default_domain:
+        return contact, films
+    area, seconds = None, films.seconds
+    for _ in range(MOST_STEPS):
+        wider = widened(contact, films.film)
         if wider is None:
             break
-        contact = wider
-    assert found is not None
-    return found[0], replace(found[1], seconds=seconds)
+        area = contact.film_problem(Setup.of(contact.case)).area if area is None else area
+        larger = _films(wider, solvers, progress, on_grid, area)
+        seconds += larger.seconds
+        if not larger.film.converged:
+            break
+        contact, films = wider, larger
+    return contact, replace(films, seconds=seconds)
+
+
+def _films(
+    contact: PreparedContact,
+    solvers: Solvers,
+    progress: Progress | None,
+    on_grid: OnGrid | None,
+    area: float | None = None,
+) -> Refined:
+    """Films of a contact on all grids; of a larger domain with the ``area`` of the default one.
+
+    What the ambient pressure carries on the default domain is part of the load, as in the paper.
+    """
+    geometry = contact.conditions.geometry
+
+    def solved(problem: FilmProblem) -> Film | PointFilm:
+        posed = problem if area is None else problem.bearing_ambient_pressure_on(area)
+        film: Film | PointFilm = solvers.film[geometry](posed, progress=_logged(progress))
+        return film
+
+    return refined(Setup.of(contact.case), geometry, contact.film_problem, solved, on_grid)
 
 
 def _of_film(contact: PreparedContact, films: Refined) -> Iterator[ResultWarning]:

@@ -219,8 +219,10 @@ def _or_no_film(grid: GridSolution) -> tuple[Mesh, State]:
     return grid.level.mesh, state
 
 
-def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:
-    """Share of the reduced pressure that is missing because it would build up upstream of the domain.
+def upstream_deficits(
+    fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array
+) -> tuple[float, float]:
+    """Shares of pressure and load that are missing because they would build up upstream of the domain.
 
     Parameters
     ----------
@@ -235,8 +237,9 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
 
     Returns
     -------
-    float
-        Share of the reduced pressure, from 0 to 1, on the line Y = 0; 0 for an invalid iterate.
+    float, float
+        Share of the reduced pressure on the line Y = 0, and share of the load of a line contact, both from 0
+        to 1; 0 for an invalid iterate. The load of point contacts is that of ``point_load_deficit``.
 
     Notes
     -----
@@ -245,45 +248,31 @@ def inlet_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array,
     H as a parabola. In a point contact, with H = X^2/2 + (Rx/Ry) Y^2/2, oil also flows off to the sides. The
     pressure is then that of a line contact, divided by 1 + (2/3) Rx/Ry (P. Kapitza, Zh. Tekh. Fiz. 25 (1955)
     747).
-    """
-    found = _reduced_pressures(fluid, geometry, mesh, pressure, mass)
-    if found is None:
-        return 0.0
-    before, inside = found
-    return before / (before + inside) if before > 0.0 else 0.0
 
-
-def load_deficit(fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array) -> float:
-    """Share of the load of a line contact that the oil would carry without an end of the inlet.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    geometry : Geometry
-        Kind of contact.
-    mesh : Mesh
-        Grid.
-    pressure, mass : ndarray, shape (nx, 1)
-        Pressure P and oil mass rho H, dimensionless.
-
-    Returns
-    -------
-    float
-        Share of the load, from 0 to 1; 0 for an invalid iterate.
-
-    Notes
-    -----
     Far upstream P falls with the cube of the distance. With P_e at the edge X_e of the domain, P_e X_e/2 is
     carried upstream of it, and the film within lacks about P_e over the length X_e. A film of rigid bodies is
-    thinner by this share (A. Martin 1916: the film of a given load goes with 1/w). The pressure at the edge
-    is low, and the viscosity that of the oil at ambient pressure.
+    thinner by this share of the load (A. Martin 1916: the film of a given load goes with 1/w). The pressure
+    at the edge is low, and the viscosity that of the oil at ambient pressure.
     """
-    found = _reduced_pressures(fluid, geometry, mesh, pressure, mass)
-    if found is None or found[0] <= 0.0:
-        return 0.0
-    missing = 1.5 * found[0] * abs(float(mesh.x[0])) / geometry.load
-    return missing / (1.0 + missing)
+    if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
+        return 0.0, 0.0
+    middle = int(np.argmin(np.abs(mesh.y)))
+    x, pressure, mass = mesh.x, pressure[:, middle], mass[:, middle]
+    flow = float(mass[np.argmax(pressure)])
+    fluidity = np.exp(-fluid.log_viscosity(np.maximum(pressure, fluid.ambient_pressure))[0])
+    increments = 0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure)
+    inside = float(np.max(np.cumsum(increments)))
+    # With X = inlet/t and 0 < t < 1 the integrand is smooth: it is about t^2.
+    points, weights = _gauss_points()
+    t = 0.5 * (points + 1.0)
+    gap = float(mass[0]) + 0.5 * float(x[0]) ** 2 * (1.0 / t**2 - 1.0)
+    gradient = fluid.velocity_parameter * (gap - flow) / gap**3
+    before = float(np.sum(0.5 * weights * gradient * abs(float(x[0])) / t**2))
+    before /= 1.0 + 2.0 * geometry.radius_ratio / 3.0
+    if before <= 0.0:
+        return 0.0, 0.0
+    missing = 1.5 * before * abs(float(x[0])) / geometry.load
+    return before / (before + inside), missing / (1.0 + missing)
 
 
 def lost_by_load(thickness: float) -> float:
@@ -320,30 +309,6 @@ def point_load_deficit(problem: FilmProblem) -> float:
     integral = float(np.sum(0.5 * np.pi * weights * np.cos(angle) / reach))
     missing = 4.0 * problem.fluid.velocity_parameter / ((3.0 + 2.0 * k) * np.sqrt(k)) * integral
     return float(missing / problem.geometry.load)
-
-
-def _reduced_pressures(
-    fluid: Fluid, geometry: Geometry, mesh: Mesh, pressure: Array, mass: Array
-) -> tuple[float, float] | None:
-    """Reduced pressure that would build up upstream of the domain, and that within it, on the line Y = 0.
-
-    None for an invalid iterate.
-    """
-    if not (np.all(np.isfinite(pressure)) and np.all(mass > 0.0)):
-        return None
-    middle = int(np.argmin(np.abs(mesh.y)))
-    x, pressure, mass = mesh.x, pressure[:, middle], mass[:, middle]
-    flow = float(mass[np.argmax(pressure)])
-    fluidity = np.exp(-fluid.log_viscosity(np.maximum(pressure, fluid.ambient_pressure))[0])
-    increments = 0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(pressure)
-    inside = float(np.max(np.cumsum(increments)))
-    # With X = inlet/t and 0 < t < 1 the integrand is smooth: it is about t^2.
-    points, weights = _gauss_points()
-    t = 0.5 * (points + 1.0)
-    gap = float(mass[0]) + 0.5 * float(x[0]) ** 2 * (1.0 / t**2 - 1.0)
-    gradient = fluid.velocity_parameter * (gap - flow) / gap**3
-    before = float(np.sum(0.5 * weights * gradient * abs(float(x[0])) / t**2))
-    return before / (1.0 + 2.0 * geometry.radius_ratio / 3.0), inside
 
 
 @cache

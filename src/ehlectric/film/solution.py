@@ -13,7 +13,7 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.accuracy.adaptive import RefinedSolution
 from ehlectric.film.accuracy.max_pressure import max_pressure_error
 from ehlectric.film.accuracy.starved import Starvation, StarvedSolution
-from ehlectric.film.estimates import inlet_deficit, load_deficit, point_load_deficit
+from ehlectric.film.estimates import point_load_deficit, upstream_deficits
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.problem import Scales
 from ehlectric.film.starved.reformed import oil_fraction
@@ -159,17 +159,9 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
         Film on the finest grid, with residuals, Newton steps and error estimates. Where this grid is a patch,
         the film has its nodes inside the patch, and coarse ones outside.
     """
-    problem, finest, whole = found.problem, found.last, found.whole
-    scales, coarser = problem.scales, found.coarser
+    finest, scales, coarser = found.last, found.problem.scales, found.coarser
     steps = tuple(step for solution in found.solutions for step in solution.steps)
-    upstream = (
-        problem.fluid,
-        problem.geometry,
-        whole.level.mesh,
-        whole.state.pressure,
-        whole.final.coefficients.density * whole.state.thickness,
-    )
-    starved = isinstance(found, StarvedSolution)
+    inlet, load = _deficits(found)
     x, values = _nodal(found, shaped)
     touching, fraction = values.pop("contact_pressure"), values.pop("film_fraction", None)
     return FilmSolution(
@@ -185,17 +177,23 @@ def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
         ),
         steps=steps,
         discretisation_error=found.error,
-        inlet_deficit=found.inlet_deficit if isinstance(found, StarvedSolution) else inlet_deficit(*upstream),
-        load_deficit=None
-        if starved
-        else load_deficit(*upstream)
-        if problem.width is None
-        else point_load_deficit(problem),
+        inlet_deficit=inlet,
+        load_deficit=load,
         max_pressure_error=max_pressure_error(finest, coarser[0] if coarser else None),
         film_fraction=fraction,
         mass_residual=None if found.fraction is None else mass_residual(found),
         starvation=found.starvation if isinstance(found, StarvedSolution) else None,
     )
+
+
+def _deficits(found: RefinedSolution) -> tuple[float, float | None]:
+    """Shares of pressure and load that the domain cuts off; the load of a starved film is not known."""
+    if isinstance(found, StarvedSolution):
+        return found.inlet_deficit, None
+    problem, level, state = found.problem, found.whole.level, found.whole.state
+    mass = found.whole.final.coefficients.density * state.thickness
+    upstream, load = upstream_deficits(problem.fluid, problem.geometry, level.mesh, state.pressure, mass)
+    return upstream, load if problem.width is None else point_load_deficit(problem)
 
 
 def mass_residual(found: RefinedSolution) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 from ehlectric.errors import InputError
 from ehlectric.film.accuracy.adaptive import UNKNOWN
 from ehlectric.film.deflection import LINE
-from ehlectric.film.estimates import film_error, inlet_deficit
+from ehlectric.film.estimates import film_error, upstream_deficits
 from ehlectric.film.line import Film
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import NESTED_TOLERANCE
@@ -314,13 +314,13 @@ def _film(
         newton_iterations=len(cycled.norms),
         steps=tuple(NewtonStep(problem.nodes, value, 0) for value in cycled.norms),
         discretisation_error=error,
-        inlet_deficit=inlet_deficit(
+        inlet_deficit=upstream_deficits(
             fluid,
             LINE,
             _mesh(finest),
             at.pressure[:, np.newaxis],
             (c.density * c.thickness)[:, np.newaxis],
-        ),
+        )[0],
     )
 
 

@@ -24,14 +24,20 @@ _NODAL: Mapping[str, tuple[bool, str, str]] = {
 }
 _ZETA = "fraction of the film, from surface 1 to surface 2"
 
+
+def _null_or(values: str) -> Callable[[Any], bool]:
+    """Check of a value that is null or a number of some kind."""
+    return lambda value: value is None or is_number(value, values=values)
+
+
 # What the numbers are; those not named here may be null.
 _KINDS: Mapping[str, Callable[[Any], bool]] = {
     "rheology": lambda value: isinstance(value, str),
     "traction_coefficient": is_number_or_null,
     "rolling_coefficient": is_number_or_null,
-    "power_loss": lambda value: value is None or is_number(value, values="not negative"),
-    "isothermal_minimum_thickness": lambda value: value is None or is_number(value, values="positive"),
-    "isothermal_central_thickness": lambda value: value is None or is_number(value, values="positive"),
+    "power_loss": _null_or("not negative"),
+    "isothermal_minimum_thickness": _null_or("positive"),
+    "isothermal_central_thickness": _null_or("positive"),
     "outer_iterations": partial(is_number, values="whole"),
 }
 _OPTIONAL = ("max_temperature_rise", "temperature_rise_error", "energy_imbalance")

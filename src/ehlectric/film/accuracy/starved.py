@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.arrays import Array, Mask
 from ehlectric.film.accuracy.adaptive import UNKNOWN, RefinedSolution, refined_solution
 from ehlectric.film.accuracy.rough_film import rough_film_error
-from ehlectric.film.estimates import inlet_deficit, richardson, side_deficit
+from ehlectric.film.estimates import richardson, side_deficit, upstream_deficits
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import (
     DIRECT,
@@ -163,7 +163,7 @@ class StarvedSolution(RefinedSolution):
     def _inlet_deficit(self, grid: GridSolution) -> float:
         mass = grid.final.coefficients.density * grid.state.thickness
         of = self.problem
-        return inlet_deficit(of.fluid, of.geometry, grid.level.mesh, grid.state.pressure, mass)
+        return upstream_deficits(of.fluid, of.geometry, grid.level.mesh, grid.state.pressure, mass)[0]
 
     def _side_deficit(self, grid: GridSolution) -> float:
         return side_deficit(self.problem, grid.level.mesh, grid.state.pressure, grid.state.thickness)

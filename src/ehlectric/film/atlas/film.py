@@ -181,8 +181,9 @@ def _errors(groups: Groups, errors: Array, spread: dict[str, float], oil: OilGro
     if groups.moes_l < 1.0:
         total["central"] += _ISOVISCOUS
     if groups.ratio is not None and more > 1.0:
+        lost = _domain_error(groups)
         for name in ("central", "minimum", "mean"):
-            total[name] += _domain_error(groups)
+            total[name] += lost
     # The mean of 1/(rho h) is stored without the central film.
     total["zone"] += 2.0 * more * central if more > 1.0 else central
     return total
