@@ -32,19 +32,24 @@ def shaft_spectrum(result: DriveResult, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     frequencies, amplitudes = highest_lines(result)
-    top = float(np.max(amplitudes))
-    factor, unit = voltage_unit(top)
+    least, most = shown_range(amplitudes)
+    factor, unit = voltage_unit(float(np.max(amplitudes)))
     ax.plot(frequencies, factor * amplitudes, color=BLUE, lw=0.8)
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlim(0.8 * frequencies[0], 1.25 * frequencies[-1])
-    ax.set_ylim(0.5 * factor * float(np.min(amplitudes)), 3.0 * factor * top)
+    ax.set_ylim(factor * least, factor * most)
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_locator(LogLocator(numticks=9))
         axis.set_minor_formatter(NullFormatter())
     ax.set_xlabel("frequency [Hz]")
     ax.set_ylabel(f"amplitude of the shaft voltage [{unit}]")
     return ax
+
+
+def shown_range(amplitudes: Array) -> tuple[float, float]:
+    """Ends of a logarithmic axis of amplitudes, with room below the least and above the largest one."""
+    return 0.5 * float(np.min(amplitudes)), 3.0 * float(np.max(amplitudes))
 
 
 def has_spectrum(result: DriveResult) -> bool:

@@ -11,19 +11,18 @@ from ehlectric.app.figures.look import BLUE, axis, plot, values
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.looks import voltage_unit
-from ehlectric.figures.drive.spectrum import highest_lines
+from ehlectric.figures.drive.spectrum import highest_lines, shown_range
 
 _HEIGHT = 380
 
-# Lines of the table, the largest ones, and decades of the axis below the largest line.
-_TOLD, _DECADES = 12, 6.0
+# Lines of the table, the largest ones.
+_TOLD = 12
 
 
 def spectrum_figure(result: DriveResult) -> Figure:
     """Amplitude spectrum of the shaft voltage, with both axes logarithmic."""
     frequencies, amplitudes = highest_lines(result)
-    top = float(np.max(amplitudes))
-    factor, unit = voltage_unit(top)
+    factor, unit = voltage_unit(float(np.max(amplitudes)))
     curve = {
         "type": "scatter",
         "mode": "lines",
@@ -33,13 +32,18 @@ def spectrum_figure(result: DriveResult) -> Figure:
         "line": {"color": BLUE, "width": 1.5},
         "hovertemplate": f"%{{y:.3g}} {unit} at %{{x:.5g}} Hz<extra></extra>",
     }
-    upper = math.log10(3.0 * factor * top)
-    power = {"type": "log", "exponentformat": "SI"}
+    shown = [math.log10(factor * end) for end in shown_range(amplitudes)]
     figure = plot(
         [curve],
         height=_HEIGHT,
-        xaxis=axis("frequency [Hz]", **power),
-        yaxis=axis(f"amplitude of the shaft voltage [{unit}]", **power, range=[upper - _DECADES, upper]),
+        xaxis=axis("frequency [Hz]", type="log", exponentformat="SI"),
+        yaxis=axis(
+            f"amplitude of the shaft voltage [{unit}]",
+            type="log",
+            exponentformat="power",
+            dtick=1,
+            range=shown,
+        ),
     )
     largest = np.argsort(-amplitudes, kind="stable")[:_TOLD]
     rows = tuple((f"{frequencies[k]:.6g}", f"{factor * amplitudes[k]:.4g}") for k in largest)
