@@ -17,7 +17,8 @@ REFINE = 0.02
 # 1 % of the film, or 15 % where a ball hardly presses.
 _ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, FARTHEST["point"]
 
-# Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.6 % of the film.
+# Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.3 to 1.2 % of the
+# film.
 # Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most, which
 # costs 2.5 % of the film and 1.3 % of the capacitance: with longer inlets the films of hardly loaded rollers
 # often did not converge.

@@ -53,8 +53,11 @@ MOST_DEGREE = 40
 _LEAST_COLUMNS = 16
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
 
-# Defaults of a point contact's grid where they differ from those of a line contact; lengths in semi-axes.
-_POINT_GRID: dict[str, Any] = {"inlet": -4.5, "outlet": 1.5, "field_side": 1.25}
+# Ends of the domain where they are not given, of a line and of a point contact; half-widths or semi-axes.
+_ENDS = {False: (-4.0, 2.0), True: (-4.5, 1.5)}
+
+# Defaults of a point contact's grid that a line contact does not have; lengths in semi-axes.
+_POINT_GRID: dict[str, Any] = {"field_side": 1.25}
 
 # Numbers of nodes of a grid that is not refined and has no ``nodes``, and intervals of the first grid of one
 # that is, over the default domain of six lengths: of a line and of a point contact.
@@ -96,8 +99,12 @@ class Grid(Table):
         Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
         | None
     ) = None
-    inlet: Annotated[float, Quantity("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] = -4.0
-    outlet: Annotated[float, Quantity("", above=1.0, most=1000.0, reason="behind the Hertz zone")] = 2.0
+    inlet: (
+        Annotated[float, Quantity("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] | None
+    ) = None
+    outlet: Annotated[float, Quantity("", above=1.0, most=1000.0, reason="behind the Hertz zone")] | None = (
+        None
+    )
     side: Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
     wedge: Literal["third-order", "second-order", "first-order"] = "third-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
@@ -137,11 +144,21 @@ class Grid(Table):
         return self.field_side is not None
 
     @property
+    def ends(self) -> tuple[float, float]:
+        """Ends of the domain along entrainment, given or by default."""
+        inlet, outlet = _ENDS[self.of_point]
+        return inlet if self.inlet is None else self.inlet, outlet if self.outlet is None else self.outlet
+
+    @property
+    def length(self) -> float:
+        """Length of the domain along entrainment."""
+        inlet, outlet = self.ends
+        return outlet - inlet
+
+    @property
     def default_domain(self) -> bool:
-        """Whether the domain has its default ends and sides, so that a solver may make it larger."""
-        defaults = _POINT_GRID if self.of_point else {}
-        ends = (defaults.get(key, type(self).model_fields[key].default) for key in ("inlet", "outlet"))
-        return self.side is None and (self.inlet, self.outlet) == tuple(ends)
+        """Whether neither ends nor sides are given, so that a solver may take a larger domain."""
+        return self.inlet is None and self.outlet is None and self.side is None
 
     @property
     def nodes_across(self) -> int:
@@ -177,7 +194,7 @@ class Grid(Table):
         if rough or self.nodes_y is not None:
             return self.fixed()
         intervals = _FIRST[self.of_point]
-        while (self.outlet - self.inlet) / intervals > 1.01 * _DEFAULT_LENGTH / _FIRST[self.of_point]:
+        while self.length / intervals > 1.01 * _DEFAULT_LENGTH / _FIRST[self.of_point]:
             intervals *= 2
         return self.model_copy(update={"nodes": intervals + 1})
 
@@ -197,7 +214,7 @@ class Grid(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        domain = self.outlet - self.inlet
+        domain = self.length
         for key in ("nodes", "nodes_y", "refine"):
             if self.error is not None and getattr(self, key) is not None:
                 raise InputError(
@@ -234,13 +251,13 @@ class Grid(Table):
             )
 
     def _check_field_range(self, domain: float) -> None:
-        start, stop = self.field_range
+        (start, stop), (inlet, outlet) = self.field_range, self.ends
         default = "" if "field_range" in self.model_fields_set else ", its default"
-        if not self.inlet <= start < stop <= self.outlet:
+        if not inlet <= start < stop <= outlet:
             raise InputError(
                 "field_range",
                 got=f"[{start:g}, {stop:g}]{default}",
-                takes=f"two increasing numbers within inlet and outlet, [{self.inlet:g}, {self.outlet:g}]",
+                takes=f"two increasing numbers within inlet and outlet, [{inlet:g}, {outlet:g}]",
             )
         columns = (stop - start) / domain * (self.nodes_along - 1)
         if self.field_nodes is None and columns < _LEAST_COLUMNS:
@@ -301,13 +318,13 @@ def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
     Returns
     -------
     dict
-        Given keys, and defaults where those of a point contact differ from those of a line contact.
+        Given keys, and the defaults that only the grid of a point contact has.
 
     Examples
     --------
     >>> grid = Grid.from_dict(point_grid({"inlet": -9.0}))
-    >>> grid.inlet, grid.outlet, grid.field_side, grid.target, grid.first().nodes
-    (-9.0, 1.5, 1.25, 0.02, 257)
+    >>> grid.ends, grid.field_side, grid.target, grid.first().nodes
+    ((-9.0, 1.5), 1.25, 0.02, 257)
     """
     return {**_POINT_GRID, **table}
 

@@ -35,7 +35,7 @@ def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
     yield from regime_warnings(conditions)
-    width = (setup.grid.outlet - setup.grid.inlet) / (0.5 * np.pi)
+    width = setup.grid.length / (0.5 * np.pi)
     yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
     yield from hardness_warnings(conditions)
 
@@ -150,7 +150,7 @@ def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Ite
     yield from temperature_warnings(setup)
     yield from rheology_warnings(setup)
     yield from point_regime_warnings(conditions)
-    area = (setup.grid.outlet - setup.grid.inlet) * 2.0 * conditions.side
+    area = setup.grid.length * 2.0 * conditions.side
     domain = area / (2.0 * np.pi / 3.0)
     yield from pressure_warnings(setup.oil, conditions.max_pressure, domain, "point", POINT_PERMANENT)
     yield from hardness_warnings(conditions)

@@ -79,15 +79,16 @@ def _larger(
     ahead, beside = FARTHEST[geometry]
     factor = min(_MOST, max(_LEAST, math.cbrt(loss / (_AIM * target))))
     length = math.sqrt(2.0 * film.central_thickness / film.scales.thickness)
-    inlet = min(ahead, max(factor * -grid.inlet, _AHEAD * length))
-    outlet = max(grid.outlet, min(_BEHIND * length, 0.5 * ahead))
+    start, end = grid.ends
+    inlet = min(ahead, max(factor * -start, _AHEAD * length))
+    outlet = max(end, min(_BEHIND * length, 0.5 * ahead))
     side = 0.0
     table = grid.model_dump(mode="json", exclude_none=True) | {"inlet": -_rounded(inlet)}
     if isinstance(conditions, PointConditions):
         across = length * math.sqrt(conditions.radius_y / conditions.radius_x) / conditions.ratio
         side = _rounded(min(beside, max(factor * conditions.side, 1.0 + _BESIDE * across)))
         table["side"] = side
-    if inlet <= -grid.inlet and side <= getattr(conditions, "side", 0.0):
+    if inlet <= -start and side <= getattr(conditions, "side", 0.0):
         return None
     along, wide, least = _DENSITY[geometry]
     table["outlet"] = outlet = _rounded(outlet)

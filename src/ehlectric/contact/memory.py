@@ -143,7 +143,7 @@ def _refuse_beyond(grid: Grid, needed: tuple[float, float], sizes: tuple[str, st
 def _columns_along(grid: Grid) -> int:
     """Number of columns of the field along entrainment."""
     start, stop = grid.field_range
-    return grid.field_nodes or int(grid.nodes_along * (stop - start) / (grid.outlet - grid.inlet))
+    return grid.field_nodes or int(grid.nodes_along * (stop - start) / grid.length)
 
 
 def line_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:

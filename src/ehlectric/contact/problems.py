@@ -61,8 +61,8 @@ LARGEST_TOLERANCE = 1e-6
 
 def domain_of(setup: Case | Setup, conditions: PointConditions) -> Domain:
     """Domain in which the film of a point contact is solved [m]."""
-    b, grid = conditions.semi_axis_x, setup.grid
-    return Domain(b * grid.inlet, b * grid.outlet, conditions.side * conditions.semi_axis_y)
+    b, (inlet, outlet) = conditions.semi_axis_x, setup.grid.ends
+    return Domain(b * inlet, b * outlet, conditions.side * conditions.semi_axis_y)
 
 
 def spacings(setup: Case | Setup, conditions: PointConditions) -> tuple[float, float]:
@@ -218,13 +218,13 @@ def fluid_of(oil: Oil, max_pressure: float, velocity_parameter: float) -> Fluid:
 
 def line_domain_of(setup: Case | Setup, conditions: Conditions) -> Domain:
     """Domain in which the film of a line contact is solved [m]."""
-    b, grid = conditions.half_width, setup.grid
-    return Domain(b * grid.inlet, b * grid.outlet)
+    b, (inlet, outlet) = conditions.half_width, setup.grid.ends
+    return Domain(b * inlet, b * outlet)
 
 
 def spacing(setup: Case | Setup, conditions: Conditions) -> float:
     """Node spacing of the film of a line contact [m]."""
-    return conditions.half_width * (setup.grid.outlet - setup.grid.inlet) / (setup.first_grid.nodes_along - 1)
+    return conditions.half_width * setup.grid.length / (setup.first_grid.nodes_along - 1)
 
 
 def check_tolerance(solver: Solver) -> None:
@@ -261,13 +261,13 @@ def smooth_problem(
     """
     check_tolerance(setup.solver)
     grid, guess = setup.first_grid, expected.central_thickness
-    wedge_order, flow = SCHEMES[grid.wedge]
+    (inlet, outlet), (wedge_order, flow) = grid.ends, SCHEMES[grid.wedge]
     fluid = fluid_of(setup.oil, conditions.max_pressure, conditions.velocity_parameter)
     return FilmProblem(
         fluid=replace(fluid, flow=flow),
         nodes=grid.nodes_along,
-        inlet=grid.inlet,
-        outlet=grid.outlet,
+        inlet=inlet,
+        outlet=outlet,
         thickness_guess=guess / conditions.thickness_scale,
         wedge_order=wedge_order,
         tolerance=setup.solver.tolerance,

@@ -160,14 +160,15 @@ def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Itera
     """Warnings about the inlet of a line contact and about the grid and range of its field."""
     deficit = film.domain_loss
     if deficit is not None and deficit > _DEFICIT:
+        inlet, _ = setup.grid.ends
         code, effect = "inlet-too-short", "the film is wrong by about as much"
         if deficit > 0.2:
             code, effect = "inlet-far-too-short", "do not use this film"
         yield ResultWarning(
             code,
             f"the inlet is too short: {100 * deficit:.2g} % of the pressure, or of the load, is missing "
-            f"upstream of it; {effect}; lower grid.inlet from {setup.grid.inlet:g} to about "
-            f"{_longer_inlet(setup.grid.inlet, deficit):g}",
+            f"upstream of it; {effect}; lower grid.inlet from {inlet:g} to about "
+            f"{_longer_inlet(inlet, deficit):g}",
         )
     inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
     if setup.grid.field_nodes is not None and setup.grid.field_nodes < inside:

@@ -69,6 +69,7 @@ class Assessment:
     zone_over_largest_pit = property(attrgetter("zone.zone_over_largest_pit"))
     zone_over_mean_pit = property(attrgetter("zone.zone_over_mean_pit"))
     capacitance = property(attrgetter("capacitances.capacitance"))
+    capacitance_beyond = property(attrgetter("capacitances.capacitance_beyond"))
     capacitance_hertz = property(attrgetter("capacitances.capacitance_hertz"))
     capacitance_inlet = property(attrgetter("capacitances.capacitance_inlet"))
     capacitance_outlet = property(attrgetter("capacitances.capacitance_outlet"))

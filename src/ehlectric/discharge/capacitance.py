@@ -76,6 +76,38 @@ def zone_capacitances(
     return by_outlet
 
 
+def capacitance_beyond(film: Film | PointFilm, permittivity: float) -> float:
+    """Capacitance that a domain twice as large has more, were its gap full of oil.
+
+    Outside of the film's domain the gap grows about as the square of the distance from the middle; close to
+    the Hertz zone it grows faster, so that up to 30 % less is added. At s times the distance of an edge it is
+    s^2 h, with the gap h at this edge. From s = 1 to 2 that makes eps x/(2 h) for each end of a line contact,
+    and eps ln(2) times the integral of dA/h over the edge of a point contact, where dA is the distance of an
+    edge from the middle times its length.
+
+    Parameters
+    ----------
+    film : Film or PointFilm
+        Film on its domain.
+    permittivity : float
+        Relative permittivity of the oil.
+
+    Returns
+    -------
+    float
+        Capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact.
+    """
+    ends = film.thickness[[0, -1]]
+    if isinstance(film, Film):
+        around = float(np.sum(0.5 * np.abs(film.x[[0, -1]]) / ends))
+    else:
+        sides = film.thickness[:, [0, -1]]
+        across = np.abs(film.x[[0, -1]]) @ np.trapezoid(1.0 / ends, film.y, axis=1)
+        along = np.abs(film.y[[0, -1]]) @ np.trapezoid(1.0 / sides, film.x, axis=0)
+        around = float(np.log(2.0) * (across + along))
+    return float(epsilon_0 * permittivity * around)
+
+
 @dataclass(frozen=True)
 class Capacitances:
     """Capacitances of a contact: per length [F/m] for a line contact, [F] for a point contact.
@@ -84,6 +116,8 @@ class Capacitances:
     ----------
     capacitance : float
         Capacitance over the whole domain of the film.
+    capacitance_beyond : float
+        What ``capacitance`` would have more on a domain twice as large, were its gap full of oil.
     capacitance_hertz, capacitance_inlet, capacitance_outlet : float
         Capacitances of the Hertz zone, of the inlet before it, and of the outlet behind it.
     capacitance_sides : float or None
@@ -101,6 +135,7 @@ class Capacitances:
     """
 
     capacitance: float
+    capacitance_beyond: float
     capacitance_hertz: float
     capacitance_inlet: float
     capacitance_outlet: float
@@ -150,6 +185,7 @@ def capacitances(
     plate = epsilon_0 * oil.relative_permittivity * hertz / film.central_thickness
     return Capacitances(
         capacitance=total[discharge.outlet],
+        capacitance_beyond=capacitance_beyond(film, oil.relative_permittivity),
         capacitance_hertz=chosen["hertz"],
         capacitance_inlet=chosen["inlet"],
         capacitance_outlet=chosen["outlet"],

@@ -87,6 +87,11 @@ def _capacitances(unit: str) -> Keys:
             "capacitance of the whole film",
             "$C$",
         ),
+        "capacitance_beyond": ResultKey(
+            "what `capacitance` would have more on a domain twice as large, were its gap full of oil",
+            unit,
+            "capacitance beyond the domain",
+        ),
         "capacitance_hertz": ResultKey(
             "part of the Hertz zone", unit, "capacitance of the Hertz zone", r"$C_\mathrm{H}$"
         ),

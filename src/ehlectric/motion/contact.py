@@ -143,9 +143,9 @@ def travelled_case(case: Case, schedule: Schedule) -> Case:
         speed = schedule.speed_of(surface)
         beyond = max(0.0, abs(speed) * schedule.end - length)
         if speed > 0.0:
-            inlet = min(inlet, grid.inlet - beyond)
+            inlet = min(inlet, grid.ends[0] - beyond)
         else:
-            outlet = max(outlet, grid.outlet + beyond)
+            outlet = max(outlet, grid.ends[1] + beyond)
     nodes = 1 + int(np.ceil((grid.nodes_along - 1) * (outlet - inlet) / length - _ROUNDING))
     changes = {"inlet": inlet, "outlet": outlet, "nodes": nodes}
     changes |= KINDS[case.contact.geometry].nodes_across(grid)

@@ -181,7 +181,7 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
     ratios = surface_ratios(conditions.slide_to_roll_ratio)
     rough = tuple(sorted({table.surface for table in case.roughness}))
     time = conditions.half_width / conditions.entrainment_speed
-    length = grid.outlet - grid.inlet
+    length = grid.length
     end = motion.passes * length if motion.passes is not None else (motion.duration or 0.0) / time
     spacing = length / (grid.nodes_along - 1)
     steps = motion.steps or round(end / spacing)
@@ -213,7 +213,7 @@ def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule
         courant=courant,
         recorded=np.unique(np.round(np.linspace(0, steps, min(motion.record, steps + 1))).astype(int)),
         time=time,
-        domain=(grid.inlet, grid.outlet),
+        domain=grid.ends,
         speeds=(_moving(ratios[0]), _moving(ratios[1])),
         rough=rough,
     )

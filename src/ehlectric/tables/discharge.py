@@ -68,7 +68,9 @@ def _zone(zone: BreakdownZone, half_width: float) -> Iterator[Row]:
 
 
 def _capacitances(capacitances: Capacitances, unit: str) -> Iterator[Row]:
-    yield Row("capacitance of the whole film", capacitances.capacitance, unit)
+    beyond = 100.0 * capacitances.capacitance_beyond / capacitances.capacitance
+    note = f", a domain twice as large would add {beyond:.2g} % if full of oil"
+    yield Row("capacitance of the whole film", capacitances.capacitance, unit, note)
     yield Row("capacitance / parallel plates", capacitances.capacitance_ratio)
     zones = {
         "Hertz zone": capacitances.capacitance_hertz,

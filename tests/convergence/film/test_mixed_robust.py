@@ -21,10 +21,13 @@ def at_lambda(case, ratio):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["gaussian 400 nm", "sinusoid 140 nm", "asperity 200 nm"])
 def test_line_with_a_thin_film(name):
-    """Where the film of the formula is 3 % of the roughness, on 801 nodes."""
-    film = at_lambda(rough_line(LINES[name], nodes=801), 0.03)
+    """Where the film of the formula is 3 % of the roughness: ridges float, on 1601 nodes.
+
+    On 801 nodes most of the load is on asperities, and a warning says that its share is not resolved.
+    """
+    film = at_lambda(rough_line(LINES[name], nodes=1601), 0.03)
     assert film.converged
-    assert film.share < 0.3
+    assert film.share < 0.05
 
 
 @pytest.mark.slow

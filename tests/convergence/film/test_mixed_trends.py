@@ -10,10 +10,13 @@ from tests.helpers.mixed_films import gaussian, mixed_film, rough_line, rough_po
 ROUGH_BALL = gaussian("100 nm", "34 um")
 
 
+SPEEDS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1)
+
+
 @pytest.fixture(scope="module")
 def by_speed():
     """Films of one point contact from hardly any oil to no contact."""
-    return [mixed_film(rough_point(ROUGH_BALL, speed=speed)) for speed in (3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1)]
+    return [mixed_film(rough_point(ROUGH_BALL, speed=speed)) for speed in SPEEDS]
 
 
 @pytest.mark.slow
@@ -56,21 +59,13 @@ BOUNDARY_FILMS = (5e-9, 2e-9, 1e-9, 0.5e-9)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("case", "part"),
-    [
-        pytest.param(
-            rough_line(gaussian("200 nm", "20 um", seed=4), nodes=1601, speed=1.4e-3), 1.0 / 20.0, id="line"
-        ),
-        pytest.param(rough_point(gaussian("100 nm", "30 um"), speed=1.2e-2), 0.25, id="point"),
-    ],
-)
-def test_thinner_boundary_films_change_less_and_less(case, part):
-    """Load share of boundary films of 5, 2, 1 and 0.5 nm in two light contacts: falling, by less each time.
+def test_thinner_boundary_films_change_less_and_less():
+    """Load share of boundary films of 5, 2, 1 and 0.5 nm in a ball's contact: falling, by less each time.
 
     The thinner the boundary film, the longer the oil keeps the surfaces apart. The last halving changes the
-    share by a ``part`` of it. The film outside the spots has converged by far.
+    share by less than a quarter of it. The film outside the spots has converged by far.
     """
+    case = rough_point(gaussian("100 nm", "30 um"), speed=6e-3)
     films = [mixed_film(case, boundary_film=boundary_film) for boundary_film in BOUNDARY_FILMS]
     assert all(film.converged for film in films)
     share = np.array([film.share for film in films])
@@ -78,9 +73,31 @@ def test_thinner_boundary_films_change_less_and_less(case, part):
     falls = -np.diff(share)
     assert np.all(falls > 0.0)
     assert np.all(np.diff(falls) < 0.0)
-    assert falls[-1] < part * share[-1]
+    assert falls[-1] < 0.25 * share[-1]
     outside = np.array([film.film_outside for film in films])
     assert abs(outside[-1] / outside[-2] - 1.0) < 0.02
+
+
+@pytest.mark.slow
+def test_ridges_float_or_let_their_boundary_film_pass():
+    """A line whose ridges touch for boundary films of 5 and 2 nm, and float over those of 1 and 0.5 nm.
+
+    No oil passes beside a ridge. Where ridges float, the film behind them is the one of all thin boundary
+    films. Where they touch, little more than the boundary film passes, valleys are not full of oil, and the
+    asperities carry the load.
+    """
+    case = rough_line(gaussian("200 nm", "20 um", seed=4), nodes=1601, speed=1.4e-3)
+    *dry, thin, thinner = (mixed_film(case, boundary_film=boundary_film) for boundary_film in BOUNDARY_FILMS)
+    assert all(film.converged for film in (*dry, thin, thinner))
+    for film, boundary_film in zip(dry, BOUNDARY_FILMS, strict=False):
+        final, fraction = film.last.final, film.last.fraction
+        carried = (final.coefficients.density * fraction * film.gap)[
+            film.zone
+        ] * film.problem.scales.thickness
+        assert film.share > 0.9
+        assert boundary_film < np.median(carried) < 2.0 * boundary_film
+    assert thinner.share <= thin.share < 0.01
+    assert thinner.film_outside == pytest.approx(thin.film_outside, rel=0.02)
 
 
 @pytest.mark.slow

@@ -40,7 +40,7 @@ LONG = [
 def test_defaults_are_those_of_the_paper():
     case = Case.from_dict(TABLE)
     assert (case.electric.potential_1, case.electric.potential_2) == (-1.0, 1.0)
-    assert (case.grid.nodes, case.grid.inlet, case.grid.outlet) == (None, -4.0, 2.0)
+    assert (case.grid.nodes, case.grid.ends) == (None, (-4.0, 2.0))
     assert case.grid.wedge == "third-order"
     assert case.grid.field_range == (-1.25, 1.25)
     assert case.lubricant.ambient_pressure == 1e5

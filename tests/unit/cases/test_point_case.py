@@ -45,13 +45,13 @@ NO_MODULUS = {"reduced_modulus": None}
 
 def test_grid_of_a_point_has_its_own_defaults():
     grid = point().grid
-    assert (grid.nodes, grid.inlet, grid.outlet) == (None, -4.5, 1.5)
+    assert (grid.nodes, grid.ends) == (None, (-4.5, 1.5))
     assert (grid.field_range, grid.field_side) == ((-1.25, 1.25), 1.25)
     assert (grid.nodes_y, grid.side, grid.field_nodes, grid.field_nodes_y) == (None, None, None, None)
     part = point(grid={"nodes": 129}).grid
-    assert (part.nodes, part.inlet) == (129, -4.5)
+    assert (part.nodes, part.ends[0]) == (129, -4.5)
     line = Case.from_dict({"contact": PAPER_CONTACT, "lubricant": {"base": "paper"}}).grid
-    assert (line.nodes, line.inlet, line.field_side) == (None, -4.0, None)
+    assert (line.nodes, line.ends[0], line.field_side) == (None, -4.0, None)
 
 
 def test_parts_make_a_case_as_tables_do():

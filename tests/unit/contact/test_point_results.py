@@ -290,10 +290,12 @@ def test_domain_loss_is_about_the_true_one():
 
 
 LINE = {"contact": PAPER_CONTACT | {"entrainment_speed": 1.0}, "lubricant": {"base": "paper"}}
+# The domain is given, so that no larger one with other nodes is taken.
+OWN_DOMAIN = {"nodes": 65, "inlet": -4.5, "outlet": 1.5}
 STARTS = {
     "line": (Case.from_dict(LINE | {"grid": {"nodes": 401}}), 0.01),
-    "point": (point({"entrainment_speed": "4 m/s"}, grid={"nodes": 65}), 0.002),
-    "across": (point({"entrainment_speed": "4 m/s"}, grid={"nodes": 65, "nodes_y": 81}), 0.002),
+    "point": (point({"entrainment_speed": "4 m/s"}, grid=OWN_DOMAIN), 0.002),
+    "across": (point({"entrainment_speed": "4 m/s"}, grid=OWN_DOMAIN | {"nodes_y": 81}), 0.002),
 }
 
 

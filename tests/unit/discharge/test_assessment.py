@@ -96,8 +96,8 @@ def test_plates_with_nothing_given():
     known = {name for name, value in found.summary().items() if value is not None} - {"sources"}
     assert known == {
         "zone_position", "zone_size", "zone_over_half_width", "zone_over_largest_pit", "zone_over_mean_pit",
-        "capacitance", "capacitance_hertz", "capacitance_inlet", "capacitance_outlet", "capacitance_plate",
-        "capacitance_ratio", "capacitance_outlet_full", "capacitance_outlet_fingers",
+        "capacitance", "capacitance_beyond", "capacitance_hertz", "capacitance_inlet", "capacitance_outlet",
+        "capacitance_plate", "capacitance_ratio", "capacitance_outlet_full", "capacitance_outlet_fingers",
         "capacitance_outlet_layers", "capacitance_full", "capacitance_fingers", "capacitance_layers",
         "outlet",
     }  # fmt: skip

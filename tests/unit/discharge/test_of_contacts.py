@@ -13,6 +13,7 @@ from scipy.integrate import quad
 from ehlectric import Case, load, save, solve
 from ehlectric.contact.problems import field_problem
 from ehlectric.discharge.assessment import Assessment
+from ehlectric.discharge.capacitance import capacitance_beyond
 from ehlectric.discharge.outlet_filling import filled_permittivity, oil_fraction
 from ehlectric.field.line import solve_field
 from ehlectric.field.zones import part_widths
@@ -21,6 +22,7 @@ from ehlectric.tables.contact import result_rows
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.places import EXAMPLES
 from tests.reference.field import near
+from tests.reference.gaps import line_gap, point_gap
 from tests.unit.cases.test_point_case import point
 
 LAWS = {
@@ -290,7 +292,8 @@ def test_rows_of_the_table(solved):
     breakdown, unit = line_rows["breakdown voltage"]
     assert (breakdown, unit[:2]) == (f"{found.breakdown_voltage:.4g}", "V,")
     assert "63.2 %" in unit
-    assert line_rows["capacitance of the whole film"] == (f"{found.capacitance * 1e9:.4g}", "nF/m")
+    whole, unit = line_rows["capacitance of the whole film"]
+    assert (whole, unit[:5]) == (f"{found.capacitance * 1e9:.4g}", "nF/m,")
     assert line_rows["energy of a discharge"] == (f"{found.discharge_energy * 1e9:.4g}", "nJ")
     diameter, unit = line_rows["diameter of the pit it melts"]
     assert (diameter, unit[:2]) == (f"{found.pit_diameter * 1e6:.4g}", "µm")
@@ -302,7 +305,7 @@ def test_rows_of_the_table(solved):
     )  # 8.854 pF/m 2.4
     constant = rows(result_rows(solved("point", LAWS["constant"])))
     assert constant["breakdown voltage"][1].endswith("15 V/µm")
-    assert constant["capacitance of the whole film"][1] == "pF"
+    assert constant["capacitance of the whole film"][1].startswith("pF, a domain twice as large would add")
     assert constant["capacitance of the sides"][1] == "pF"
     assert "charge relaxation time of the oil" not in constant
     assert "energy of a discharge" not in constant
@@ -335,3 +338,35 @@ def test_valleys_behind_a_rough_exit_are_filled_by_the_oil_that_leaves_it():
     expected = np.trapezoid(epsilon_0 * (eps / film.thickness)[outside], film.x[outside])
     assert found.capacitance_outlet == pytest.approx(expected, rel=0.03, abs=0.0)
     assert found.capacitance_outlet < 0.8 * found.capacitance_outlet_full
+
+
+def test_beyond_a_parabola():
+    """Between the domain and one twice as large, dx/h of x^2/(2 R) makes R/4 + R/2 = R (1/L1 + 1/L2)."""
+    x, radius = np.linspace(-4.0, 2.0, 7), 3.0
+    film = line_gap(x, np.maximum(x**2 / (2.0 * radius), 0.1))
+    expected = 2.4 * epsilon_0 * radius * (1.0 / 4.0 + 1.0 / 2.0)
+    assert capacitance_beyond(film, 2.4) == near(expected, 1e-12)
+
+
+def test_beyond_a_paraboloid():
+    """There dA/h makes 4 pi ln(2) sqrt(Rx Ry), whatever the sides of the domain are."""
+    x, y = np.linspace(-4.0, 2.0, 1201), np.linspace(-3.0, 3.0, 1201)
+    gap = x[:, np.newaxis] ** 2 / (2.0 * 2.0) + y**2 / (2.0 * 5.0)
+    found = capacitance_beyond(point_gap(x, y, np.maximum(gap, 1e-3)), 2.4)
+    expected = 2.4 * epsilon_0 * 4.0 * math.pi * math.log(2.0) * math.sqrt(2.0 * 5.0)
+    assert found == pytest.approx(expected, rel=1e-5, abs=0.0)
+
+
+@pytest.mark.parametrize("geometry", ["line", "point"])
+def test_a_domain_twice_as_large_has_what_is_told_of_it(geometry):
+    """The elastic gap grows faster than the square: by a factor 6 and not 4 from two half-widths to four."""
+    if geometry == "line":
+        inner, outer = {"nodes": 601}, {"inlet": -8.0, "outlet": 4.0, "nodes": 1201}
+        cases = [line({}, grid=grid) for grid in (inner, outer)]
+    else:
+        inner = {"nodes": 65, "inlet": -4.5, "outlet": 1.5, "side": 3.0}
+        outer = {"nodes": 129, "inlet": -9.0, "outlet": 3.0, "side": 6.0}
+        cases = [point({"entrainment_speed": "4 m/s"}, grid=grid, discharge={}) for grid in (inner, outer)]
+    small, large = (solve(case).discharge for case in cases)
+    added = large.capacitance_full - small.capacitance_full
+    assert 0.7 * small.capacitance_beyond < added < small.capacitance_beyond

@@ -72,12 +72,12 @@ def lies_as_the_case_has_it(table, shape, surface, ratio):
     motion, speed = TransientContact.of(case), SPEEDS[ratio][surface - 1]
     grid = case.grid
     # The length of the domain at its own speed.
-    assert motion.schedule.coincident == pytest.approx((grid.outlet - grid.inlet) / abs(speed), rel=1e-14)
-    x = np.linspace(grid.inlet, grid.outlet, 101)
+    assert motion.schedule.coincident == pytest.approx(grid.length / abs(speed), rel=1e-14)
+    x = np.linspace(*grid.ends, 101)
     axes = (x, np.linspace(-3.0, 3.0, 41)) if table is POINT else (x,)
     expected = of_case(case, *axes)
     # But the front, one half-width at the far end.
-    behind = x <= grid.outlet - 1.0 if speed > 0.0 else x >= grid.inlet + 1.0
+    behind = x <= grid.ends[1] - 1.0 if speed > 0.0 else x >= grid.ends[0] + 1.0
     found = motion.roughness.heights(motion.schedule.coincident, *axes)
     largest = np.max(np.abs(expected))
     assert largest > 0.0
@@ -90,15 +90,15 @@ def lies_as_the_case_has_it(table, shape, surface, ratio):
 def test_nothing_is_there_at_first(table, shape, ratio):
     case = moving(table, {SRR: ratio}, **rough((1, shape), (2, shape)), motion={"passes": 2.0})
     motion = TransientContact.of(case)
-    x = np.linspace(case.grid.inlet, case.grid.outlet, 101)
+    x = np.linspace(*case.grid.ends, 101)
     axes = (x, np.linspace(-3.0, 3.0, 5)) if table is POINT else (x,)
     assert not np.any(motion.roughness.heights(0.0, *axes))
     assert not np.any(motion.moving_gap(0.0, x, np.linspace(-3.0, 3.0, 5) if table is POINT else np.zeros(1)))
     # And soon after something at the ends from which it comes, and nowhere else.
     soon = motion.roughness.heights(0.05, *axes)
     for surface, speed in enumerate(SPEEDS[ratio]):
-        near = x <= -4.0 + 0.05 * speed if speed > 0.0 else x >= case.grid.outlet + 0.05 * speed
-        near = x <= case.grid.inlet + 0.05 * speed if speed > 0.0 else near
+        near = x <= -4.0 + 0.05 * speed if speed > 0.0 else x >= case.grid.ends[1] + 0.05 * speed
+        near = x <= case.grid.ends[0] + 0.05 * speed if speed > 0.0 else near
         assert np.any(soon[surface][near])
         assert not np.any(soon[surface][~near])
 
@@ -127,11 +127,11 @@ def test_two_surfaces_travel_each_at_its_own_speed(table, ratio, part):
     case = moving(table, {SRR: ratio}, **rough((1, BUMP), (2, BUMP)), motion={"passes": 1.0})
     motion = TransientContact.of(case)
     assert motion.schedule.end == 6.0
-    x = np.linspace(case.grid.inlet, case.grid.outlet, 6001)
+    x = np.linspace(*case.grid.ends, 6001)
     heights = motion.roughness.heights(6.0 * part, *((x, np.zeros(1)) if table is POINT else (x,)))
     for surface, speed in enumerate(SPEEDS[ratio]):
         top = speed * 6.0 * part - math.copysign(6.0, speed)
-        if case.grid.inlet < top < case.grid.outlet - 1.0:
+        if case.grid.ends[0] < top < case.grid.ends[1] - 1.0:
             found = heights[surface].ravel()
             assert x[np.argmax(found)] == pytest.approx(top, abs=1e-3)
             assert np.max(found) == pytest.approx(5e-8, rel=1e-4)
@@ -153,7 +153,7 @@ def test_a_surface_at_rest_stays(table):
     """Surface 2, with its waves; only the bump of surface 1 moves, twice as fast as the mean."""
     case = moving(table, {SRR: 2.0}, **rough((1, BUMP), (2, WAVES)))
     motion = TransientContact.of(case)
-    x, y = np.linspace(case.grid.inlet, case.grid.outlet, 61), np.linspace(-3.0, 3.0, 5)
+    x, y = np.linspace(*case.grid.ends, 61), np.linspace(-3.0, 3.0, 5)
     axes = (x, y) if table is POINT else (x,)
     resting = of_case(case, *axes)[1]
     for time in (0.0, 1.0, 3.0, 6.0):
@@ -200,17 +200,18 @@ def test_a_random_profile_is_as_long_as_it_travels(ratio):
             np.testing.assert_allclose(found, expected, rtol=0.0, atol=2e-2 * 1e-8 * 3.0)
     fast, slow = SPEEDS[ratio]
     grid = motion.travelled.grid
-    assert grid.inlet == -4.0 - max(fast * 30.0, slow * 30.0) + 6.0
-    assert grid.outlet == (2.0 if slow > 0.0 else 2.0 + 2.0 * 30.0 - 6.0)
+    assert grid.ends[0] == -4.0 - max(fast * 30.0, slow * 30.0) + 6.0
+    assert grid.ends[1] == (2.0 if slow > 0.0 else 2.0 + 2.0 * 30.0 - 6.0)
 
 
 def test_what_moves_is_looked_at_as_finely_as_the_grid():
     motion = TransientContact.of(moving(LINE, motion={"passes": 2.5}))
     grid = motion.travelled.grid
     # The domain and one and a half beside it, 64 intervals each six half-widths.
-    assert (grid.inlet, grid.outlet, grid.nodes) == (-13.0, 2.0, 161)
+    assert (grid.ends, grid.nodes) == ((-13.0, 2.0), 161)
     same = TransientContact.of(moving(LINE, motion={"passes": 0.5}))
-    assert same.travelled.grid == same.case.grid
+    assert same.travelled.grid.ends == same.case.grid.ends
+    assert same.travelled.grid.nodes == same.case.grid.nodes
 
 
 @each(

@@ -273,11 +273,17 @@ _FIELD_OF_LINE = replace(
     ),
 )
 
-_IN_WIDTHS = "in half-widths of the dry contact"
+_IN_WIDTHS = "in half-widths of the dry contact; chosen for the film where it is empty"
 
 
 _SIDE = Field(
-    "grid.side", "Distance of the sides", "", 1.5, 10.0, note="in semi-axes of the dry contact, across"
+    "grid.side",
+    "Distance of the sides",
+    "",
+    1.5,
+    10.0,
+    note="in semi-axes of the dry contact, across; chosen for the film where it is empty",
+    optional=True,
 )
 
 
@@ -305,8 +311,8 @@ def _grid(label: str, ends: tuple[float, float], nodes: int, *more: Field) -> Gr
                 note="the grid is refined until its estimate is below this",
                 when=_refined,
             ),
-            Field("grid.inlet", "Start of the domain", "", -10.0, -2.0, note=_IN_WIDTHS),
-            Field("grid.outlet", "End of the domain", "", 1.2, 4.0, note=_IN_WIDTHS),
+            Field("grid.inlet", "Start of the domain", "", -10.0, -2.0, note=_IN_WIDTHS, optional=True),
+            Field("grid.outlet", "End of the domain", "", 1.2, 4.0, note=_IN_WIDTHS, optional=True),
             *more,
         ),
         opened=False,

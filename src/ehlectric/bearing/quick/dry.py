@@ -253,11 +253,11 @@ def _solution(quick: QuickContact, outside: float, mismatch: float) -> ContactSo
 def _domain(contact: Contact, grid: Grid | None) -> tuple[float, float, float]:
     """Ends along entrainment and side of the domain in semi-axes: of a grid, or the default ones."""
     if isinstance(contact, RollerContact):
-        return (*LINE, 1.0) if grid is None else (grid.inlet, grid.outlet, 1.0)
+        return (*LINE, 1.0) if grid is None else (*grid.ends, 1.0)
     if grid is None:
         return (*POINT, contact.conditions.side)
     assert grid.side is not None
-    return grid.inlet, grid.outlet, grid.side
+    return *grid.ends, grid.side
 
 
 def _around(contacts: Sequence[QuickContact]) -> Iterator[tuple[float, float]]:

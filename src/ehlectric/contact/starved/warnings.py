@@ -130,5 +130,5 @@ def _of_meniscus(
         yield ResultWarning(
             "meniscus-at-edge",
             f"the oil fills the gap {where} at the edge of the domain; lower grid.inlet from "
-            f"{setup.grid.inlet:g}",
+            f"{setup.grid.ends[0]:g}",
         )

@@ -2,7 +2,8 @@
 
 A film that counts its cavities as full is a solution of the equations with a source of oil where it forms
 again behind a cavity. Newton's method starts from it without this source. If that does not converge, the
-source is taken away in steps.
+source is taken away in steps. If that does not help, both are tried with an upwind difference where the gap
+closes steeply, which is less accurate and converges more often.
 """
 
 from __future__ import annotations
@@ -49,6 +50,8 @@ class Conserving:
         Largest number of Newton steps from a start.
     progress : callable or None
         Function that is called with (nodes, Newton step, residual) before every step.
+    first_order : bool
+        Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``.
     """
 
     fluid: Fluid
@@ -58,16 +61,22 @@ class Conserving:
     tolerance: float
     max_iterations: int
     progress: Progress | None = None
+    first_order: bool = False
 
     def near(self, state: State, filled: Mask) -> GridSolution:
         """Film from a state that is likely to be close, with the nodes (nx, ny) that oil fills in it."""
         return self._solved(self.levels, state, filled, NEAR_DAMPING, self.tolerance, self.max_iterations)
 
     def from_full(self, solution: GridSolution, *, thorough: bool) -> Iterator[GridSolution]:
-        """Films from a converged one that counts its cavities as full: at once, and ``thorough`` in steps."""
+        """Films from a converged one that counts its cavities as full: at once, and ``thorough`` in steps.
+
+        They end with the first that converges.
+        """
         yield (found := self.near(solution.state, solution.final.full_film))
         if thorough and found.status != "converged":
-            yield self._in_steps(solution)
+            yield (found := self._in_steps(solution))
+        if found.status != "converged" and not self.first_order:
+            yield from replace(self, first_order=True).from_full(solution, thorough=thorough)
 
     def _in_steps(self, solution: GridSolution) -> GridSolution:
         """Film from which the oil that its cavities make is taken away in steps."""
@@ -86,7 +95,7 @@ class Conserving:
 
     def _made(self, solution: GridSolution) -> Array:
         """Oil (nx, ny) that appears at the nodes of a film which counts its cavities as full."""
-        supply = flooded_inlet(self.levels[0], self.order)
+        supply = flooded_inlet(self.levels[0], self.order, first_order=self.first_order)
         carried = Carried(supply, with_inlet(solution.final.full_film))
         thickness = np.maximum(solution.state.thickness, self.asperities.boundary_film)
         rows, _ = carried_rows(self.levels[0], solution.final.flow, thickness, carried)
@@ -114,5 +123,7 @@ class Conserving:
             max_iterations=most,
             first_damping=damping,
             progress=self.progress,
-            carried=Carried(flooded_inlet(levels[0], self.order), with_inlet(filled)),
+            carried=Carried(
+                flooded_inlet(levels[0], self.order, first_order=self.first_order), with_inlet(filled)
+            ),
         )

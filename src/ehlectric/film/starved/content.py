@@ -43,18 +43,31 @@ class Supply:
         Order of the wedge term where the film is filled: 1, 2 or 3.
     upwind : ndarray of bool, shape (nx, ny), or bool
         Nodes whose mass enters no formula of a higher order, although they may be filled.
+    steep : ndarray of bool, shape (nx, ny), or bool
+        Nodes to which the gap closes steeply; the mass behind them is the mean of two nodes.
+    first_order : bool
+        Whether steep nodes have an upwind difference in place of this mean.
     """
 
     mass: Array
     order: int
     upwind: Mask | bool = False
+    steep: Mask | bool = False
+    first_order: bool = False
+
+    @property
+    def low(self) -> Mask:
+        """Nodes whose mass is extrapolated nowhere."""
+        low: Mask = np.asarray(self.upwind) | np.asarray(self.steep)
+        return low
 
     def wedge(self, mesh: Mesh, filled: Mask) -> Stencil:
         """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""
-        return content_wedge(mesh, filled & ~np.asarray(self.upwind), self.order)
+        steep = filled & np.asarray(self.steep) & ~np.asarray(self.upwind)
+        return content_wedge(mesh, filled & ~self.low, self.order, steep)
 
     def bounded(self, full: Array) -> Supply:
-        """Supply with an upwind difference also where the full gap closes steeply, as at the edge of a spot.
+        """Supply with no extrapolation where the full gap closes steeply, as at the edge of a spot.
 
         The mass at the face behind a node is 3/2 m of the node minus 1/2 m of the node before, little where
         the gap falls steeply, and negative where it falls to less than a third from node to node: no oil
@@ -62,7 +75,11 @@ class Supply:
         """
         steep = np.zeros(full.shape, dtype=bool)
         steep[1:] = full[:-1] > _STEEP * full[1:]
-        return replace(self, upwind=self.upwind | steep) if steep.any() else self
+        if not steep.any():
+            return self
+        if self.first_order:
+            return replace(self, upwind=self.upwind | steep)
+        return replace(self, steep=self.steep | steep)
 
     def at_rupture(self, filled: Mask, mass: Array) -> Array:
         """Mass of oil (nx, ny) from the flow out of cavitated nodes, whose first one has a higher order.
@@ -73,17 +90,19 @@ class Supply:
         """
         if self.order == 1:
             return mass
-        high = ~filled & ~np.asarray(self.upwind)
+        high = ~filled & ~self.low
         high[:2] = False
-        high[1:] &= (filled & ~np.asarray(self.upwind))[:-1]
+        high[1:] &= (filled & ~self.low)[:-1]
         before = np.concatenate([mass[:1], mass[:-1]])
         return np.where(high, (2.0 * mass + before) / 3.0, mass)
 
     def injected(self, level: Level) -> Supply:
         """Supply on the next coarser grid, for its wedge term only."""
-        if isinstance(self.upwind, bool):
-            return self
-        return replace(self, upwind=level.inject(self.upwind.astype(float)) > 0.0)
+        upwind, steep = (
+            nodes if isinstance(nodes, bool) else level.inject(nodes.astype(float)) > 0.0
+            for nodes in (self.upwind, self.steep)
+        )
+        return replace(self, upwind=upwind, steep=steep)
 
 
 @dataclass(frozen=True)
@@ -134,12 +153,12 @@ class Runs:
         return reduced
 
 
-def content_wedge(mesh: Mesh, filled: Mask, order: int) -> Stencil:
+def content_wedge(mesh: Mesh, filled: Mask, order: int, steep: Mask | None = None) -> Stencil:
     """Upstream difference d/dX of the mass whose order falls to one where the film is not filled.
 
     The mass at a face is that of the formula of highest order whose nodes are all filled. Behind the first
-    filled node it is the mean of the two nodes, and behind a cavitated node that of this node. The end rows
-    are zero.
+    filled node and behind a steep one it is the mean of the two nodes, and behind a cavitated node that of
+    this node. The end rows are zero.
 
     Parameters
     ----------
@@ -149,6 +168,8 @@ def content_wedge(mesh: Mesh, filled: Mask, order: int) -> Stencil:
         Nodes where oil fills the gap.
     order : int
         Order of the wedge term where the film is filled: 1, 2 or 3.
+    steep : ndarray of bool, shape (nx, ny), optional
+        Further nodes, which are filled too, from which nothing is extrapolated.
 
     Returns
     -------
@@ -175,6 +196,9 @@ def content_wedge(mesh: Mesh, filled: Mask, order: int) -> Stencil:
         if order == 3:
             third = second & filled[2:]
             far[1:][third], near[1:][third], ahead[1:][third] = -0.125, 0.75, 0.375
+        if steep is not None:
+            behind = steep[:-1] & (filled | steep)[1:]
+            far[behind], near[behind], ahead[behind] = 0.0, 0.5, 0.5
     c = np.zeros((ALONG, *mesh.shape))
     c[0, 1:-1] = -far[:-1]
     c[1, 1:-1] = far[1:] - near[:-1]

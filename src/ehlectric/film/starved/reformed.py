@@ -114,9 +114,9 @@ def of_full_order(
     return found
 
 
-def flooded_inlet(level: Level, order: int) -> Supply:
-    """Supply of more oil than any gap takes, at the lines of a grid."""
-    return Supply(np.full(level.mesh.y.size, np.inf), order)
+def flooded_inlet(level: Level, order: int, *, first_order: bool = False) -> Supply:
+    """Supply of more oil than any gap takes, at the lines of a grid; ``first_order`` as in ``Supply``."""
+    return Supply(np.full(level.mesh.y.size, np.inf), order, first_order=first_order)
 
 
 def with_inlet(filled: Mask) -> Mask:
