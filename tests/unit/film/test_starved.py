@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
+from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import levels_of, nested_iteration
 from ehlectric.film.starved.content import Runs, Supply
 from ehlectric.film.starved.jacobian import StarvedJacobian
@@ -121,3 +122,15 @@ def test_first_layer_of_a_search_inverts_the_published_relation():
     for ratio in (0.1, 0.5, 0.9):
         part = first_layer(ratio, line=False)
         assert part / (1.0 + part**3) ** (1.0 / 3.0) == pytest.approx(ratio, rel=1e-12)
+
+
+@pytest.mark.parametrize(("first_order", "behind"), [(False, 0.25), (True, 0.3)])
+def test_mass_behind_a_steep_node(first_order, behind):
+    """The gap closes steeply from 1 to 0.3: behind flows the mean of 0.3 and 0.2, or 0.3.
+
+    Extrapolated from 1 and 0.3 it would be -0.05. Before, it is extrapolated from 1 and 1.
+    """
+    mass = np.array([[1.0], [1.0], [1.0], [0.3], [0.2]])
+    supply = Supply(np.array([np.inf]), 3, first_order=first_order).bounded(mass)
+    wedge = supply.wedge(Mesh.over(5, 0.0, 4.0), np.ones(mass.shape, dtype=bool))
+    assert wedge(mass)[3, 0] == pytest.approx(behind - 1.0, abs=1e-14)
