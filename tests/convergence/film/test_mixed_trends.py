@@ -65,7 +65,7 @@ def test_thinner_boundary_films_change_less_and_less():
     The thinner the boundary film, the longer the oil keeps the surfaces apart. The last halving changes the
     share by less than a quarter of it. The film outside the spots has converged by far.
     """
-    case = rough_point(gaussian("100 nm", "30 um"), speed=6e-3)
+    case = rough_point(gaussian("100 nm", "30 um"), speed=1.2e-2)
     films = [mixed_film(case, boundary_film=boundary_film) for boundary_film in BOUNDARY_FILMS]
     assert all(film.converged for film in films)
     share = np.array([film.share for film in films])
@@ -94,7 +94,7 @@ def test_ridges_float_or_let_their_boundary_film_pass():
         carried = (final.coefficients.density * fraction * film.gap)[
             film.zone
         ] * film.problem.scales.thickness
-        assert film.share > 0.9
+        assert film.share > 0.5
         assert boundary_film < np.median(carried) < 2.0 * boundary_film
     assert thinner.share <= thin.share < 0.01
     assert thinner.film_outside == pytest.approx(thin.film_outside, rel=0.02)

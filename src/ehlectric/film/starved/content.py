@@ -43,8 +43,9 @@ class Supply:
         Order of the wedge term where the film is filled: 1, 2 or 3.
     upwind : ndarray of bool, shape (nx, ny), or bool
         Nodes whose mass enters no formula of a higher order, although they may be filled.
-    steep : ndarray of bool, shape (nx, ny), or bool
-        Nodes to which the gap closes steeply; the mass behind them is the mean of two nodes.
+    steep : ndarray of bool, shape (nx, ny), or None
+        Nodes to which the gap closes steeply; the mass behind them is the mean of two nodes. None until a gap
+        is met.
     first_order : bool
         Whether steep nodes have an upwind difference in place of this mean.
     """
@@ -52,18 +53,20 @@ class Supply:
     mass: Array
     order: int
     upwind: Mask | bool = False
-    steep: Mask | bool = False
+    steep: Mask | None = None
     first_order: bool = False
 
     @property
     def low(self) -> Mask:
         """Nodes whose mass is extrapolated nowhere."""
-        low: Mask = np.asarray(self.upwind) | np.asarray(self.steep)
+        low: Mask = np.asarray(self.upwind) | (False if self.steep is None else self.steep)
         return low
 
     def wedge(self, mesh: Mesh, filled: Mask) -> Stencil:
         """Operator of the wedge term with given filled nodes, a mask (nx, ny); see ``content_wedge``."""
-        steep = filled & np.asarray(self.steep) & ~np.asarray(self.upwind)
+        steep = None
+        if self.steep is not None and not self.first_order:
+            steep = filled & self.steep & ~np.asarray(self.upwind)
         return content_wedge(mesh, filled & ~self.low, self.order, steep)
 
     def bounded(self, full: Array) -> Supply:
@@ -71,15 +74,14 @@ class Supply:
 
         The mass at the face behind a node is 3/2 m of the node minus 1/2 m of the node before, little where
         the gap falls steeply, and negative where it falls to less than a third from node to node: no oil
-        would enter the spot.
+        would enter the spot. The nodes are those of the first gap that is met, and stay while Newton's method
+        moves the gap: chosen anew in each step they would depend on the way to the solution.
         """
+        if self.steep is not None:
+            return self
         steep = np.zeros(full.shape, dtype=bool)
         steep[1:] = full[:-1] > _STEEP * full[1:]
-        if not steep.any():
-            return self
-        if self.first_order:
-            return replace(self, upwind=self.upwind | steep)
-        return replace(self, steep=self.steep | steep)
+        return replace(self, steep=steep)
 
     def at_rupture(self, filled: Mask, mass: Array) -> Array:
         """Mass of oil (nx, ny) from the flow out of cavitated nodes, whose first one has a higher order.
@@ -98,10 +100,11 @@ class Supply:
 
     def injected(self, level: Level) -> Supply:
         """Supply on the next coarser grid, for its wedge term only."""
-        upwind, steep = (
-            nodes if isinstance(nodes, bool) else level.inject(nodes.astype(float)) > 0.0
-            for nodes in (self.upwind, self.steep)
-        )
+        upwind, steep = self.upwind, self.steep
+        if not isinstance(upwind, bool):
+            upwind = level.inject(upwind.astype(float)) > 0.0
+        if steep is not None:
+            steep = level.inject(steep.astype(float)) > 0.0
         return replace(self, upwind=upwind, steep=steep)
 
 
