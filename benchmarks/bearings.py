@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 from benchmarks.measure import best, processor
-from ehlectric.bearing.accuracy import counted, film_error
+from ehlectric.bearing.accuracy import film_error
 from ehlectric.bearing.breakdown import breakdown_of
 from ehlectric.bearing.solution import BearingSolution, capacitance
 from ehlectric.bearing.solver import solve_bearing
@@ -75,7 +75,7 @@ def _left(solution: BearingSolution) -> str:
         sum(any(warning.code == "atlas-left" for warning in contact.warnings) for contact in contacts)
         for contacts in (
             [contact for curve in solution.curves for contact in curve.solutions],
-            [contact for curve in solution.curves for contact in counted(curve).solutions],
+            [contact for curve in solution.curves for contact in curve.counted.solutions],
         )
     )
     return f"{every}, {loaded} loaded"

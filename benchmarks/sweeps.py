@@ -20,7 +20,8 @@ from ehlectric.contact.solver import solve
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.results import SweepResults
-from ehlectric.sweep.store import Store, plan
+from ehlectric.sweep.plan import plan
+from ehlectric.sweep.store import Store
 
 # 500 points: the paper's contact at 25 speeds and 20 loads.
 POINTS = (25, 20)
