@@ -19,8 +19,8 @@ from ehlectric import run_sweep
 from ehlectric.contact.solver import solve
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.plan import plan
+from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.store import Store
 
 # 500 points: the paper's contact at 25 speeds and 20 loads.
