@@ -31,7 +31,7 @@ def outcome(tmp_path_factory):
 def test_the_summary_has_the_layer_and_the_meniscus(outcome):
     film = outcome.summary["film"]
     assert film["oil_layer"] == pytest.approx(LAYER, rel=1e-12)
-    inlet = CASE.grid.inlet * resolve(CASE).half_width
+    inlet = CASE.grid.ends[0] * resolve(CASE).half_width
     assert inlet < film["meniscus_least"] <= film["meniscus_before"] <= film["meniscus_largest"] < 0.0
     keys = MOTION_KEYS["line"]
     assert all(f"film.{name}" in keys for name in film)
