@@ -218,10 +218,7 @@ def without_regime(warnings: Iterable[ResultWarning]) -> tuple[ResultWarning, ..
     The films of light contacts are too thin by what their domain cuts off, which makes no margin too large:
     by 0.3 to 2.4 % under rollers, by more under balls that hardly press.
     """
-    left_out = (
-        *("regime", "breakdown-expected"),
-        *("inlet-too-short", "domain-too-small", "domain-far-too-small"),
-    )
+    left_out = {"regime", "breakdown-expected", "inlet-too-short", "domain-too-small", "domain-far-too-small"}
     return tuple(warning for warning in warnings if warning.code not in left_out)
 
 
