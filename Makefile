@@ -110,7 +110,8 @@ slow: $(VENV)/.test
 slow-1:
 	$(SLOW) $(FILM)
 
-slow-2:
+# With what is no test: the gallery of the documentation, and both packages.
+slow-2: docs packages
 	$(SLOW) $(REST) --ignore=$(FILM)
 
 slow-3:
@@ -119,8 +120,8 @@ slow-3:
 slow-4:
 	$(SLOW) $(OTHERS)
 
-# The browser's tests one at a time, and what is no test: the gallery of the documentation, and both packages.
-slow-5: docs packages
+# The browser's tests one at a time.
+slow-5: $(VENV)/.test
 	$(SLOW) -n 0 tests/browser
 
 thorough: $(VENV)/.test
