@@ -18,10 +18,9 @@ REFINE = 0.02
 _ALONG, _ACROSS, _BEHIND, _MOST = 10.0, 4.0, 1.0, FARTHEST["point"]
 
 # Domain of a roller's contact ahead of it and behind it, in the same lengths; it costs 0.3 to 1.2 % of the
-# film.
-# Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most, which
-# costs 2.5 % of the film and 1.3 % of the capacitance: with longer inlets the films of hardly loaded rollers
-# often did not converge.
+# film. Beyond a hundred half-widths the inlet has eight lengths, and three hundred half-widths at the most,
+# which costs 2.5 % of the film and 1.3 % of the capacitance: with longer inlets the films of hardly loaded
+# rollers often did not converge.
 _LINE_INLET, _LINE_OUTLET = 10.0, 2.0
 _LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, FARTHEST["line"][0]
 

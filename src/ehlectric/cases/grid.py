@@ -54,7 +54,7 @@ _LEAST_COLUMNS = 16
 _FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
 
 # Ends of the domain where they are not given, of a line and of a point contact; half-widths or semi-axes.
-_ENDS = {False: (-4.0, 2.0), True: (-4.5, 1.5)}
+DEFAULT_ENDS = {False: (-4.0, 2.0), True: (-4.5, 1.5)}
 
 # Defaults of a point contact's grid that a line contact does not have; lengths in semi-axes.
 _POINT_GRID: dict[str, Any] = {"field_side": 1.25}
@@ -146,7 +146,7 @@ class Grid(Table):
     @property
     def ends(self) -> tuple[float, float]:
         """Ends of the domain along entrainment, given or by default."""
-        inlet, outlet = _ENDS[self.of_point]
+        inlet, outlet = DEFAULT_ENDS[self.of_point]
         return inlet if self.inlet is None else self.inlet, outlet if self.outlet is None else self.outlet
 
     @property

@@ -142,7 +142,7 @@ def inputs_of(case: Case | Setup, conditions: Conditions | PointConditions) -> d
     if case.oil.temperature is not None:
         contact["temperature"] = case.oil.temperature
     inputs["contact"] = {"geometry": conditions.geometry} | contact
-    inputs["grid"] |= dict(zip(("inlet", "outlet"), case.grid.ends, strict=True))
+    inputs["grid"]["inlet"], inputs["grid"]["outlet"] = case.grid.ends
     inputs["grid"] |= {name: getattr(conditions, name) for name in kind.grid_keys}
     return inputs
 

@@ -273,7 +273,7 @@ _FIELD_OF_LINE = replace(
     ),
 )
 
-_IN_WIDTHS = "in half-widths of the dry contact; chosen for the film where it is empty"
+_IN_WIDTHS = "in half-widths of the dry contact; without ends and sides the domain suits the film"
 
 
 _SIDE = Field(
@@ -282,7 +282,7 @@ _SIDE = Field(
     "",
     1.5,
     10.0,
-    note="in semi-axes of the dry contact, across; chosen for the film where it is empty",
+    note="in semi-axes of the dry contact, across; without ends and sides the domain suits the film",
     optional=True,
 )
 

@@ -20,7 +20,7 @@ from ehlectric.bearing.ring_contacts import (
     around_balls,
     around_roller,
 )
-from ehlectric.cases.grid import Grid
+from ehlectric.cases.grid import DEFAULT_ENDS, Grid
 from ehlectric.contact.case_warnings import line_case_warnings, point_case_warnings
 from ehlectric.contact.setup import Setup
 from ehlectric.errors import ResultWarning
@@ -30,7 +30,7 @@ from ehlectric.lubricant.oil import Oil
 
 # Domain along entrainment, in semi-axes of a ball's contact or half-widths of a roller's: the default domain
 # of solved contacts, and that of the atlas.
-POINT, LINE = (-4.5, 1.5), (-4.0, 2.0)
+LINE, POINT = DEFAULT_ENDS[False], DEFAULT_ENDS[True]
 
 # Nodes along and across entrainment of a ball's contact, and along entrainment of a roller's.
 _NODES = 97, 65

@@ -95,8 +95,7 @@ class Conserving:
 
     def _made(self, solution: GridSolution) -> Array:
         """Oil (nx, ny) that appears at the nodes of a film which counts its cavities as full."""
-        supply = flooded_inlet(self.levels[0], self.order, first_order=self.first_order)
-        carried = Carried(supply, with_inlet(solution.final.full_film))
+        carried = self._carried(self.levels[0], solution.final.full_film)
         thickness = np.maximum(solution.state.thickness, self.asperities.boundary_film)
         rows, _ = carried_rows(self.levels[0], solution.final.flow, thickness, carried)
         return rows
@@ -123,7 +122,9 @@ class Conserving:
             max_iterations=most,
             first_damping=damping,
             progress=self.progress,
-            carried=Carried(
-                flooded_inlet(levels[0], self.order, first_order=self.first_order), with_inlet(filled)
-            ),
+            carried=self._carried(levels[0], filled),
         )
+
+    def _carried(self, level: Level, filled: Mask) -> Carried:
+        """Nodes (nx, ny) that oil fills, with those of the inlet edge, and a flooded inlet."""
+        return Carried(flooded_inlet(level, self.order, first_order=self.first_order), with_inlet(filled))
