@@ -114,8 +114,8 @@ def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
     return ResultWarning(
         "regime",
         f"the contact is in the isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz "
-        f"pressure are not meaningful scales; the film builds up over about {reach:.2g} {lengths}: check "
-        f"that grid.inlet is at most {-reach:.2g}",
+        f"pressure are not meaningful scales; the film builds up over about {reach:.2g} {lengths}: "
+        f"where grid.inlet is given it should be at most {-reach:.2g}",
     )
 
 
