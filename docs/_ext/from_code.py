@@ -30,12 +30,12 @@ from ehlectric.cases import contact as contact_inputs
 from ehlectric.cases import library
 from ehlectric.cases import roughness as roughness_inputs
 from ehlectric.cases import table as validation
+from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.input_keys import TABLES, descriptions
 from ehlectric.cases.library.bearing_catalogue import CatalogueBearing, bearing_catalogue
 from ehlectric.cases.library.grade import Grade
 from ehlectric.cases.library.sources import Source
 from ehlectric.cases.oils.laws import LAWS
-from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.commands.app import app as commands
 from ehlectric.errors import CODES
 from ehlectric.motion.run import run_motion
@@ -80,7 +80,7 @@ def _number(value: float) -> str:
     return f"{mantissa}e{int(exponent)}" if exponent else mantissa
 
 
-def _bounds(given: Quantity | Count) -> str:
+def _bounds(given: Amount | Count) -> str:
     low, high = given.least, given.most
     above, below = getattr(given, "above", low), getattr(given, "below", high)
     left = f"above {_number(above)}" if above > low else _number(low)
@@ -89,9 +89,9 @@ def _bounds(given: Quantity | Count) -> str:
 
 
 def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
-    """The Quantity, Quantities, Count, literal strings or table behind an annotation."""
+    """The Amount, Amounts, Count, literal strings or table behind an annotation."""
     for item in metadata:
-        if isinstance(item, Quantity | Quantities | Count | Grade):
+        if isinstance(item, Amount | Amounts | Count | Grade):
             return item
     if get_origin(annotation) is Literal:
         return get_args(annotation)
@@ -122,10 +122,10 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
         return "a string, or a whole number from 1"
     if isinstance(found, Grade):
         return f'{found.takes}, as `46` or `"ISO VG 46"`'
-    if isinstance(found, Quantities):
+    if isinstance(found, Amounts):
         return f"a list of {found.least} or more, each {_takes(name, found.each, pair=False)}"
-    if isinstance(found, Quantity | Count):
-        unit = f" {_unit(found.unit)}" if isinstance(found, Quantity) and found.unit else ""
+    if isinstance(found, Amount | Count):
+        unit = f" {_unit(found.unit)}" if isinstance(found, Amount) and found.unit else ""
         kind = "whole, " if isinstance(found, Count) else "two, each " if pair else ""
         return f"{kind}{_bounds(found)}{unit}: {found.reason}"
     if isinstance(found, tuple):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ehlectric.bearing.keys import BEARING_KEYS
-from ehlectric.cases.result_key import Keys
-from ehlectric.contact import keys as contact
-from ehlectric.drive.keys import DRIVE_KEYS
-from ehlectric.motion import keys as motion
+from ehlectric.quantities import contact_results as contact
+from ehlectric.quantities import motion_results as motion
+from ehlectric.quantities.bearing_results import BEARING_KEYS
+from ehlectric.quantities.drive_results import DRIVE_KEYS
+from ehlectric.quantities.quantity import Keys
 
 _DISCHARGE, _METER, _SURFACES = "discharge", "meter", "rough"
 # Tables of a drive that repeat the keys of its drive end.

@@ -12,10 +12,10 @@ from ehlectric.bearing.loads.geometry import ContactRadii, Geometry
 from ehlectric.cases import library
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.quantity import to_si
 from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.formulas import hertz_line as hertz
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.units import to_si
 
 # Geometry of the bearing: BallBearing or RollerBearing.
 G_co = TypeVar("G_co", bound=Geometry, covariant=True)

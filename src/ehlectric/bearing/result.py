@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.intermittency.capacitive_speed import capacitive_speed
-from ehlectric.bearing.keys import BEARING_KEYS, CONTACT_KEYS
 from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.shaft_voltage import shaft_voltage
@@ -16,11 +15,12 @@ from ehlectric.bearing.storage.dataset import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.result_key import key_of
-from ehlectric.cases.row import amount
-from ehlectric.cases.units import rpm
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.quantities.bearing_results import BEARING_KEYS, CONTACT_KEYS
+from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.rows import amount
+from ehlectric.quantities.units import rpm
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.values import is_number

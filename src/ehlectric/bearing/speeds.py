@@ -13,8 +13,8 @@ from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.units import rpm
 
 # Number of speeds in a geometric series.
 COUNT = 9

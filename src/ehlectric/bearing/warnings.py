@@ -33,11 +33,11 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.oils.resolution import viscosity_over_temperature
 from ehlectric.cases.oils.temperature import OilTemperature
-from ehlectric.cases.units import rpm
 from ehlectric.discharge.limits import field_warnings, strength_warnings
 from ehlectric.discharge.verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.viscosity_index import GRADE_WIDTH, LEAST_AT_100, viscosity_index
+from ehlectric.quantities.units import rpm
 
 # Speed factor n d_m, rotational speed times pitch diameter, above which a bearing needs a special design
 # [mm/min]. Catalogues state limiting speeds near half of it to all of it for oil lubrication.

@@ -27,12 +27,12 @@ from ehlectric.cases.meter import Meter
 from ehlectric.cases.motion import Motion
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.roughness import Roughness, check_geometry, find_files
-from ehlectric.cases.row import amount
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.own import SampledLaws
+from ehlectric.quantities.rows import amount
 from ehlectric.runtime.display import Tabled, headline
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.

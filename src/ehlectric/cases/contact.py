@@ -8,16 +8,16 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, model_validator
 
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.defaults import BOUNDARY_FILM
-from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 
-_Radius = Annotated[float, Quantity("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
-_SignedRadius = Annotated[float, Quantity("m", least=-1e3, most=1e3, reason="negative for a concave body")]
-_Modulus = Annotated[float, Quantity("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")]
-_Speed = Annotated[float, Quantity("m/s", least=-1e4, most=1e4, reason="surface speeds of machines")]
-_Surface = Annotated[float, Quantity("K", least=200.0, most=700.0, reason="absolute, of a body far below")]
+_Radius = Annotated[float, Amount("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
+_SignedRadius = Annotated[float, Amount("m", least=-1e3, most=1e3, reason="negative for a concave body")]
+_Modulus = Annotated[float, Amount("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")]
+_Speed = Annotated[float, Amount("m/s", least=-1e4, most=1e4, reason="surface speeds of machines")]
+_Surface = Annotated[float, Amount("K", least=200.0, most=700.0, reason="absolute, of a body far below")]
 
 
 def _material(name: str) -> str:
@@ -34,19 +34,19 @@ class Body(Table):
 
     youngs_modulus: _Modulus | None = None
     poissons_ratio: (
-        Annotated[float, Quantity("", above=-1.0, most=0.5, reason="0.5 is an incompressible body")] | None
+        Annotated[float, Amount("", above=-1.0, most=0.5, reason="0.5 is an incompressible body")] | None
     ) = None
     radius_x: _SignedRadius | None = None
     radius_y: _SignedRadius | None = None
     material: Annotated[str, AfterValidator(_material)] | None = None
     thermal_conductivity: (
-        Annotated[float, Quantity("W/m/K", least=0.05, most=3000.0, reason="from polymers to diamond")] | None
+        Annotated[float, Amount("W/m/K", least=0.05, most=3000.0, reason="from polymers to diamond")] | None
     ) = None
     heat_capacity: (
-        Annotated[float, Quantity("J/kg/K", least=100.0, most=5000.0, reason="of a solid, per mass")] | None
+        Annotated[float, Amount("J/kg/K", least=100.0, most=5000.0, reason="of a solid, per mass")] | None
     ) = None
     density: (
-        Annotated[float, Quantity("kg/m**3", least=500.0, most=23e3, reason="from polymers to osmium")] | None
+        Annotated[float, Amount("kg/m**3", least=500.0, most=23e3, reason="from polymers to osmium")] | None
     ) = None
 
 
@@ -99,43 +99,43 @@ class Contact(Table):
     reduced_modulus: _Modulus | None = None
     body_1: Body | None = None
     body_2: Body | None = None
-    load: (
-        Annotated[float, Quantity("N", least=1e-6, most=1e9, reason="a contact carries some load")] | None
-    ) = None
+    load: Annotated[float, Amount("N", least=1e-6, most=1e9, reason="a contact carries some load")] | None = (
+        None
+    )
     load_per_length: (
-        Annotated[float, Quantity("N/m", least=1e-2, most=1e9, reason="a contact carries some load")] | None
+        Annotated[float, Amount("N/m", least=1e-2, most=1e9, reason="a contact carries some load")] | None
     ) = None
     max_hertz_pressure: (
-        Annotated[float, Quantity("Pa", least=1e4, most=2e10, reason="twice what any solid carries")] | None
+        Annotated[float, Amount("Pa", least=1e4, most=2e10, reason="twice what any solid carries")] | None
     ) = None
     entrainment_speed: (
         Annotated[
             float,
-            Quantity("m/s", least=1e-9, most=1e4, reason="(u1 + u2)/2, positive along x"),
+            Amount("m/s", least=1e-9, most=1e4, reason="(u1 + u2)/2, positive along x"),
         ]
         | None
     ) = None
     temperature: (
-        Annotated[float, Quantity("K", least=200.0, most=700.0, reason="absolute, of the oil in the inlet")]
+        Annotated[float, Amount("K", least=200.0, most=700.0, reason="absolute, of the oil in the inlet")]
         | None
     ) = None
     temperature_1: _Surface | None = None
     temperature_2: _Surface | None = None
     slide_to_roll_ratio: (
-        Annotated[float, Quantity("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
+        Annotated[float, Amount("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
     ) = None
     speed_1: _Speed | None = None
     speed_2: _Speed | None = None
     boundary_film: (
-        Annotated[float, Quantity("m", least=0.0, most=20e-9, reason="a film that adheres to the surfaces")]
+        Annotated[float, Amount("m", least=0.0, most=20e-9, reason="a film that adheres to the surfaces")]
         | None
     ) = None
     boundary_friction: (
-        Annotated[float, Quantity("", least=0.0, most=2.0, reason="of sliding boundary films")] | None
+        Annotated[float, Amount("", least=0.0, most=2.0, reason="of sliding boundary films")] | None
     ) = None
 
     hardness: (
-        Annotated[float, Quantity("Pa", least=1e7, most=1e11, reason="that of metals is a few GPa")] | None
+        Annotated[float, Amount("Pa", least=1e7, most=1e11, reason="that of metals is a few GPa")] | None
     ) = None
 
     @property

@@ -6,13 +6,13 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.quantity import Quantities, Quantity
+from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
-_STRENGTH = Quantity("V/m", least=1e4, most=1e10, reason="of the film, not of the oil in bulk")
-_PRESSURE = Quantity("Pa", least=0.0, most=2e10, reason="in the film")
-_TEMPERATURE = Quantity("K", least=100.0, most=1000.0, reason="absolute, of the film")
+_STRENGTH = Amount("V/m", least=1e4, most=1e10, reason="of the film, not of the oil in bulk")
+_PRESSURE = Amount("Pa", least=0.0, most=2e10, reason="in the film")
+_TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the film")
 
 # Alternative keys of the dielectric strength, and of the variable of a strength table. A case gives the keys
 # of at most one row of each.
@@ -26,9 +26,9 @@ _OF_LENGTH = ("weibull", "external_capacitance", "peak_current", "pit")
 class StrengthTable(Table):
     """Dielectric strength over the pressure or the temperature of the film, interpolated linearly."""
 
-    pressure: Annotated[tuple[float, ...], Quantities(_PRESSURE, least=2)] | None = None
-    temperature: Annotated[tuple[float, ...], Quantities(_TEMPERATURE, least=2)] | None = None
-    strength: Annotated[tuple[float, ...], Quantities(_STRENGTH, least=2)]
+    pressure: Annotated[tuple[float, ...], Amounts(_PRESSURE, least=2)] | None = None
+    temperature: Annotated[tuple[float, ...], Amounts(_TEMPERATURE, least=2)] | None = None
+    strength: Annotated[tuple[float, ...], Amounts(_STRENGTH, least=2)]
 
     @property
     def over(self) -> Literal["pressure", "temperature"]:
@@ -62,9 +62,9 @@ class Weibull(Table):
     """Weibull law of breakdown, probability 1 - exp(-integral of (E/scale)^shape dA/reference_area)."""
 
     scale: Annotated[float, _STRENGTH]
-    shape: Annotated[float, Quantity("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
+    shape: Annotated[float, Amount("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
     reference_area: Annotated[
-        float, Quantity("m**2", least=1e-18, most=1.0, reason="at which the scale was measured")
+        float, Amount("m**2", least=1e-18, most=1.0, reason="at which the scale was measured")
     ]
 
 
@@ -73,10 +73,10 @@ class Pit(Table):
 
     efficiency: Annotated[
         float,
-        Quantity("", above=0.0, most=1.0, reason="part of the energy that melts one surface", fraction=True),
+        Amount("", above=0.0, most=1.0, reason="part of the energy that melts one surface", fraction=True),
     ]
     melting_energy: Annotated[
-        float, Quantity("J/m**3", least=1e8, most=1e12, reason="to heat and melt a volume of the surface")
+        float, Amount("J/m**3", least=1e8, most=1e12, reason="to heat and melt a volume of the surface")
     ]
 
 
@@ -89,19 +89,17 @@ class Discharge(Table):
     temperature: Annotated[float, _TEMPERATURE] | None = None
     outlet: Literal["full", "fingers", "layers"] = "full"
     conductivity: (
-        Annotated[
-            float, Quantity("S/m", least=1e-20, most=1e2, reason="of the lubricant, at its temperature")
-        ]
+        Annotated[float, Amount("S/m", least=1e-20, most=1e2, reason="of the lubricant, at its temperature")]
         | None
     ) = None
     external_capacitance: (
-        Annotated[float, Quantity("F", least=0.0, most=1.0, reason="discharged with the contact: the rotor")]
+        Annotated[float, Amount("F", least=0.0, most=1.0, reason="discharged with the contact: the rotor")]
         | None
     ) = None
-    length: Annotated[float, Quantity("m", least=1e-6, most=1e2, reason="of a line contact")] | None = None
-    peak_current: (
-        Annotated[float, Quantity("A", least=0.0, most=1e6, reason="through the contact")] | None
-    ) = None
+    length: Annotated[float, Amount("m", least=1e-6, most=1e2, reason="of a line contact")] | None = None
+    peak_current: Annotated[float, Amount("A", least=0.0, most=1e6, reason="through the contact")] | None = (
+        None
+    )
     pit: Pit | None = None
 
     @property

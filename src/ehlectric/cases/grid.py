@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.defaults import DEFAULT_ERROR
-from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
@@ -17,16 +17,16 @@ from ehlectric.errors import InputError
 class Electric(Table):
     """Potentials of the two surfaces, the lower one first, and what conducts where they touch."""
 
-    potential_1: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the lower surface")] = -1.0
-    potential_2: Annotated[float, Quantity("V", least=-1e7, most=1e7, reason="of the upper surface")] = 1.0
+    potential_1: Annotated[float, Amount("V", least=-1e7, most=1e7, reason="of the lower surface")] = -1.0
+    potential_2: Annotated[float, Amount("V", least=-1e7, most=1e7, reason="of the upper surface")] = 1.0
     resistivity: (
-        Annotated[float, Quantity("ohm*m", least=1e-9, most=1e6, reason="of the bodies, both alike")] | None
+        Annotated[float, Amount("ohm*m", least=1e-9, most=1e6, reason="of the bodies, both alike")] | None
     ) = None
     mean_free_path: (
-        Annotated[float, Quantity("m", least=0.0, most=1e-6, reason="of the electrons in the bodies")] | None
+        Annotated[float, Amount("m", least=0.0, most=1e-6, reason="of the electrons in the bodies")] | None
     ) = None
     tribofilm_resistance: (
-        Annotated[float, Quantity("ohm*m**2", least=0.0, most=1e6, reason="its resistivity times thickness")]
+        Annotated[float, Amount("ohm*m**2", least=0.0, most=1e6, reason="its resistivity times thickness")]
         | None
     ) = None
 
@@ -51,7 +51,7 @@ MOST_DEGREE = 40
 
 # Smallest number of film nodes in the field range that resolve the field.
 _LEAST_COLUMNS = 16
-_FieldEnd = Annotated[float, Quantity("", least=-100.0, most=100.0, reason="in half-widths")]
+_FieldEnd = Annotated[float, Amount("", least=-100.0, most=100.0, reason="in half-widths")]
 
 # Ends of the domain where they are not given, of a line and of a point contact; half-widths or semi-axes.
 DEFAULT_ENDS = {False: (-4.0, 2.0), True: (-4.5, 1.5)}
@@ -91,7 +91,7 @@ class Grid(Table):
     error: (
         Annotated[
             float,
-            Quantity("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
+            Amount("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
         ]
         | None
     ) = None
@@ -100,17 +100,14 @@ class Grid(Table):
         | None
     ) = None
     inlet: (
-        Annotated[float, Quantity("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] | None
+        Annotated[float, Amount("", least=-1000.0, below=-1.0, reason="ahead of the Hertz zone")] | None
     ) = None
-    outlet: Annotated[float, Quantity("", above=1.0, most=1000.0, reason="behind the Hertz zone")] | None = (
-        None
-    )
-    side: Annotated[float, Quantity("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
+    outlet: Annotated[float, Amount("", above=1.0, most=1000.0, reason="behind the Hertz zone")] | None = None
+    side: Annotated[float, Amount("", above=1.0, most=100.0, reason="beside the Hertz zone")] | None = None
     wedge: Literal["third-order", "second-order", "first-order"] = "third-order"
     field_range: tuple[_FieldEnd, _FieldEnd] = (-1.25, 1.25)
     field_side: (
-        Annotated[float, Quantity("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")]
-        | None
+        Annotated[float, Amount("", least=1e-3, most=100.0, reason="in semi-axes across entrainment")] | None
     ) = None
     field_nodes: (
         Annotated[
@@ -126,7 +123,7 @@ class Grid(Table):
     refine: (
         Annotated[
             float,
-            Quantity("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
+            Amount("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
         ]
         | None
     ) = None
@@ -333,6 +330,6 @@ class Solver(Table):
     """Stopping rule of the film solver."""
 
     tolerance: Annotated[
-        float, Quantity("", least=1e-11, most=1e-3, reason="of the largest scaled residual")
+        float, Amount("", least=1e-11, most=1e-3, reason="of the largest scaled residual")
     ] = 1e-9
     max_iterations: Annotated[int, Count(1, 1000, "Newton steps on each grid")] = 30

@@ -11,6 +11,7 @@ from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
+from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.coating import Coating as RingCoating
@@ -35,7 +36,6 @@ from ehlectric.cases.oils.laws import law_parameters
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.oils.over_temperature import ConductivityTable, PermittivityTable
 from ehlectric.cases.oils.temperature import OilTemperature
-from ehlectric.cases.quantity import Count, Quantities, Quantity
 from ehlectric.cases.roughness import Roughness
 from ehlectric.cases.table import Table, any_of, meant, nearest, table_of
 from ehlectric.errors import InputError
@@ -333,7 +333,7 @@ def _in_a_table(key: str) -> bool:
     return any(name in model.known_keys() for model in (Case, BearingCase, DriveCase))
 
 
-def number_of(field: FieldInfo) -> Quantity | Count | None:
+def number_of(field: FieldInfo) -> Amount | Count | None:
     """Quantity or count of a field that is a number; None for a text, a list or a choice.
 
     Examples
@@ -342,15 +342,15 @@ def number_of(field: FieldInfo) -> Quantity | Count | None:
     'm/s'
     """
     annotation = None if get_origin(field.annotation) is tuple else _annotation(field)
-    return None if isinstance(annotation, Quantities) else annotation
+    return None if isinstance(annotation, Amounts) else annotation
 
 
-def _annotation(field: FieldInfo) -> Quantity | Quantities | Count | None:
+def _annotation(field: FieldInfo) -> Amount | Amounts | Count | None:
     """Annotation of a field that is a number or a list of numbers; None for other fields."""
     parts = [field, *(part for part in get_args(field.annotation) if hasattr(part, "__metadata__"))]
     for part in parts:
         for item in getattr(part, "__metadata__", ()) or getattr(part, "metadata", ()):
-            if isinstance(item, Quantity | Quantities | Count):
+            if isinstance(item, Amount | Amounts | Count):
                 return item
     return None
 
@@ -382,11 +382,11 @@ def unit_of(key: str) -> str:
         annotation = _annotation(input_field(name))
     except InputError:
         return ""
-    each = annotation.each if isinstance(annotation, Quantities) else annotation
-    return each.unit if isinstance(each, Quantity) else ""
+    each = annotation.each if isinstance(annotation, Amounts) else annotation
+    return each.unit if isinstance(each, Amount) else ""
 
 
-def kind_of(key: str) -> Quantity | Count | None:
+def kind_of(key: str) -> Amount | Count | None:
     """Quantity or count of a dotted key that is a number of the case; None for every other key.
 
     Examples

@@ -8,8 +8,8 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.contact import Contact
-from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
@@ -24,7 +24,7 @@ FILLINGS = (("fill",), ("oil_radius",))
 
 
 @dataclass(frozen=True)
-class _Share(Quantity):
+class _Share(Amount):
     """Share of a gap that oil fills: a fraction, "oil" or "air"."""
 
     def parse(self, entry: object, *, written: bool = False) -> float:
@@ -42,10 +42,10 @@ class _Share(Quantity):
 class Coating(Table):
     """Insulating coating of one body, or of both bodies together, in series with the gap."""
 
-    thickness: Annotated[float, Quantity("m", least=1e-9, most=1e-2, reason="of a coating of both together")]
-    relative_permittivity: Annotated[float, Quantity("", least=1.0, most=1e4, reason="of the coating")]
+    thickness: Annotated[float, Amount("m", least=1e-9, most=1e-2, reason="of a coating of both together")]
+    relative_permittivity: Annotated[float, Amount("", least=1.0, most=1e4, reason="of the coating")]
     strength: (
-        Annotated[float, Quantity("V/m", least=1e4, most=1e10, reason="at which the coating breaks down")]
+        Annotated[float, Amount("V/m", least=1e4, most=1e10, reason="at which the coating breaks down")]
         | None
     ) = None
 
@@ -65,15 +65,15 @@ class Meter(Table):
         | None
     ) = None
     oil_radius: (
-        Annotated[float, Quantity("m", least=0.0, most=1e2, reason="from the contact to the edge of the oil")]
+        Annotated[float, Amount("m", least=0.0, most=1e2, reason="from the contact to the edge of the oil")]
         | None
     ) = None
-    length: Annotated[float, Quantity("m", least=1e-6, most=1e2, reason="across entrainment")] | None = None
+    length: Annotated[float, Amount("m", least=1e-6, most=1e2, reason="across entrainment")] | None = None
     parallel_capacitance: (
-        Annotated[float, Quantity("F", least=0.0, most=1e-3, reason="of holder, shields and cables")] | None
+        Annotated[float, Amount("F", least=0.0, most=1e-3, reason="of holder, shields and cables")] | None
     ) = None
     rq: (
-        Annotated[float, Quantity("m", least=0.0, most=1e-4, reason="of both surfaces in the loaded contact")]
+        Annotated[float, Amount("m", least=0.0, most=1e-4, reason="of both surfaces in the loaded contact")]
         | None
     ) = None
     coating: Coating | None = None

@@ -6,8 +6,8 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.grid import Grid
-from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
@@ -22,10 +22,10 @@ class Motion(Table):
     """
 
     passes: (
-        Annotated[float, Quantity("", above=0.0, most=1e4, reason="lengths of the domain at the mean speed")]
+        Annotated[float, Amount("", above=0.0, most=1e4, reason="lengths of the domain at the mean speed")]
         | None
     ) = None
-    duration: Annotated[float, Quantity("s", above=0.0, most=1e4, reason="of the motion")] | None = None
+    duration: Annotated[float, Amount("s", above=0.0, most=1e4, reason="of the motion")] | None = None
     steps: Annotated[int, Count(1, 100_000_000, "of time")] | None = None
     record: Annotated[int, Count(2, 100_000, "stored instants")] = 200
 

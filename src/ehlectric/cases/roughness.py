@@ -8,17 +8,18 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, model_validator
 
-from ehlectric.cases.quantity import Count, Quantity, length_unit
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.units import length_unit
 
-_Height = Annotated[float, Quantity("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
-_Length = Annotated[float, Quantity("m", least=1e-9, most=1.0, reason="of waves and features on a surface")]
+_Height = Annotated[float, Amount("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
+_Length = Annotated[float, Amount("m", least=1e-9, most=1.0, reason="of waves and features on a surface")]
 _LengthUnit = Annotated[str, AfterValidator(length_unit)]
-_Place = Annotated[float, Quantity("m", least=-1.0, most=1.0, reason="along entrainment, 0 at the centre")]
-_Side = Annotated[float, Quantity("m", least=-1.0, most=1.0, reason="across entrainment, 0 at the centre")]
+_Place = Annotated[float, Amount("m", least=-1.0, most=1.0, reason="along entrainment, 0 at the centre")]
+_Side = Annotated[float, Amount("m", least=-1.0, most=1.0, reason="across entrainment, 0 at the centre")]
 _Angle = Annotated[
-    float, Quantity("deg", least=-180.0, most=180.0, reason="from the x axis, counter-clockwise")
+    float, Amount("deg", least=-180.0, most=180.0, reason="from the x axis, counter-clockwise")
 ]
 
 # Required keys and optional keys of each generator.
@@ -49,25 +50,25 @@ class Roughness(Table):
     generator: str | None = None
     amplitude: _Height | None = None
     wavelength: _Length | None = None
-    phase: Annotated[float, Quantity("", least=-1e3, most=1e3, reason="in rad")] | None = None
+    phase: Annotated[float, Amount("", least=-1e3, most=1e3, reason="in rad")] | None = None
     rq: _Height | None = None
     correlation_length: _Length | None = None
     correlation_length_y: _Length | None = None
     orientation: _Angle | None = None
-    hurst: Annotated[float, Quantity("", least=0.0, most=1.0, reason="1 is the smoothest")] | None = None
+    hurst: Annotated[float, Amount("", least=0.0, most=1.0, reason="1 is the smoothest")] | None = None
     rolloff_wavelength: _Length | None = None
     shortest_wavelength: _Length | None = None
     seed: Annotated[int, Count(0, 2**32, "of the random numbers")] | None = None
     depth: _Height | None = None
     height: _Height | None = None
     width: _Length | None = None
-    rim: Annotated[float, Quantity("m", least=0.0, most=1e-3, reason="height of the rim")] | None = None
+    rim: Annotated[float, Amount("m", least=0.0, most=1e-3, reason="height of the rim")] | None = None
     position: _Place | None = None
     position_y: _Side | None = None
     form: Literal["none", "mean", "line", "parabola"] = "none"
     cutoff_long: _Length | None = None
     cutoff_short: _Length | None = None
-    trim: Annotated[float, Quantity("m", least=0.0, most=1.0, reason="taken off each end")] | None = None
+    trim: Annotated[float, Amount("m", least=0.0, most=1.0, reason="taken off each end")] | None = None
     rescale_rq: _Height | None = None
     truncate: _Height | None = None
     shift: _Place = 0.0

@@ -16,8 +16,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
 from ehlectric.cases.aliases import ALIASES
+from ehlectric.cases.amounts import WRITTEN
 from ehlectric.cases.depth import refuse_deep, refuse_long_keys
-from ehlectric.cases.quantity import WRITTEN
 from ehlectric.errors import InputError, short, shown
 from ehlectric.runtime.reading import read_text
 
@@ -285,7 +285,7 @@ def _takes(key: str, field: FieldInfo | None, model: type[Table]) -> str:
     if get_origin(field.annotation) is Literal:
         return f"one of {', '.join(map(repr, get_args(field.annotation)))}"
     for part in field.metadata:
-        # Quantities, whole numbers and names of laws say what they take.
+        # Amounts, whole numbers and names of laws say what they take.
         if takes := getattr(part, "takes", None):
             return str(takes)
     return "a text" if field.annotation is str else "a list"

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, ValidationInfo
 
-from ehlectric.cases.quantity import WRITTEN
+from ehlectric.cases.amounts import WRITTEN
 from ehlectric.errors import InputError, printable, shown, unseen
 
 # Longest title [characters].

@@ -15,10 +15,10 @@ from ehlectric.commands.terminal import print_rows, user_errors
 from ehlectric.errors import InputError, shown
 
 if TYPE_CHECKING:
-    from ehlectric.cases.row import Row
     from ehlectric.film.atlas.contact import ContactFilm
     from ehlectric.film.atlas.film import AtlasFilm
     from ehlectric.film.atlas.groups import Groups
+    from ehlectric.quantities.rows import Row
 
 # Options of a contact in numbers with units: name, SI unit.
 _UNITS = {"radius": "m", "radius_across": "m", "modulus": "Pa", "speed": "m/s"}
@@ -111,7 +111,7 @@ def _by_numbers(
 
 def _number(name: str, text: str | None, unit: str) -> float:
     """Number above zero in an SI unit."""
-    from ehlectric.cases.quantity import to_si
+    from ehlectric.quantities.units import to_si
 
     option = f"--{name.replace('_', '-')}"
     if text is None:
@@ -127,7 +127,7 @@ def _number(name: str, text: str | None, unit: str) -> float:
 
 def _rows(groups: Groups, film: AtlasFilm, found: ContactFilm | None) -> Iterator[Row]:
     """Rows of the film: in nm for a contact in SI units, else in Moes' unit."""
-    from ehlectric.cases.row import Row
+    from ehlectric.quantities.rows import Row
 
     yield Row("Moes' M", groups.moes_m)
     yield Row("Moes' L", groups.moes_l, note=", with the coefficient of the atlas")

@@ -23,8 +23,8 @@ from ehlectric.commands.terminal import (
 from ehlectric.errors import InputError
 
 if TYPE_CHECKING:
-    from ehlectric.cases.row import Row
     from ehlectric.drive.spice.subcircuit import Arc, Subcircuit
+    from ehlectric.quantities.rows import Row
     from ehlectric.runtime.progress import Progress
 
 # Writes the subcircuits, and the test bench if there is one; the files written.
@@ -185,8 +185,8 @@ def _named_as_options() -> Iterator[None]:
 
 def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
     """Rows of the table: the subcircuit and its parameters, and what it has at each speed of a table."""
-    from ehlectric.cases.row import Row, amount
-    from ehlectric.cases.units import rpm_text
+    from ehlectric.quantities.rows import Row, amount
+    from ehlectric.quantities.units import rpm_text
 
     yield Row("subcircuit", f"{subcircuit.name} shaft housing")
     for parameter in subcircuit.parameters():

@@ -20,8 +20,8 @@ from ehlectric.runtime.progress import Progress, silent
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ehlectric.cases.row import Row
     from ehlectric.discharge.verdict import Verdict
+    from ehlectric.quantities.rows import Row
     from ehlectric.runtime.outcome import RunOutcome
 
 

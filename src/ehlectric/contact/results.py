@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.cases.row import amount
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.solution import ConditionsT, FieldT, FilmT, Solution
@@ -20,6 +19,7 @@ from ehlectric.field.zones import Zone, contact_zones
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.formulas.film_line import Thickness
+from ehlectric.quantities.rows import amount
 from ehlectric.runtime.display import headline
 
 if TYPE_CHECKING:

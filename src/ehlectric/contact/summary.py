@@ -11,8 +11,8 @@ from ehlectric.contact.heat.summary import heat_summary
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Solution
-from ehlectric.contact.starved.keys import starved_summary
 from ehlectric.discharge.leakage import conductivity_of
+from ehlectric.film.accuracy.starved import Starvation
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored_warnings import texts_and_codes
@@ -86,7 +86,7 @@ def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "target_error": solution.case.grid.target,
         "solver": solution.film_solver,
     }
-    more |= starved_summary(film.starvation) | heat_summary(film.heated)
+    more |= _supply(film.starvation) | heat_summary(film.heated)
     return {name: getattr(film, name) for name in names} | more
 
 
@@ -168,3 +168,18 @@ def formulas_of(conditions: Conditions | PointConditions) -> Mapping[str, Thickn
     """Film thickness from each published formula [m], keyed by the name of the formula."""
     formulas = KINDS[conditions.geometry].formulas
     return {name: formula(conditions.contact) for name, formula in formulas.items()}
+
+
+def _supply(starvation: Starvation | None) -> dict[str, Any]:
+    """Key figures of the supply of oil, for the table ``film`` of a summary; empty without a supply."""
+    if starvation is None:
+        return {}
+    return {
+        "oil_layer": starvation.oil_layer,
+        "film_ratio": starvation.film_ratio,
+        "meniscus": starvation.meniscus,
+        "flooded": {
+            "minimum_thickness": starvation.flooded_minimum_thickness,
+            "central_thickness": starvation.flooded_central_thickness,
+        },
+    }

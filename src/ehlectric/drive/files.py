@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ehlectric.cases.drives.case import DriveCase
-from ehlectric.drive.keys import EVENT_COLUMNS, SPECTRUM_COLUMNS
+from ehlectric.quantities.drive_results import EVENT_COLUMNS, SPECTRUM_COLUMNS
 from ehlectric.runtime.checks.formats import check_format
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.files import Content, json_of, write_together

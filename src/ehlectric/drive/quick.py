@@ -9,8 +9,8 @@ from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.verdict import STRENGTH_UNKNOWN, Level, Verdict, ratio_text
-from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.verdict import SELDOM, most_by_law
+from ehlectric.quantities.drive_results import NAMES_OF_ENDS
 
 _RING = (
     "The grounding ring leads the charge of the shaft away, which the divider leaves out: "

@@ -13,13 +13,13 @@ import numpy as np
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
-from ehlectric.drive.keys import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.storage.dataset import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning
+from ehlectric.quantities.drive_results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.version import __version__

@@ -17,7 +17,6 @@ from ehlectric.drive.circuit.modes import Modes, modes_of
 from ehlectric.drive.circuit.motor import states_of, voltage_nodes
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
 from ehlectric.drive.discharges.states import Films, Segments
-from ehlectric.drive.keys import LIMITS
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.source.measured import measured_source
 from ehlectric.drive.source.modulation import steps_of
@@ -25,6 +24,7 @@ from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.source.waveform import Waveform
 from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.drive_results import LIMITS
 from ehlectric.runtime.progress import Progress, silent
 
 # Fundamental periods that are simulated where the case gives no duration, and periods before them in which

@@ -8,7 +8,6 @@ from typing import Any
 
 from ehlectric.bearing.quick.errors import formula_factor
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.cases.row import amount, number_text
 from ehlectric.discharge.laws import beside_limits
 from ehlectric.discharge.verdict import (
     DOUBTS,
@@ -18,10 +17,11 @@ from ehlectric.discharge.verdict import (
     assumption_of,
     unusable,
 )
-from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.statistics import FEW
 from ehlectric.drive.warnings import MOSTLY
 from ehlectric.errors import CODES, ResultWarning
+from ehlectric.quantities.drive_results import NAMES_OF_ENDS
+from ehlectric.quantities.rows import amount, number_text
 
 # Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,
 # where a drive that discharges does so thousands of times in a second.

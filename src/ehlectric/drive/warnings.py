@@ -11,7 +11,6 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_text, lubrication
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.cases.row import amount
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS, beside_limits
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.circuit.motor import oscillations
@@ -19,6 +18,7 @@ from ehlectric.drive.discharges.record import FILM, ON
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import FEW
 from ehlectric.errors import ResultWarning
+from ehlectric.quantities.rows import amount
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2

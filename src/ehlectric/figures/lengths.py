@@ -10,8 +10,8 @@ from matplotlib.ticker import ScalarFormatter
 from matplotlib.transforms import offset_copy
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.style import OfContact, figure_of
+from ehlectric.quantities.units import unit_for
 
 if TYPE_CHECKING:
     from matplotlib.axis import Axis

@@ -11,13 +11,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
 from ehlectric.figures.contact import line_maps as plot
 from ehlectric.figures.style import BODY, figure_of, new_panels
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
+from ehlectric.quantities.units import unit_for
 
 # Colours of the curves of one panel, by speed: distinct for colour-blind readers, and none so dark that a
 # black line on it would be lost.

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from ehlectric.cases.row import Row
 from ehlectric.errors import CODES, ResultWarning, Severity, printable
+from ehlectric.quantities.rows import Row
 from ehlectric.report.content import Table, Text, WarningLine, Warnings
 
 if TYPE_CHECKING:

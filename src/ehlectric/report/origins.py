@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
@@ -15,7 +16,6 @@ from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.input_keys import end_and_key, input_field, kind_of
 from ehlectric.cases.library.sources import KINDS, Source, sources_of
 from ehlectric.cases.oils.properties import Properties
-from ehlectric.cases.quantity import Quantity
 from ehlectric.errors import InputError, printable
 from ehlectric.figures.names import with_units_kept
 from ehlectric.runtime.values import is_number
@@ -222,7 +222,7 @@ def _values(folder: str, base: str, table: Mapping[str, Any]) -> dict[str, Any]:
     values = {}
     for key, value in table.items():
         kind = kind_of(f"{prefix}.{key}")
-        values[key] = kind.parse(value, written=True) if isinstance(kind, Quantity) else value
+        values[key] = kind.parse(value, written=True) if isinstance(kind, Amount) else value
     return values
 
 

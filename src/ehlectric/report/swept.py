@@ -11,8 +11,8 @@ import numpy as np
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.row import value_at
 from ehlectric.errors import InputError, printable
+from ehlectric.quantities.rows import value_at
 from ehlectric.report.content import Block, Section, Table, Text
 from ehlectric.report.drawn import SWEPT, pictures_of, swept_names
 from ehlectric.report.drives.assumptions import assumption_section

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlectric.bearing.measured.factors import bearing_factors
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import QUICK, Contacts
 from ehlectric.cases.case import Case
 from ehlectric.cases.measurements.factors import FilmFactors
 from ehlectric.cases.measurements.reading import Measurement, read_measurement
-from ehlectric.cases.quantity import Quantity
 from ehlectric.contact.measured.film import contact_factors
 from ehlectric.errors import InputError, shown
 from ehlectric.runtime.progress import Progress, silent
@@ -20,8 +20,8 @@ from ehlectric.runtime.progress import Progress, silent
 if TYPE_CHECKING:
     import pandas as pd
 
-_BACKGROUND = Quantity("F", least=0.0, most=1e-3, reason="in parallel with the bearing")
-_UNCERTAINTY = Quantity("", above=0.0, below=1.0, fraction=True, reason="relative, one standard deviation")
+_BACKGROUND = Amount("F", least=0.0, most=1e-3, reason="in parallel with the bearing")
+_UNCERTAINTY = Amount("", above=0.0, below=1.0, fraction=True, reason="relative, one standard deviation")
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ def film_factors(
     return contact_factors(case, rows, contacts=way, **options)
 
 
-def _parsed(quantity: Quantity, name: str, value: str | float, takes: str = "") -> float:
+def _parsed(quantity: Amount, name: str, value: str | float, takes: str = "") -> float:
     """Option in SI units; a text has its unit. ``takes`` says what the option of a command takes."""
     try:
         return quantity.parse(value)

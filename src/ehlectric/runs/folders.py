@@ -89,10 +89,10 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
 
 def _maps(folder: Path) -> Iterator[str]:
     """Names of the maps and lines of sweeps in a folder: files named by a key of a summary."""
-    from ehlectric.bearing.keys import BEARING_KEYS
-    from ehlectric.cases.result_key import key_of
-    from ehlectric.contact.keys import CONTACT_KEYS
-    from ehlectric.drive.keys import DRIVE_KEYS
+    from ehlectric.quantities.bearing_results import BEARING_KEYS
+    from ehlectric.quantities.contact_results import CONTACT_KEYS
+    from ehlectric.quantities.drive_results import DRIVE_KEYS
+    from ehlectric.quantities.quantity import key_of
 
     known = (*CONTACT_KEYS.values(), BEARING_KEYS, DRIVE_KEYS)
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():

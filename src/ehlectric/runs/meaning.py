@@ -19,9 +19,9 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW, QUICK
 from ehlectric.cases.case import Case
 from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.row import Row
-from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.rows import Row
+from ehlectric.quantities.units import rpm
 from ehlectric.sweep.inputs import Sweep
 
 if TYPE_CHECKING:

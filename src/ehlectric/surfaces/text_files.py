@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import length_unit, to_si
 from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.quantities.units import length_unit, to_si
 from ehlectric.surfaces.profiles import LEAST_POINTS
 
 # Most lines of a text, of which each is looked at: twice those of the longest profiles of instruments.

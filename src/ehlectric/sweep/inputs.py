@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import ValidationInfo, create_model, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
+from ehlectric.cases.amounts import WRITTEN, Amount, Count
 from ehlectric.cases.case import Case
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import (
@@ -21,7 +22,6 @@ from ehlectric.cases.drives.swept import (
     with_found_files,
 )
 from ehlectric.cases.input_keys import input_field, kind_of, number_of
-from ehlectric.cases.quantity import WRITTEN, Count, Quantity
 from ehlectric.cases.table import Table, nearest, read_toml
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, printable, short, shown
@@ -310,7 +310,7 @@ def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool)
 
 
 def _range(
-    key: str, table: Mapping[str, Any], number: Quantity | Count | None, design: str, *, written: bool = False
+    key: str, table: Mapping[str, Any], number: Amount | Count | None, design: str, *, written: bool = False
 ) -> tuple[Any, ...] | Range:
     """Values of a varied key between two ends, in SI units, or its range in a sobol design."""
     if number is None:
@@ -333,7 +333,7 @@ def _range(
             f"{key}.count", got=got, takes=f"how many values, a whole number from 2 to {MOST_POINTS}"
         )
     values = sweep_design.between(over, np.linspace(0.0, 1.0, count))
-    if isinstance(number, Quantity):
+    if isinstance(number, Amount):
         return tuple(values.tolist())
     rounded = tuple(np.floor(values + 0.5).astype(int).tolist())
     if design == "grid" and len(set(rounded)) < count:
@@ -343,7 +343,7 @@ def _range(
     return rounded
 
 
-def _over(key: str, table: Mapping[str, Any], number: Quantity | Count, *, written: bool) -> Range:
+def _over(key: str, table: Mapping[str, Any], number: Amount | Count, *, written: bool) -> Range:
     """Range of a varied key: its ends in SI units, and its spacing."""
     ends = []
     for name in ("from", "to"):
@@ -352,7 +352,7 @@ def _over(key: str, table: Mapping[str, Any], number: Quantity | Count, *, writt
         try:
             end = table[name]
             ends.append(
-                number.parse(end, written=written) if isinstance(number, Quantity) else number.parse(end)
+                number.parse(end, written=written) if isinstance(number, Amount) else number.parse(end)
             )
         except InputError as error:
             raise error.under(f"{key}.{name}") from None

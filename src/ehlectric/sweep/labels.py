@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.input_keys import end_and_key, kind_of, unit_of
 from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.oils.laws import law_parameters
-from ehlectric.cases.result_key import Keys, key_of
-from ehlectric.contact.keys import CONTACT_KEYS
-from ehlectric.drive.keys import DRIVE_KEYS, NAMES_OF_ENDS
-from ehlectric.motion.keys import MOTION_KEYS
+from ehlectric.quantities.bearing_results import BEARING_KEYS
+from ehlectric.quantities.contact_results import CONTACT_KEYS
+from ehlectric.quantities.drive_results import DRIVE_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.motion_results import MOTION_KEYS
+from ehlectric.quantities.quantity import Keys, key_of
 
 # Units without prefixes: none, angles, absolute temperatures and their inverse, and events per second.
 _PLAIN = ("", "deg", "K", "rad", "1/K", "1/s")
@@ -123,7 +123,7 @@ def label_of(key: str, case: SweptCase) -> Label:
     if own != key:
         return Label(key, "", unit_of(own))
     result = key_of(result_keys(case), key)
-    return Label(key, "", "") if result is None else Label(result.name or key, result.symbol, result.unit)
+    return Label(key, "", "") if result is None else Label(result.label or key, result.symbol, result.unit)
 
 
 def _counted_from_one(key: str) -> str:
@@ -153,7 +153,7 @@ def result_keys(case: SweptCase) -> Keys:
 
     Returns
     -------
-    mapping of str to ResultKey
+    mapping of str to Quantity
         Keys of a line or point contact, stationary or transient, of a bearing or of a drive.
     """
     if isinstance(case, BearingCase):
@@ -194,7 +194,7 @@ def scale_for(largest: float, unit: str) -> Scale:
     if unit.startswith("kg"):
         return Scale(1.0, _printed(unit))  # it has a prefix
     # Imported here because it imports matplotlib, which tables of names and units do not need.
-    from ehlectric.cases.quantity import unit_for
+    from ehlectric.quantities.units import unit_for
 
     if unit.startswith("1/"):
         # The prefix belongs to the unit in the denominator.

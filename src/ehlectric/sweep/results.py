@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.result_key import key_of
 from ehlectric.cases.table import nearest
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import InputError
+from ehlectric.quantities.quantity import key_of
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.sweep.columns import columns_of, dataset_of, numbers_of, unit_of_column
 from ehlectric.sweep.labels import label_of, result_keys

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array, IntArray, Mask
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import kind_of
-from ehlectric.cases.quantity import Count, Quantity
-from ehlectric.cases.row import value_at
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, short, shown
+from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of, main_value
 from ehlectric.sweep.results import Point, Status, SweepResults, as_number, flat
@@ -369,7 +369,7 @@ def _requested(key: str, text: str) -> float:
 def _si(key: str) -> str:
     """SI unit of a key of the case with a space before it; empty if it has none."""
     kind = kind_of(key)
-    unit = kind.unit if isinstance(kind, Quantity) else ""
+    unit = kind.unit if isinstance(kind, Amount) else ""
     return f" {unit}" if unit else ""
 
 

@@ -16,7 +16,6 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import QUICK
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import SweptCase
-from ehlectric.cases.row import value_at
 from ehlectric.discharge.verdict import (
     DOUBTS,
     Level,
@@ -25,6 +24,7 @@ from ehlectric.discharge.verdict import (
     ratio_text,
     strength_interval,
 )
+from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.labels import Scale, label_of
 from ehlectric.sweep.points import Point, SweepPoints

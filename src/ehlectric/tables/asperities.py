@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.spots.asperities import Asperities
 from ehlectric.contact.spots.warnings import share_text
+from ehlectric.quantities.rows import Row
 
 # Error of the oil balance below which it is not stated.
 _LEAST_ERROR = 1e-4

@@ -6,13 +6,14 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.bearing.keys import BEARING_KEYS
 from ehlectric.bearing.margin.sensitivity import OF_TABLE
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.row import Bound, Row, amount, amount_row, rows_of
-from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
+from ehlectric.quantities.bearing_results import BEARING_KEYS
+from ehlectric.quantities.quantity import Bound
+from ehlectric.quantities.rows import Row, amount, amount_row, rows_of
+from ehlectric.quantities.units import rpm_text
 from ehlectric.sweep.labels import Scale, scale_for
 from ehlectric.tables.bearing_asperities import duty_rows
 from ehlectric.tables.bearing_bounds import bounds_of

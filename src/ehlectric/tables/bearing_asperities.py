@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ehlectric.bearing.intermittency.words import OF_TIME, SELDOM, time_text
-from ehlectric.cases.row import Row
-from ehlectric.cases.units import rpm_text
+from ehlectric.quantities.rows import Row
+from ehlectric.quantities.units import rpm_text
 
 # Laws of the share of time of a contact, in words.
 _LAWS = {"clarke": "Clarke's fit over lambda", "greenwood_williamson": "the number of spots"}

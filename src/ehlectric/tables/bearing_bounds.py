@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ehlectric.cases.row import Bound
+from ehlectric.quantities.quantity import Bound
 
 # Breakdown voltages and margins. The films of a bearing are smooth, and mostly isothermal and fully flooded:
 # real films are thinner and break down at lower voltages.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ehlectric.cases.row import Row, amount_row
+from ehlectric.quantities.rows import Row, amount_row
 
 # Heat of a film factor in words.
 _HEAT: Mapping[object, str] = {

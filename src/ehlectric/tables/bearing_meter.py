@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ehlectric.bearing.keys import BEARING_KEYS
-from ehlectric.cases.row import Row, rows_of
+from ehlectric.quantities.bearing_results import BEARING_KEYS
+from ehlectric.quantities.rows import Row, rows_of
 from ehlectric.tables.bearing_bounds import bounds_of
 
 _COATING = "capacitance of the coating", "bearing.coating_capacitance", "pF"

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.row import Row
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.film.accuracy.max_pressure import UNRESOLVED
@@ -16,6 +15,7 @@ from ehlectric.formulas.film_line import regime as line_regime
 from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
 from ehlectric.formulas.film_point import regime as point_regime
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.rows import Row
 from ehlectric.tables.asperities import asperity_rows
 from ehlectric.tables.discharge import discharge_rows
 from ehlectric.tables.heat import heat_rows

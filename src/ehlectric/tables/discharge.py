@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ehlectric.cases.row import Row
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.discharge.breakdown import Breakdown, BreakdownZone
 from ehlectric.discharge.capacitance import Capacitances
 from ehlectric.discharge.energy import DischargeCosts
 from ehlectric.discharge.laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.discharge.leakage import Leakage
+from ehlectric.quantities.rows import Row
 
 # Unit of a capacitance by the geometry of the contact: a line has it per length.
 _CAPACITANCE = {"line": "nF/m", "point": "pF"}

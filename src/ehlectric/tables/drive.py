@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.bearing.accuracy import percent
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.row import UNITS, Row, number_text
-from ehlectric.drive.keys import DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.errors import printable
+from ehlectric.quantities.drive_results import DRIVE_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.rows import UNITS, Row, number_text
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -77,7 +77,7 @@ def prepared_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
         yield Row("edges per second", number_text(summary["source"]["edges_per_second"]), "1/s")
         yield Row("fundamental frequency", summary["source"]["fundamental_frequency"], "Hz")
     for key, value in summary["circuit"].items():
-        yield Row(f"capacitance {DRIVE_KEYS[f'circuit.{key}'].name}", value, "pF")
+        yield Row(f"capacitance {DRIVE_KEYS[f'circuit.{key}'].label}", value, "pF")
     yield Row("simulated time", summary["drive"]["duration"], "s")
     yield Row("remedies computed beside it", str(summary["drive"]["remedies"]))
     for end, place in NAMES_OF_ENDS.items():

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from ehlectric.cases.case import Case
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.row import Row, amount, amount_row
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.film.thermal.result import HeatedFilm
+from ehlectric.quantities.rows import Row, amount, amount_row
 
 # Names of the laws between shear stress and shear rate.
 RHEOLOGIES = {

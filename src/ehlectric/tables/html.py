@@ -14,11 +14,11 @@ from ehlectric.cases.changes import flattened
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import SweptCase
 from ehlectric.cases.measurements.factors import FilmFactors
-from ehlectric.cases.row import Row, suited
 from ehlectric.contact.results import ContactResult
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import ResultWarning, printable
 from ehlectric.motion.result import MotionResult
+from ehlectric.quantities.rows import Row, suited
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of, scale_for

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from ehlectric.cases.row import Row
 from ehlectric.errors import printable
+from ehlectric.quantities.rows import Row
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.measurements.average import RAISED, SCATTER, MeanFactor
 from ehlectric.cases.measurements.factors import FilmFactors
-from ehlectric.cases.row import Row, amount
-from ehlectric.cases.units import rpm
+from ehlectric.quantities.rows import Row, amount
+from ehlectric.quantities.units import rpm
 from ehlectric.tables.layout import table_of
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ehlectric.cases.row import Row
 from ehlectric.contact.meter.reading import MeterReading
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.quantities.rows import Row
 
 
 def meter_rows(result: Result | PointResult) -> Iterator[Row]:

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.row import Bound, Row, rows_of, value_at
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.spots.warnings import share_text
-from ehlectric.motion.keys import LINE_KEYS
 from ehlectric.motion.schedule import Schedule
+from ehlectric.quantities.motion_results import LINE_KEYS
+from ehlectric.quantities.quantity import Bound
+from ehlectric.quantities.rows import Row, rows_of, value_at
 from ehlectric.tables.contact import condition_rows
 
 # The film is isothermal and fully flooded: real films are thinner, so that their field is higher, and they

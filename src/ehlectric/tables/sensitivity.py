@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ehlectric.cases.row import Bound, Row
+from ehlectric.quantities.quantity import Bound
+from ehlectric.quantities.rows import Row
 from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults

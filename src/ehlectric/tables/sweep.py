@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from ehlectric.cases.row import Row
+from ehlectric.quantities.rows import Row
 from ehlectric.sweep.results import SweepResults
 
 # Maximum number of reasons that are shown; sweep.csv has all of them.

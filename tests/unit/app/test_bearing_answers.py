@@ -20,10 +20,10 @@ from ehlectric.app.compute.bearing_verdict import judged
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.bearing_speeds import OverSpeed, speed_rows
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.row import amount
-from ehlectric.cases.units import rpm
 from ehlectric.discharge.verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning
+from ehlectric.quantities.rows import amount
+from ehlectric.quantities.units import rpm
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text
 

@@ -22,9 +22,9 @@ from ehlectric.app.fields.rules import changed
 from ehlectric.app.fields.words import written_text
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import contact_start
-from ehlectric.cases.quantity import to_si
 from ehlectric.contact.solver import solve
 from ehlectric.errors import CODES, InputError
+from ehlectric.quantities.units import to_si
 from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import read_case, run_contact
 from ehlectric.runs.meaning import check

@@ -10,9 +10,9 @@ from ehlectric.app.compute.drives.answer import quick_answer, simulate
 from ehlectric.app.compute.drives.numbers import text_of
 from ehlectric.app.pages.starts import DRIVE
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.cases.row import number_text
 from ehlectric.drive.quick import expected, quick_drive
 from ehlectric.errors import CODES, InputError
+from ehlectric.quantities.rows import number_text
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.meaning import check
 

@@ -21,12 +21,12 @@ from ehlectric.app.fields.memory import Memory
 from ehlectric.app.fields.rules import changed, is_own, own_values
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import BEARING, DRIVE, drive_with
-from ehlectric.cases import units
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drives import case as drive_case
 from ehlectric.cases.drives import source as drive_source
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import describe, input_field, number_of
-from ehlectric.cases.quantity import Quantity
+from ehlectric.quantities import units
 from tests.helpers.each import each
 
 FIELDS = {field.key: field for group in DRIVE_GROUPS for field in group.fields}
@@ -53,13 +53,13 @@ def test_every_key_is_one_of_a_drive_file_and_is_described(key):
 @each("key", NUMBERS)
 def test_units_and_sliders_are_those_of_the_key(key):
     field, kind = FIELDS[key], number_of(input_field(key))
-    if isinstance(kind, Quantity) and field.unit not in ("", "%", "degC"):
+    if isinstance(kind, Amount) and field.unit not in ("", "%", "degC"):
         # Numbers of the form have twelve digits.
         expected = units.factor(field.unit, kind.unit)
         assert in_unit(f"1 {field.unit}", si_unit(field.unit)) == pytest.approx(expected, rel=5e-12)
     for place in (0.0, 0.37, 1.0):
         written = field.from_slider(place)
-        if isinstance(kind, Quantity):
+        if isinstance(kind, Amount):
             kind.parse(written, written=True)
         elif kind is not None:
             kind.parse(written)

@@ -10,11 +10,11 @@ from ehlectric.app.catalogue import choices
 from ehlectric.app.fields import BEARING_GROUPS, Field
 from ehlectric.app.fields.amounts import in_unit, si_unit
 from ehlectric.app.inputs import Inputs
-from ehlectric.cases import units
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.cases.library.grade import GRADES
-from ehlectric.cases.quantity import Quantity
+from ehlectric.quantities import units
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
 
@@ -35,7 +35,7 @@ def test_every_key_is_one_of_a_bearing_file(field):
 @each("field", NUMBERS, ids=by_key)
 def test_units_are_those_of_the_key(field):
     kind = number_of(input_field(field.key))
-    if isinstance(kind, Quantity):
+    if isinstance(kind, Amount):
         assert bool(field.unit) == bool(kind.unit)
     if field.unit not in ("", "%", "degC"):
         # The server reads units without the registry: both give the same factor, here in twelve digits.
@@ -53,7 +53,7 @@ def test_values_of_a_slider_are_allowed(field, place):
     kind = number_of(table)
     if kind is None:
         case_of_dict(EXAMPLE.changed({field.key: written}).table, written=True)
-    elif isinstance(kind, Quantity):
+    elif isinstance(kind, Amount):
         kind.parse(written, written=True)
     else:
         kind.parse(written)

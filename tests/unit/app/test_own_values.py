@@ -12,7 +12,7 @@ from ehlectric.app.fields.oil import EXPANSION, OIL, assumed
 from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.any_case import case_of_dict
-from ehlectric.cases.quantity import to_si
+from ehlectric.quantities.units import to_si
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
 

@@ -9,9 +9,9 @@ from ehlectric.app.fields import BEARING_GROUPS
 from ehlectric.app.fields.amounts import in_unit, si_unit
 from ehlectric.app.fields.words import in_field_unit, shown_text, with_signs, written_text
 from ehlectric.app.inputs import Inputs
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.input_keys import input_field, number_of
-from ehlectric.cases.quantity import Quantity
 from ehlectric.errors import InputError
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
@@ -34,7 +34,7 @@ def bounds(text):
 def test_bounds_of_an_error_are_in_the_unit_of_the_field(field):
     """Expected: the bounds of the checks, which are in SI units."""
     kind = number_of(input_field(field.key))
-    assert isinstance(kind, Quantity)
+    assert isinstance(kind, Amount)
     with pytest.raises(InputError) as error:
         kind.parse("fast", written=True)
     told = bounds(in_field_unit(field, error.value.text))
@@ -57,7 +57,7 @@ def test_a_text_in_a_box_is_written_back_as_it_was(field):
 @each("field", WITH_UNIT, ids=by_key)
 def test_units_with_signs_are_taken(field):
     kind = number_of(input_field(field.key))
-    assert isinstance(kind, Quantity)
+    assert isinstance(kind, Amount)
     text = field.from_slider(0.6)
     assert kind.parse(text.replace(field.unit, with_signs(field.unit))) == kind.parse(text)
 

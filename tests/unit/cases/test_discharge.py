@@ -3,7 +3,7 @@
 import pytest
 
 from ehlectric import Case, InputError
-from ehlectric.cases.quantity import to_si
+from ehlectric.quantities.units import to_si
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.unit.cases.test_point_case import table as point_table

@@ -7,15 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ehlectric
-from ehlectric.cases import depth, table, units
+from ehlectric.cases import depth, table
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.case import Case
 from ehlectric.cases.depth import MOST_DEEP, refuse_deep, refuse_long_keys
 from ehlectric.cases.library.grade import Grade
-from ehlectric.cases.quantity import _NUMBER_AND_UNIT, Count, Quantity, length_unit
 from ehlectric.cases.table import nearest, read_toml
-from ehlectric.cases.units import ROTATION
 from ehlectric.errors import InputError
 from ehlectric.figures.names import _OF_UNIT
+from ehlectric.quantities import units
+from ehlectric.quantities.units import ROTATION, length_unit
 from ehlectric.runs import folders
 from ehlectric.runtime.tables import _FORMULA
 from ehlectric.runtime.tables import _NUMBER as _NUMBER_OF_CELL
@@ -34,12 +35,12 @@ CASE = {
     "lubricant": {"base": "paper"},
 }
 QUANTITIES = {
-    "length": Quantity("m", above=0.0),
-    "speed": Quantity("m/s"),
-    "rotation": Quantity(ROTATION),
-    "temperature": Quantity("K"),
-    "fraction": Quantity("", fraction=True),
-    "number": Quantity(""),
+    "length": Amount("m", above=0.0),
+    "speed": Amount("m/s"),
+    "rotation": Amount(ROTATION),
+    "temperature": Amount("K"),
+    "fraction": Amount("", fraction=True),
+    "number": Amount(""),
 }
 # Longest time of the processor for a refusal; those that hung took half a minute and more [s].
 SOON = 3.0
@@ -136,7 +137,7 @@ def test_whole_numbers_without_a_text_are_refused():
 
 # Every regular expression for texts of a user, and texts that made such expressions slow.
 PATTERNS = {
-    "number and unit": _NUMBER_AND_UNIT.fullmatch,
+    "number and unit": units._NUMBER_AND_UNIT.fullmatch,
     "unit": units._UNIT.fullmatch,
     "exponent": units._EXPONENT.findall,
     "superscript": units._SUPERSCRIPT.findall,

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 
 from ehlectric import Case, InputError
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.contact.case_warnings import point_case_warnings
 from ehlectric.contact.conditions import default_side
 from ehlectric.contact.memory import check_memory
@@ -70,7 +70,7 @@ def test_refine_takes_percent(given, value):
 @each("given", ["3", "3 % %", "3 rad", "3 m/m", "3 kg", "%"])
 def test_a_fraction_takes_no_other_text(given):
     with pytest.raises(ValueError, match="it is not a number in percent"):
-        Quantity("", least=0.0, most=1.0, fraction=True).parse(given)
+        Amount("", least=0.0, most=1.0, fraction=True).parse(given)
 
 
 def test_other_numbers_without_unit_take_no_percent():

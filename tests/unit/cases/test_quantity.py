@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.cases.quantity import Count, Quantities, Quantity, to_si
+from ehlectric.cases.amounts import Amount, Amounts, Count
+from ehlectric.quantities.units import to_si
 from tests.helpers.each import each
 
 
@@ -45,7 +46,7 @@ def test_wrong_units_are_refused(text):
         to_si(text, "Pa")
 
 
-LENGTH = Quantity("m", above=0.0, most=10.0, reason="a test")
+LENGTH = Amount("m", above=0.0, most=10.0, reason="a test")
 
 
 @each(
@@ -108,7 +109,7 @@ def test_other_temperatures_are_refused(text):
 
 
 def test_lists_of_quantities():
-    lengths = Quantities(LENGTH, least=2)
+    lengths = Amounts(LENGTH, least=2)
     assert lengths.parse(["1 mm", 2.0]) == (0.001, 2.0)
     for wrong, message in (
         ([1.0], r"got \[1\.0\]; expected a list of 2 .* in m"),

@@ -5,13 +5,13 @@ import sys
 
 import pytest
 
-from ehlectric.cases.quantity import to_si
-from ehlectric.cases.result_key import ResultKey
-from ehlectric.cases.row import UNITS, Row, rows_of, value_at
+from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.rows import UNITS, Row, rows_of, value_at
+from ehlectric.quantities.units import to_si
 from ehlectric.tables.layout import table_of
 from tests.helpers.each import each
 
-KEYS = {"film.minimum_thickness": ResultKey("smallest film", "m")}
+KEYS = {"film.minimum_thickness": Quantity("smallest film", "m")}
 ENTRY = ("minimum film", "film.minimum_thickness")
 
 

@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, Weibull
 from ehlectric.cases.grid import Electric, Grid, Solver
 from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.roughness import Roughness
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
@@ -46,7 +46,7 @@ WITHOUT = ("contact", "lubricant", "discharge", "grid", "roughness")
 def bounds_of(annotation):
     """The bounds that an annotation holds, in its own metadata or in that of an alternative."""
     for part in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
-        if isinstance(part, Quantity | Count):
+        if isinstance(part, Amount | Count):
             return part
         found = bounds_of(part)
         if found is not None:
@@ -58,7 +58,7 @@ def numeric_inputs():
     for prefix, model in PARTS.items():
         for name, field in model.known_keys().items():
             for kind in (*field.metadata, bounds_of(field.annotation)):
-                if isinstance(kind, Quantity | Count):
+                if isinstance(kind, Amount | Count):
                     yield f"{prefix}.{name}", kind
 
 
@@ -123,7 +123,7 @@ def test_numbers_out_of_bounds_are_refused_by_name(key):
         assert len(message) < 400
 
 
-@each("key", [key for key, kind in INPUTS.items() if isinstance(kind, Quantity)])
+@each("key", [key for key, kind in INPUTS.items() if isinstance(kind, Amount)])
 def test_bounds_are_the_same_in_any_unit(key):
     """A text is refused where its number is, and a bound that is allowed is allowed."""
     kind = INPUTS[key]

@@ -11,19 +11,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError
+from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.quantity import Count, Quantities, Quantity
-from ehlectric.cases.units import FREQUENT, comma_advice, plain
+from ehlectric.quantities.units import FREQUENT, comma_advice, plain
 from ehlectric.sweep.inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
 from tests.helpers.each import each
 
 UNITS = pint.UnitRegistry()
-SPEED = Quantity("rad/s", above=0.0, most=1e5)
-TEMPERATURE = Quantity("K", least=200.0, most=600.0)
-LENGTH = Quantity("m", least=0.0, most=10.0)
-NUMBER = Quantity("", least=0.0, most=5.0)
-SHARE = Quantity("", least=0.0, most=1.0, fraction=True)
+SPEED = Amount("rad/s", above=0.0, most=1e5)
+TEMPERATURE = Amount("K", least=200.0, most=600.0)
+LENGTH = Amount("m", least=0.0, most=10.0)
+NUMBER = Amount("", least=0.0, most=5.0)
+SHARE = Amount("", least=0.0, most=1.0, fraction=True)
 HUNDRED_PI = 314.159265358979
 
 
@@ -57,7 +57,7 @@ def test_frequencies_are_refused(unit):
 
 def test_revolutions_are_a_unit_of_rotational_speeds_only():
     with pytest.raises(InputError, match="is not a unit of this quantity; multiply a rotational speed"):
-        Quantity("m/s").parse("3000 min^-1")
+        Amount("m/s").parse("3000 min^-1")
 
 
 @each(
@@ -74,9 +74,9 @@ def test_revolutions_are_a_unit_of_rotational_speeds_only():
 def test_superscripts(text, unit, value):
     if value is None:
         with pytest.raises(InputError):
-            Quantity(unit).parse(text)
+            Amount(unit).parse(text)
     else:
-        assert Quantity(unit).parse(text) == value
+        assert Amount(unit).parse(text) == value
 
 
 @each("unit", ["C", "°C", "degC"])
@@ -155,11 +155,11 @@ def test_refused_quantities(quantity, entry, message):
 
 
 def test_lists_and_counts_of_numpy():
-    assert Quantities(LENGTH, least=2).parse(np.array([1.0, 2.0])) == (1.0, 2.0)
-    assert Quantities(LENGTH).parse(UNITS.Quantity([1.0, 2.0], "mm")) == (1e-3, 2e-3)
+    assert Amounts(LENGTH, least=2).parse(np.array([1.0, 2.0])) == (1.0, 2.0)
+    assert Amounts(LENGTH).parse(UNITS.Quantity([1.0, 2.0], "mm")) == (1e-3, 2e-3)
     assert Count(1, 9, "a test").parse(np.array(3)) == 3
     with pytest.raises(InputError, match="expected a list of 1 or more"):
-        Quantities(LENGTH).parse(np.ones((2, 2)))
+        Amounts(LENGTH).parse(np.ones((2, 2)))
 
 
 def test_a_bare_rotational_speed():
@@ -177,7 +177,7 @@ def test_a_bare_rotational_speed():
 def test_a_bare_temperature_in_celsius(entry):
     with pytest.raises(InputError, match=f"'{entry} °C'.* kelvin"):
         TEMPERATURE.parse(entry)
-    wide = Quantity("K", least=100.0, most=1000.0)
+    wide = Amount("K", least=100.0, most=1000.0)
     with pytest.raises(InputError, match="kelvin"):
         wide.parse(entry, written=True)
     assert wide.parse(150.0) == 150.0

@@ -8,7 +8,6 @@ import pytest
 
 from ehlectric.app.figures import over_time
 from ehlectric.arrays import Array
-from ehlectric.cases.result_key import key_of
 from ehlectric.figures.motion.findings import of_history
 from ehlectric.figures.motion.save import figure
 from ehlectric.film.accuracy.moving_patch import MovingFilm
@@ -19,12 +18,13 @@ from ehlectric.motion.accuracy import run_errors
 from ehlectric.motion.asperities import TOUCHING, Toucher, TouchHistory
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.content import solved_part
-from ehlectric.motion.keys import MOTION_KEYS
 from ehlectric.motion.run import run, run_motion
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored_run import MotionRun, read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.motion.warnings import touch_warnings
+from ehlectric.quantities.motion_results import MOTION_KEYS
+from ehlectric.quantities.quantity import key_of
 from ehlectric.runtime.checks.schema import UnfitError
 from ehlectric.tables.motion import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving

@@ -6,10 +6,10 @@ import tomllib
 import pytest
 
 from ehlectric import BearingCase, Case, load, save, solve
-from ehlectric.cases.row import Row
 from ehlectric.errors import InputError
 from ehlectric.figures import names
 from ehlectric.figures.names import in_formats
+from ehlectric.quantities.rows import Row
 from ehlectric.report.build import report_of
 from ehlectric.report.captions import CAPTIONS, UNCONVERGED, caption_of
 from ehlectric.report.content import Picture, Table, Text, Warnings

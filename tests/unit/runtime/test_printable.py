@@ -16,11 +16,11 @@ from matplotlib.legend import Legend
 from rich.console import Console
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.row import Row
 from ehlectric.commands.terminal import echo_files, say, warn
 from ehlectric.errors import InputError, ResultWarning, printable, short, shown, unseen
 from ehlectric.figures.names import literal
 from ehlectric.figures.style import name_over, save_figure
+from ehlectric.quantities.rows import Row
 from ehlectric.runtime.files import write
 from ehlectric.runtime.log import log_warnings
 from ehlectric.runtime.tables import csv_of, csv_text, text_of_csv

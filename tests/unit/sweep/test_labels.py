@@ -9,12 +9,12 @@ from ehlectric import Case, solve
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.input_keys import input_field
 from ehlectric.cases.keywords.names import INPUT_NAMES
-from ehlectric.cases.quantity import to_si
-from ehlectric.cases.result_key import key_of
-from ehlectric.contact.heat.keys import heat_keys
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
+from ehlectric.quantities.contact_results import heat_keys
+from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.units import to_si
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.labels import label_of, result_keys, scale_for
 from ehlectric.sweep.results import flat

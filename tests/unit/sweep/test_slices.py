@@ -281,7 +281,7 @@ def test_capacitances_of_point_contacts_are_no_line_s():
 @given(st.floats(1e-9, 1e9), st.sampled_from(["V", "N/m", "Pa*s", "1/Pa", "m**2", "J/m**3", "m"]))
 def test_prefixes_are_what_they_say(value, unit):
     """Read back by pint, as a case would write it."""
-    from ehlectric.cases.quantity import to_si
+    from ehlectric.quantities.units import to_si
 
     scale = scale_for(value, unit)
     written = f"{value * scale.factor!r} {scale.unit}".replace("1/", "/", 1) if unit == "1/Pa" else ""

@@ -32,8 +32,8 @@ from ehlectric.bearing.speeds import over_speed
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW, quick_way
-from ehlectric.cases.row import amount
 from ehlectric.errors import InputError
+from ehlectric.quantities.rows import amount
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress

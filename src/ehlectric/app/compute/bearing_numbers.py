@@ -10,9 +10,9 @@ from ehlectric.app.answers.told import Told, beside
 from ehlectric.bearing.intermittency.duty import CAPACITIVE
 from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.cases.bearings.ways import HOW
-from ehlectric.cases.row import Row, amount
-from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
+from ehlectric.quantities.rows import Row, amount
+from ehlectric.quantities.units import rpm_text
 from ehlectric.tables.bearing import total_rows
 
 # Names of the first breakdown and of the voltages with a coating.

@@ -19,7 +19,7 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
 from ehlectric.cases.case import Case
-from ehlectric.cases.row import Row
+from ehlectric.quantities.rows import Row
 from ehlectric.runs.meaning import check
 from ehlectric.tables.bearing import outcome_rows
 

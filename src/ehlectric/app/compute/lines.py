@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ehlectric.app.answers.line import Line
-from ehlectric.cases.row import Row
+from ehlectric.quantities.rows import Row
 
 
 def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:

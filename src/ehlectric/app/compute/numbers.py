@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ehlectric.app.answers.contact import Number
-from ehlectric.cases.quantity import unit_for
+from ehlectric.quantities.units import unit_for
 
 
 def number_of(

@@ -18,11 +18,11 @@ from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.surface import line_figure, map_figure, profile_figure
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.cases.quantity import to_si
 from ehlectric.cases.roughness import Roughness, check_geometry
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.summary import formulas_of
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import to_si
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
 from ehlectric.surfaces.domain import Domain

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.app.answers.told import Told
-from ehlectric.cases.quantity import unit_for
 from ehlectric.cases.roughness import Roughness
 from ehlectric.formulas.film_line import Thickness
+from ehlectric.quantities.units import unit_for
 from ehlectric.surfaces.domain import Domain
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.rough_maps import RoughMap

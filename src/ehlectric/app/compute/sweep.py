@@ -17,15 +17,15 @@ from ehlectric.app.fields.amounts import in_unit, split
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.ranges import number_of_text
 from ehlectric.bearing.quick.ways import is_quick
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.cases.keywords.names import INPUT_NAMES
-from ehlectric.cases.quantity import Count, Quantity
-from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import rpm
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import breakdown_of, ranked_value
@@ -349,7 +349,7 @@ def _text(key: str, value: Any, unit: str = "") -> Any:
     si, kind = unit_of(key), kind_of(key)
     if not si or not isinstance(value, float):
         return value
-    if unit and isinstance(kind, Quantity):
+    if unit and isinstance(kind, Amount):
         # The server reads units without the registry; an unknown one stays with the SI unit.
         number = in_unit(f"{value!r} {si.replace('**', '^')}", unit)
         for digits in () if number is None else (6, 9, 12):

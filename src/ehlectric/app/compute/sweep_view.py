@@ -19,9 +19,9 @@ from ehlectric.bearing.accuracy import percent
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.input_keys import unit_of
-from ehlectric.cases.result_key import key_of
-from ehlectric.cases.row import value_at
 from ehlectric.errors import CODES
+from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
 from ehlectric.sweep.labels import CELSIUS, Scale, label_of, result_keys, scale_for
@@ -118,9 +118,9 @@ def _values(results: SweepResults) -> dict[str, str]:
     some = replace(results, points=tuple(point for point in results.points if point.solved)[:_SAMPLE])
     found = {key: key_of(documented, key) for key in known_values(some) if not key.startswith("inputs.")}
     return {
-        key: f"{about.name[0].upper()}{about.name[1:]}"
+        key: f"{about.label[0].upper()}{about.label[1:]}"
         for key, about in found.items()
-        if about is not None and about.name
+        if about is not None and about.label
     }
 
 

@@ -14,7 +14,6 @@ from ehlectric.app.figures.look import BLUE, GREEN, GREY, ORANGE, RED, Plot, plo
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
 from ehlectric.cases.bearings.ways import OF_CONTACTS
-from ehlectric.cases.units import rpm_text
 from ehlectric.figures.bearing.curves import (
     RPM,
     Curves,
@@ -25,6 +24,7 @@ from ehlectric.figures.bearing.curves import (
     nearly_equal,
     value_of,
 )
+from ehlectric.quantities.units import rpm_text
 
 # Height of a figure [px].
 _HEIGHT = 440

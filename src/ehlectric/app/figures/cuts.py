@@ -13,9 +13,9 @@ from ehlectric.app.figures.look import BLUE, GREY, ORANGE, PURPLE, RED
 from ehlectric.app.figures.stack import Along, Curve, Panel, names_of, stack
 from ehlectric.app.figures.touching import ASPERITIES, BEYOND, SPOTS, field_scale, film_scale, touches
 from ehlectric.arrays import Array, Mask
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 from ehlectric.formulas.hertz_point import point_pressure
+from ehlectric.quantities.units import unit_for
 
 
 def point_cuts(result: PointResult, x: float, y: float) -> tuple[Shown, ...]:

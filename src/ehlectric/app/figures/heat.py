@@ -9,8 +9,8 @@ import numpy as np
 from ehlectric.app.figures.look import BLUE, GREEN, ORANGE, thinned
 from ehlectric.app.figures.stack import Curve, Panel
 from ehlectric.cases.case import Case
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
+from ehlectric.quantities.units import unit_for
 
 # Largest number of intervals of a curve whose extremes are kept.
 _INTERVALS = 1500

@@ -35,10 +35,10 @@ from ehlectric.app.figures.touching import (
     touches,
 )
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
 from ehlectric.discharge.utilisation import FieldUtilisation
 from ehlectric.formulas.hertz_line import line_pressure
+from ehlectric.quantities.units import unit_for
 
 # Largest number of intervals of a curve whose extremes are kept, of columns of the map, and its rows.
 _INTERVALS, _COLUMNS, _ROWS = 1500, 300, 90

@@ -9,10 +9,10 @@ import numpy as np
 from ehlectric.app.figures.look import BLUE, GREEN, RED, Plot, axis, kept_nodes, plot
 from ehlectric.app.figures.look import values as listed
 from ehlectric.arrays import Array, IntArray
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import breakdown_voltages
+from ehlectric.quantities.units import unit_for
 
 # Largest number of instants and of nodes along a line that a page receives, and bounds of the size of all
 # instants: numbers, of some characters each.

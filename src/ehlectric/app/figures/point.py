@@ -35,8 +35,8 @@ from ehlectric.app.figures.touching import (
     touches,
 )
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
+from ehlectric.quantities.units import unit_for
 
 # Largest number of nodes along an axis of a map.
 _MAP = 141

@@ -9,7 +9,7 @@ import numpy as np
 from ehlectric.app.figures.look import BLUE, axis, plot, thinned, values
 from ehlectric.app.figures.thinning import coarser
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
+from ehlectric.quantities.units import unit_for
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile
 

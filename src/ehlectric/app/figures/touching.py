@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ehlectric.app.figures.look import RED
 from ehlectric.arrays import Array, Mask
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.quantities.units import unit_for
 
 # Name of the pressure between asperities, and of the nodes at which surfaces touch, in legends.
 ASPERITIES, SPOTS = "pressure of asperities", "surfaces touch"

@@ -15,8 +15,8 @@ from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, capacitance, insulating
 from ehlectric.cases.bearings.motor import Motor
-from ehlectric.cases.row import amount
 from ehlectric.errors import ResultWarning
+from ehlectric.quantities.rows import amount
 
 # Switching frequencies of inverters for low-voltage motors [Hz], with which the leakage is compared where the
 # case gives none. They are typical values of catalogues.

@@ -10,8 +10,8 @@ from ehlectric.bearing.fits.thick_ring import ThickRing
 from ehlectric.cases import library
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.fits import PLAY, Fits
-from ehlectric.cases.quantity import to_si
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import to_si
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from scipy.optimize import brentq
 
 from ehlectric.bearing.margin.quick_margins import MarginPoint, QuickMargins
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
-from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import rpm
 
 # Smallest and largest speed that are looked at, divided by the speed of the case.
 LEAST, MOST = 0.1, 4.0

@@ -13,10 +13,10 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.library.clearance import clearance_range
 from ehlectric.cases.oils.resolution import depends_on_temperature
-from ehlectric.cases.row import value_at
 from ehlectric.discharge.verdict import STRENGTH_UNKNOWN
 from ehlectric.errors import InputError
 from ehlectric.lubricant.viscosity_index import GRADE_WIDTH
+from ehlectric.quantities.rows import value_at
 
 # Changes of the inputs, either way: load relative to its value, temperature [K], clearance [m] and free
 # contact angle [rad], and these two relative to their value where they are small. Engineering judgement: what

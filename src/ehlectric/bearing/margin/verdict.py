@@ -19,8 +19,6 @@ from ehlectric.bearing.solution import BearingSolution, lambda_text, lubrication
 from ehlectric.bearing.supply.warnings import supply_words
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearings.ways import HOW
-from ehlectric.cases.row import amount
-from ehlectric.cases.units import rpm, rpm_text
 from ehlectric.discharge.verdict import (
     UNLIKELY,
     Level,
@@ -35,6 +33,8 @@ from ehlectric.discharge.verdict import (
     unusable,
     weibull_part,
 )
+from ehlectric.quantities.rows import amount
+from ehlectric.quantities.units import rpm, rpm_text
 
 # Sentence about contacts of asperities, without its full stop.
 _OPENING = "Contacts discharge at a low voltage as they open"

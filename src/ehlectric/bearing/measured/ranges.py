@@ -12,8 +12,8 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.measured.forward import FilmState, OperatingPoint
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.ranges import InputRange
-from ehlectric.cases.row import value_at
 from ehlectric.errors import InputError
+from ehlectric.quantities.rows import value_at
 
 # Key of what is in parallel: its range is one of the background.
 PARALLEL = "bearing.parallel_capacitance"

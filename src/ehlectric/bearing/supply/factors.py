@@ -10,11 +10,11 @@ from ehlectric.bearing.loads.kinematics import rolling_speeds
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.oils.resolution import temperature_coefficient
-from ehlectric.cases.units import rpm
 from ehlectric.errors import InputError
 from ehlectric.formulas.inlet_heating import inlet_shear_factor
 from ehlectric.formulas.replenishment import replenishment_factor
 from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.units import rpm
 
 # Least factor by rule: far below it the rule leaves films thinner than an atom.
 _LEAST = 0.01

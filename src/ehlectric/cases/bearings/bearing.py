@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearings.coating import Coating
 from ehlectric.cases.bearings.fits import PLAY, TEMPERATURE, Fits
 from ehlectric.cases.bearings.summits import Summits
@@ -22,10 +23,10 @@ from ehlectric.cases.library.clearance import (
     with_clearance,
 )
 from ehlectric.cases.oils.laws import library_name
-from ehlectric.cases.quantity import Count, Quantity, to_fraction
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.replenishment import SUPPLY_CONSTANTS
+from ehlectric.quantities.units import to_fraction
 from ehlectric.runtime.values import is_number
 
 ROLLERS = "cylindrical roller"
@@ -33,11 +34,11 @@ ANGULAR = "angular-contact ball"
 
 _WORDS = ", ".join(repr(word) for word in FILM_FACTORS)
 _Length = Annotated[float, BORE]
-_Groove = Annotated[float, Quantity("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
-_Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
-_Parallel = Annotated[float, Quantity("F", least=0.0, most=1e-3, reason="of cage, shields and wiring")]
-_Ohm = Annotated[float, Quantity("ohm", above=0.0, most=1e9, reason="of one contact with metallic spots")]
-_Load = Annotated[float, Quantity("N", least=0.0, most=1e8, reason="on the inner ring")]
+_Groove = Annotated[float, Amount("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
+_Capacitance = Annotated[float, Amount("F", above=0.0, most=1e-3, reason="of an electric machine")]
+_Parallel = Annotated[float, Amount("F", least=0.0, most=1e-3, reason="of cage, shields and wiring")]
+_Ohm = Annotated[float, Amount("ohm", above=0.0, most=1e9, reason="of one contact with metallic spots")]
+_Load = Annotated[float, Amount("N", least=0.0, most=1e8, reason="on the inner ring")]
 
 # Keys that only ball bearings have, and keys that only roller bearings have.
 _OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
@@ -137,25 +138,25 @@ class Bearing(Table):
     roller_length: _Length | None = None
     profile: Literal["none", "logarithmic"] | None = None
     shoulder_height: (
-        Annotated[float, Quantity("", above=0.0, most=0.5, reason="of the element diameter")] | None
+        Annotated[float, Amount("", above=0.0, most=0.5, reason="of the element diameter")] | None
     ) = None
     radial_clearance: Annotated[float, PLAY] | None = None
     clearance_class: ClearanceClass | None = None
     contact_angle: (
-        Annotated[float, Quantity("rad", above=0.0, below=0.5 * math.pi, reason="free of load")] | None
+        Annotated[float, Amount("rad", above=0.0, below=0.5 * math.pi, reason="free of load")] | None
     ) = None
     element_material: _Material = "steel"
     ring_material: _Material = "steel"
     element_capacitance: _Capacitance | None = None
     radial_load: _Load = 0.0
     axial_load: _Load = 0.0
-    inner_speed: Annotated[float, Quantity("rad/s", above=0.0, most=1e5, reason="of the inner ring")]
+    inner_speed: Annotated[float, Amount("rad/s", above=0.0, most=1e5, reason="of the inner ring")]
     temperature: (
-        Annotated[float, Quantity("K", least=200.0, most=600.0, reason="absolute, of the oil")] | None
+        Annotated[float, Amount("K", least=200.0, most=600.0, reason="absolute, of the oil")] | None
     ) = None
     inner_ring_temperature: Annotated[float, TEMPERATURE] | None = None
     outer_ring_temperature: Annotated[float, TEMPERATURE] | None = None
-    composite_rq: Annotated[float, Quantity("m", above=0.0, most=1e-4, reason="of both surfaces together")]
+    composite_rq: Annotated[float, Amount("m", above=0.0, most=1e-4, reason="of both surfaces together")]
     summits: Summits | None = None
     contact_resistance: _Ohm | None = None
     fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"

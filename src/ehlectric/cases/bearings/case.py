@@ -33,11 +33,11 @@ from ehlectric.cases.library.clearance import with_class
 from ehlectric.cases.oils.alternatives import displace_oil
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.ranges import InputRange, ranges_of
-from ehlectric.cases.row import amount, value_at
 from ehlectric.cases.table import Table, read_toml, with_further
 from ehlectric.cases.title import Title
-from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError
+from ehlectric.quantities.rows import amount, value_at
+from ehlectric.quantities.units import ROTATION, rpm
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.runtime.values import is_number
 

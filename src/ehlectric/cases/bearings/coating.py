@@ -10,17 +10,17 @@ from pydantic import model_validator
 from scipy.constants import epsilon_0
 
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.oils.laws import library_name
-from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 
-_Thickness = Annotated[float, Quantity("m", above=0.0, most=1e-2, reason="of the coating")]
-_Permittivity = Annotated[float, Quantity("", least=1.0, most=1e3, reason="of the coating")]
-_Area = Annotated[float, Quantity("m**2", above=0.0, most=1e2, reason="of the coated surface on its seat")]
-_Strength = Annotated[float, Quantity("V/m", least=1e4, most=1e10, reason="of the coating")]
-_Voltage = Annotated[float, Quantity("V", above=0.0, most=1e7, reason="of the whole coating")]
-_Resistance = Annotated[float, Quantity("ohm", above=0.0, most=1e18, reason="through the coating")]
+_Thickness = Annotated[float, Amount("m", above=0.0, most=1e-2, reason="of the coating")]
+_Permittivity = Annotated[float, Amount("", least=1.0, most=1e3, reason="of the coating")]
+_Area = Annotated[float, Amount("m**2", above=0.0, most=1e2, reason="of the coated surface on its seat")]
+_Strength = Annotated[float, Amount("V/m", least=1e4, most=1e10, reason="of the coating")]
+_Voltage = Annotated[float, Amount("V", above=0.0, most=1e7, reason="of the whole coating")]
+_Resistance = Annotated[float, Amount("ohm", above=0.0, most=1e18, reason="through the coating")]
 
 # Alternative keys of the coating: its breakdown voltage follows from its strength, or is given.
 COATING_ALTERNATIVES = (("coating.strength",), ("coating.breakdown_voltage",))

@@ -7,15 +7,15 @@ from typing import Annotated
 from pydantic import AfterValidator
 
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.library.clearance import BORE
-from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 
-TEMPERATURE = Quantity("K", least=200.0, most=600.0, reason="absolute")
-PLAY = Quantity("m", least=-1e-3, most=1e-2, reason="full diametral play")
+TEMPERATURE = Amount("K", least=200.0, most=600.0, reason="absolute")
+PLAY = Amount("m", least=-1e-3, most=1e-2, reason="full diametral play")
 _Interference = Annotated[
-    float, Quantity("m", least=-1e-2, most=1e-2, reason="on the diameter, negative for a loose fit")
+    float, Amount("m", least=-1e-2, most=1e-2, reason="on the diameter, negative for a loose fit")
 ]
 
 
@@ -38,7 +38,7 @@ class Fits(Table):
     unmounted_clearance: Annotated[float, PLAY] | None = None
     shaft_interference: _Interference
     housing_interference: _Interference
-    shaft_bore: Annotated[float, Quantity("m", least=0.0, most=10.0, reason="of a hollow shaft")] = 0.0
+    shaft_bore: Annotated[float, Amount("m", least=0.0, most=10.0, reason="of a hollow shaft")] = 0.0
     housing_diameter: Annotated[float, BORE] | None = None
     shaft_material: _Solid = "steel"
     housing_material: _Solid

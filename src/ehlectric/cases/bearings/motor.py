@@ -6,25 +6,25 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
-_Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
+_Capacitance = Annotated[float, Amount("F", above=0.0, most=1e-3, reason="of an electric machine")]
 
 
 class Motor(Table):
     """Common-mode voltage and capacitances of the motor around the bearing."""
 
-    common_mode_voltage: Annotated[float, Quantity("V", above=0.0, most=1e6, reason="peak")]
+    common_mode_voltage: Annotated[float, Amount("V", above=0.0, most=1e6, reason="peak")]
     winding_rotor_capacitance: _Capacitance
     rotor_frame_capacitance: _Capacitance
     second_bearing_capacitance: _Capacitance | None = None
     switching_frequency: (
-        Annotated[float, Quantity("Hz", least=1.0, most=1e8, reason="of the inverter")] | None
+        Annotated[float, Amount("Hz", least=1.0, most=1e8, reason="of the inverter")] | None
     ) = None
     rise_time: (
-        Annotated[float, Quantity("s", least=1e-11, most=1.0, reason="of an edge of the inverter")] | None
+        Annotated[float, Amount("s", least=1e-11, most=1.0, reason="of an edge of the inverter")] | None
     ) = None
 
     @model_validator(mode="after")

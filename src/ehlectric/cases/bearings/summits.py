@@ -6,17 +6,17 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
 _Density = Annotated[
-    float, Quantity("1/m**2", least=1e6, most=1e16, reason="of the sum of both surfaces' heights")
+    float, Amount("1/m**2", least=1e6, most=1e16, reason="of the sum of both surfaces' heights")
 ]
-_Radius = Annotated[float, Quantity("m", least=1e-9, most=1.0, reason="of the caps")]
-_Height = Annotated[float, Quantity("m", above=0.0, most=1e-4, reason="of the summit heights")]
-_Highest = Annotated[float, Quantity("", above=0.0, most=100.0, reason="in deviations of the heights")]
-_Bandwidth = Annotated[float, Quantity("", least=1.5, most=1e6, reason="Nayak's, of a Gaussian surface")]
+_Radius = Annotated[float, Amount("m", least=1e-9, most=1.0, reason="of the caps")]
+_Height = Annotated[float, Amount("m", above=0.0, most=1e-4, reason="of the summit heights")]
+_Highest = Annotated[float, Amount("", above=0.0, most=100.0, reason="in deviations of the heights")]
+_Bandwidth = Annotated[float, Amount("", least=1.5, most=1e6, reason="Nayak's, of a Gaussian surface")]
 
 # Alternative keys of the summits: the deviation of their heights follows from the bandwidth, or is given.
 SUMMIT_ALTERNATIVES = (("summits.height_deviation",), ("summits.bandwidth",))

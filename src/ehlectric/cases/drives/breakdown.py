@@ -6,7 +6,7 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
@@ -14,26 +14,23 @@ from ehlectric.errors import InputError
 class Breakdown(Table):
     """Arc and threshold of a film."""
 
-    arc_resistance: Annotated[float, Quantity("ohm", least=1e-6, most=1e9, reason="of a burning arc")]
+    arc_resistance: Annotated[float, Amount("ohm", least=1e-6, most=1e9, reason="of a burning arc")]
     extinction_current: (
-        Annotated[float, Quantity("A", above=0.0, most=1e6, reason="at which an arc goes out")] | None
+        Annotated[float, Amount("A", above=0.0, most=1e6, reason="at which an arc goes out")] | None
     ) = None
     extinction_voltage: (
-        Annotated[float, Quantity("V", above=0.0, most=1e6, reason="at which an arc goes out")] | None
+        Annotated[float, Amount("V", above=0.0, most=1e6, reason="at which an arc goes out")] | None
     ) = None
-    recovery_time: Annotated[float, Quantity("s", least=0.0, most=1.0, reason="until the film insulates")]
+    recovery_time: Annotated[float, Amount("s", least=0.0, most=1.0, reason="until the film insulates")]
     weibull_shape: (
-        Annotated[float, Quantity("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
-        | None
+        Annotated[float, Amount("", least=0.5, most=200.0, reason="the larger, the less it scatters")] | None
     ) = None
     renewal_time: (
-        Annotated[
-            float, Quantity("s", least=1e-6, most=1e6, reason="after which other oil is in the contact")
-        ]
+        Annotated[float, Amount("s", least=1e-6, most=1e6, reason="after which other oil is in the contact")]
         | None
     ) = None
     touch_time: (
-        Annotated[float, Quantity("s", above=0.0, most=1e3, reason="for which asperities touch")] | None
+        Annotated[float, Amount("s", above=0.0, most=1e3, reason="for which asperities touch")] | None
     ) = None
 
     @model_validator(mode="after")

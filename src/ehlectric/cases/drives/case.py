@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import Contacts
 from ehlectric.cases.changes import flattened, set_keys
@@ -15,11 +16,10 @@ from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.drives.breakdown import Breakdown
 from ehlectric.cases.drives.circuit import Circuit
 from ehlectric.cases.drives.source import Source
-from ehlectric.cases.quantity import Count, Quantity
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.title import Title
-from ehlectric.cases.units import ROTATION, rpm
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.units import ROTATION, rpm
 from ehlectric.runtime.display import Tabled, headline
 
 # Tables of both bearings, and the name under which a change applies to both of them.
@@ -38,12 +38,12 @@ _ALTERNATIVES = {
 class Operation(Table):
     """Operating point of the drive, and how long it is looked at."""
 
-    speed: Annotated[float, Quantity("rad/s", above=0.0, most=1e5, reason="of the rotor")] | None = None
+    speed: Annotated[float, Amount("rad/s", above=0.0, most=1e5, reason="of the rotor")] | None = None
     temperature: (
-        Annotated[float, Quantity("K", least=150.0, most=600.0, reason="of the oil of both bearings")] | None
+        Annotated[float, Amount("K", least=150.0, most=600.0, reason="of the oil of both bearings")] | None
     ) = None
     contacts: Contacts | None = None
-    duration: Annotated[float, Quantity("s", above=0.0, most=1e4, reason="of simulated time")] | None = None
+    duration: Annotated[float, Amount("s", above=0.0, most=1e4, reason="of simulated time")] | None = None
     seed: Annotated[int, Count(least=0, most=2**53, reason="of the random numbers")] = 0
 
 

@@ -7,14 +7,14 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.drives.machine import Geometry
-from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
-_Capacitance = Annotated[float, Quantity("F", above=0.0, most=1e-3, reason="of an electric machine")]
-_Inductance = Annotated[float, Quantity("H", above=0.0, most=1e3, reason="of a path of the current")]
-_Resistance = Annotated[float, Quantity("ohm", least=0.0, most=1e12, reason="of a path of the current")]
+_Capacitance = Annotated[float, Amount("F", above=0.0, most=1e-3, reason="of an electric machine")]
+_Inductance = Annotated[float, Amount("H", above=0.0, most=1e3, reason="of a path of the current")]
+_Resistance = Annotated[float, Amount("ohm", least=0.0, most=1e12, reason="of a path of the current")]
 
 
 # Capacitances that a geometry gives where they are not given themselves, and their names there.
@@ -38,7 +38,7 @@ class Circuit(Table):
     ground_inductance: _Inductance | None = None
     ground_resistance: _Resistance = 0.0
     grounding_ring_resistance: (
-        Annotated[float, Quantity("ohm", above=0.0, most=1e12, reason="from the shaft to the frame")] | None
+        Annotated[float, Amount("ohm", above=0.0, most=1e12, reason="from the shaft to the frame")] | None
     ) = None
     machine: Geometry | None = None
 

@@ -7,14 +7,14 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.quantity import Count, Quantity
-from ehlectric.cases.row import amount
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.formulas.machine_capacitances import Machine, MachineCapacitances, machine_capacitances
+from ehlectric.quantities.rows import amount
 
-_Length = Annotated[float, Quantity("m", above=0.0, most=100.0, reason="of an electric machine")]
-_Permittivity = Annotated[float, Quantity("", least=1.0, most=100.0, reason="1 for air")]
+_Length = Annotated[float, Amount("m", above=0.0, most=100.0, reason="of an electric machine")]
+_Permittivity = Annotated[float, Amount("", least=1.0, most=100.0, reason="1 for air")]
 
 
 class Geometry(Table):

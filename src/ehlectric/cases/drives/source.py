@@ -7,12 +7,12 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from ehlectric.cases.quantity import Count, Quantity
+from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
-_Hertz = Quantity("Hz", least=1e-3, most=1e9, reason="of an inverter")
-_Time = Quantity("s", least=1e-12, most=1.0, reason="of an edge of an inverter")
+_Hertz = Amount("Hz", least=1e-3, most=1e9, reason="of an inverter")
+_Time = Amount("s", least=1e-12, most=1.0, reason="of an edge of an inverter")
 
 # Keys of a described and of a measured source.
 DESCRIBED = (
@@ -40,21 +40,19 @@ _RINGING = ("ringing_frequency", "overshoot", "ringing_time")
 class Source(Table):
     """Common-mode voltage of the inverter: from its modulation, or a measured waveform."""
 
-    dc_link: Annotated[float, Quantity("V", above=0.0, most=1e6, reason="voltage of the DC link")] | None = (
-        None
-    )
+    dc_link: Annotated[float, Amount("V", above=0.0, most=1e6, reason="voltage of the DC link")] | None = None
     modulation: Literal["sinusoidal", "space-vector", "six-step"] | None = None
     switching_frequency: Annotated[float, _Hertz] | None = None
     fundamental_frequency: Annotated[float, _Hertz] | None = None
     pole_pairs: Annotated[int, Count(least=1, most=1000, reason="of the machine")] | None = None
     modulation_index: (
-        Annotated[float, Quantity("", least=0.0, most=1.5, reason="1 without overmodulation")] | None
+        Annotated[float, Amount("", least=0.0, most=1.5, reason="1 without overmodulation")] | None
     ) = None
     base_frequency: Annotated[float, _Hertz] | None = None
-    rise_time: Annotated[float, Quantity("s", least=0.0, most=1.0, reason="of an edge")] | None = None
+    rise_time: Annotated[float, Amount("s", least=0.0, most=1.0, reason="of an edge")] | None = None
     ringing_frequency: Annotated[float, _Hertz] | None = None
     overshoot: (
-        Annotated[float, Quantity("", least=0.0, most=1.0, reason="part of the step", fraction=True)] | None
+        Annotated[float, Amount("", least=0.0, most=1.0, reason="part of the step", fraction=True)] | None
     ) = None
     ringing_time: Annotated[float, _Time] | None = None
     file: str | None = None
@@ -63,7 +61,7 @@ class Source(Table):
     step: Annotated[float, _Time] | None = None
     time_unit: str | None = None
     value_unit: str | None = None
-    scale: Annotated[float, Quantity("", least=-1e9, most=1e9, reason="such as that of a probe")] = 1.0
+    scale: Annotated[float, Amount("", least=-1e9, most=1e9, reason="such as that of a probe")] = 1.0
     resample: Annotated[float, _Time] | None = None
 
     @property

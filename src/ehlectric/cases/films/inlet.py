@@ -7,13 +7,13 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.contact import Contact
-from ehlectric.cases.quantity import Quantities, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 
-_THICKNESS = Quantity("m", least=1e-9, most=1e-2, reason="of the oil on both surfaces together")
-_ACROSS = Quantity("m", least=-1.0, most=1.0, reason="across entrainment, from the centre of the contact")
+_THICKNESS = Amount("m", least=1e-9, most=1e-2, reason="of the oil on both surfaces together")
+_ACROSS = Amount("m", least=-1.0, most=1.0, reason="across entrainment, from the centre of the contact")
 
 # Alternative keys of the supply of oil. A case gives one of them.
 SUPPLIES = (("oil_layer",), ("layer_table",), ("film_ratio",))
@@ -22,8 +22,8 @@ SUPPLIES = (("oil_layer",), ("layer_table",), ("film_ratio",))
 class LayerTable(Table):
     """Layer of oil at the inlet of a point contact over the position across entrainment, linear between."""
 
-    y: Annotated[tuple[float, ...], Quantities(_ACROSS, least=2)]
-    thickness: Annotated[tuple[float, ...], Quantities(_THICKNESS, least=2)]
+    y: Annotated[tuple[float, ...], Amounts(_ACROSS, least=2)]
+    thickness: Annotated[tuple[float, ...], Amounts(_THICKNESS, least=2)]
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -49,7 +49,7 @@ class Inlet(Table):
     film_ratio: (
         Annotated[
             float,
-            Quantity("", least=1e-3, most=1.0, reason="starved over flooded central film", fraction=True),
+            Amount("", least=1e-3, most=1.0, reason="starved over flooded central film", fraction=True),
         ]
         | None
     ) = None

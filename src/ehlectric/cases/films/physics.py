@@ -9,9 +9,9 @@ from ehlectric.cases import library
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.oils.resolution import density_at, viscosity_over_temperature
-from ehlectric.cases.quantity import to_si
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import to_si
 
 # Constants of the lubricant that each rheology needs.
 CONSTANTS: Mapping[str, tuple[str, ...]] = {

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.library.sources import Kind, Source, sources_of, weakest
-from ehlectric.cases.quantity import Quantity
 
-_LENGTH = Quantity("m", above=0.0, most=10.0, reason="of a bearing")
-_ANGLE = Quantity("rad", above=0.0, below=1.6, reason="contact angle")
-_FORCE = Quantity("N", above=0.0, most=1e9, reason="load rating")
+_LENGTH = Amount("m", above=0.0, most=10.0, reason="of a bearing")
+_ANGLE = Amount("rad", above=0.0, below=1.6, reason="contact angle")
+_FORCE = Amount("N", above=0.0, most=1e9, reason="load rating")
 
 # Keys of the internal geometry that decide how many contacts there are, and how large.
 INTERNAL = ("elements", "element_diameter", "pitch_diameter", "roller_length")

@@ -9,11 +9,11 @@ from functools import cache
 from importlib import resources
 from typing import Any, Literal, get_args
 
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.errors import InputError, shown
 
 ClearanceClass = Literal["C2", "CN", "C3", "C4", "C5"]
-BORE = Quantity("m", least=1e-4, most=10.0, reason="of a machine's bearing")
+BORE = Amount("m", least=1e-4, most=10.0, reason="of a machine's bearing")
 CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
 
 

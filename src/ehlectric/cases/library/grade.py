@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from ehlectric.cases.quantity import scalar
+from ehlectric.cases.amounts import scalar
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.viscosity_index import GRADES
 from ehlectric.runtime.values import is_number

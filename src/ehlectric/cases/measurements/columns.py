@@ -8,22 +8,22 @@ from dataclasses import dataclass
 from functools import lru_cache
 from types import MappingProxyType
 
-from ehlectric.cases import units
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.errors import InputError, short, shown
+from ehlectric.quantities import units
 
-# Quantities of a measurement by the names of their columns in the program, with SI unit and bounds.
-COLUMNS: Mapping[str, Quantity] = MappingProxyType(
+# Amounts of a measurement by the names of their columns in the program, with SI unit and bounds.
+COLUMNS: Mapping[str, Amount] = MappingProxyType(
     {
-        "time": Quantity("s", least=0.0, most=1e9, reason="since the start of the measurement"),
-        "speed": Quantity(units.ROTATION, above=0.0, most=1e5, reason="of the inner ring"),
-        "entrainment_speed": Quantity("m/s", above=0.0, most=1e4, reason="(u1 + u2)/2"),
-        "temperature": Quantity("K", least=200.0, most=600.0, reason="absolute, of the oil"),
-        "frequency": Quantity("Hz", above=0.0, most=1e10, reason="of the meter"),
-        "capacitance": Quantity("F", above=0.0, most=1e-3, reason="of a bearing or contact"),
-        "impedance": Quantity("ohm", above=0.0, most=1e15, reason="magnitude"),
-        "phase": Quantity("rad", least=-math.pi, most=math.pi, reason="negative for a capacitor"),
-        "film": Quantity("m", above=0.0, most=1e-3, reason="central film thickness"),
+        "time": Amount("s", least=0.0, most=1e9, reason="since the start of the measurement"),
+        "speed": Amount(units.ROTATION, above=0.0, most=1e5, reason="of the inner ring"),
+        "entrainment_speed": Amount("m/s", above=0.0, most=1e4, reason="(u1 + u2)/2"),
+        "temperature": Amount("K", least=200.0, most=600.0, reason="absolute, of the oil"),
+        "frequency": Amount("Hz", above=0.0, most=1e10, reason="of the meter"),
+        "capacitance": Amount("F", above=0.0, most=1e-3, reason="of a bearing or contact"),
+        "impedance": Amount("ohm", above=0.0, most=1e15, reason="magnitude"),
+        "phase": Amount("rad", least=-math.pi, most=math.pi, reason="negative for a capacitor"),
+        "film": Amount("m", above=0.0, most=1e-3, reason="central film thickness"),
     }
 )
 

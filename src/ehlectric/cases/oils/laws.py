@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import AfterValidator
 
 from ehlectric.cases import library
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.table import nearest
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.atmospheric import ATMOSPHERIC_LAWS
@@ -103,9 +103,9 @@ def law_name(laws: Mapping[str, object]) -> Named:
     return Named(known, f"one of {', '.join(map(repr, laws))}")
 
 
-def quantity_of(parameter: Parameter) -> Quantity:
+def quantity_of(parameter: Parameter) -> Amount:
     """Quantity with the unit and the bounds of a parameter, which parses its values."""
-    return Quantity(
+    return Amount(
         parameter.unit,
         above=parameter.above,
         below=parameter.below,

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.library.oils import LibraryOil, library_oil, values_of
 from ehlectric.cases.library.sources import Source
 from ehlectric.cases.oils.laws import quantity_of
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.cases.oils.over_temperature import TEMPERATURE
 from ehlectric.cases.oils.properties import Properties
-from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import nearest, read_toml
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.conductivity import CONDUCTIVITY
@@ -141,7 +141,7 @@ def _of_file(path: Path) -> NamedOil:
     )
 
 
-def _parsed(quantity: Quantity, tables: Mapping[str, Any], name: str, key: str) -> float | None:
+def _parsed(quantity: Amount, tables: Mapping[str, Any], name: str, key: str) -> float | None:
     """Value of a key of a table of a file in SI units; None if the file does not give it."""
     table = tables.get(name)
     value = table.get(key) if isinstance(table, Mapping) else None

@@ -7,16 +7,16 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.oils.laws import quantity_of
-from ehlectric.cases.quantity import Quantities, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.lubricant.conductivity import CONDUCTIVITY
 from ehlectric.lubricant.permittivity import RELATIVE_PERMITTIVITY
 
-TEMPERATURE = Quantity("K", least=100.0, most=1000.0, reason="absolute, of the oil")
+TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the oil")
 
-_Temperatures = Annotated[tuple[float, ...], Quantities(TEMPERATURE, least=2)]
+_Temperatures = Annotated[tuple[float, ...], Amounts(TEMPERATURE, least=2)]
 
 
 def _check(temperatures: tuple[float, ...], name: str, values: tuple[float, ...]) -> None:
@@ -33,9 +33,7 @@ class PermittivityTable(Table):
     """Measured relative permittivity over temperature at ambient pressure, interpolated linearly."""
 
     temperature: _Temperatures
-    relative_permittivity: Annotated[
-        tuple[float, ...], Quantities(quantity_of(RELATIVE_PERMITTIVITY), least=2)
-    ]
+    relative_permittivity: Annotated[tuple[float, ...], Amounts(quantity_of(RELATIVE_PERMITTIVITY), least=2)]
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -47,7 +45,7 @@ class ConductivityTable(Table):
     """Measured electrical conductivity over temperature; its logarithm is interpolated over 1/T."""
 
     temperature: _Temperatures
-    conductivity: Annotated[tuple[float, ...], Quantities(quantity_of(CONDUCTIVITY), least=2)]
+    conductivity: Annotated[tuple[float, ...], Amounts(quantity_of(CONDUCTIVITY), least=2)]
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -18,11 +18,11 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, InitErrorDetails
 
+from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.oils.alternatives import with_base
 from ehlectric.cases.oils.laws import LAWS, OPTIONAL_LAWS, is_parameter, law_name, law_parameters, quantity_of
 from ehlectric.cases.oils.over_temperature import TEMPERATURE, ConductivityTable, PermittivityTable
 from ehlectric.cases.oils.temperature import OilTemperature
-from ehlectric.cases.quantity import Quantities, Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.atmospheric import ATMOSPHERIC_LAWS
@@ -45,9 +45,9 @@ class Properties(Table):
     model_config = ConfigDict(extra="allow")
 
     base: str | None = None
-    viscosity: (
-        Annotated[float, Quantity("Pa*s", least=1e-7, most=1e6, reason="at ambient pressure")] | None
-    ) = None
+    viscosity: Annotated[float, Amount("Pa*s", least=1e-7, most=1e6, reason="at ambient pressure")] | None = (
+        None
+    )
     atmospheric_law: Annotated[str, law_name(ATMOSPHERIC_LAWS)] | None = None
     viscosity_law: Annotated[str, law_name(VISCOSITY_LAWS)]
     density_law: Annotated[str, law_name(DENSITY_LAWS)]
@@ -58,28 +58,28 @@ class Properties(Table):
     conductivity_table: ConductivityTable | None = None
     thermal_conductivity_law: Annotated[str, law_name(THERMAL_CONDUCTIVITY_LAWS)] | None = None
     heat_capacity_law: Annotated[str, law_name(HEAT_CAPACITY_LAWS)] | None = None
-    density: Annotated[float, Quantity("kg/m**3", least=500.0, most=3000.0, reason="of an oil")] | None = None
+    density: Annotated[float, Amount("kg/m**3", least=500.0, most=3000.0, reason="of an oil")] | None = None
     thermal_expansion: (
-        Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="of the volume of an oil")] | None
+        Annotated[float, Amount("1/K", least=1e-5, most=2e-3, reason="of the volume of an oil")] | None
     ) = None
     reference_temperature: Annotated[float, TEMPERATURE] | None = None
     eyring_stress: (
-        Annotated[float, Quantity("Pa", least=1e4, most=1e9, reason="oils have 2 to 20 MPa")] | None
+        Annotated[float, Amount("Pa", least=1e4, most=1e9, reason="oils have 2 to 20 MPa")] | None
     ) = None
     carreau_stress: (
-        Annotated[float, Quantity("Pa", least=1e2, most=1e9, reason="10 kPa of thickened oils to 10 MPa")]
+        Annotated[float, Amount("Pa", least=1e2, most=1e9, reason="10 kPa of thickened oils to 10 MPa")]
         | None
     ) = None
     carreau_exponent: (
-        Annotated[float, Quantity("", least=0.1, most=1.0, reason="1 is a Newtonian oil")] | None
+        Annotated[float, Amount("", least=0.1, most=1.0, reason="1 is a Newtonian oil")] | None
     ) = None
     limiting_coefficient: (
-        Annotated[float, Quantity("", least=1e-3, most=0.5, reason="limiting shear stress over pressure")]
+        Annotated[float, Amount("", least=1e-3, most=0.5, reason="limiting shear stress over pressure")]
         | None
     ) = None
-    temperature_range: Annotated[tuple[float, ...], Quantities(TEMPERATURE, least=2)] | None = None
+    temperature_range: Annotated[tuple[float, ...], Amounts(TEMPERATURE, least=2)] | None = None
     temperature: OilTemperature | None = None
-    ambient_pressure: Annotated[float, Quantity("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5
+    ambient_pressure: Annotated[float, Amount("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5
 
     if TYPE_CHECKING:
         # Parameters that users and other packages read as attributes.

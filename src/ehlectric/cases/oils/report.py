@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.library.sources import Source
 from ehlectric.cases.oils.known import KnownOil, known_oil
 from ehlectric.cases.oils.named import NamedOil, kelvin_of, named_oil
@@ -18,10 +19,9 @@ from ehlectric.cases.oils.survey import (
     survey,
     usual_temperatures,
 )
-from ehlectric.cases.quantity import Quantity
 from ehlectric.errors import InputError, ResultWarning
 
-PRESSURE = Quantity("Pa", least=0.0, most=2e10, reason="in the oil; contacts of steel reach 4 GPa")
+PRESSURE = Amount("Pa", least=0.0, most=2e10, reason="in the oil; contacts of steel reach 4 GPa")
 
 
 @dataclass(frozen=True, eq=False)

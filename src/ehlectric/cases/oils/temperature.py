@@ -7,13 +7,13 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
+from ehlectric.cases.amounts import Amount
 from ehlectric.cases.library.grade import Grade
-from ehlectric.cases.quantity import Quantity
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.lubricant.viscosity_index import grade_middle, viscosity_at_100
 
-_Viscosity = Annotated[float, Quantity("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
+_Viscosity = Annotated[float, Amount("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
 
 # Keys that give the viscosity.
 SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
@@ -31,16 +31,16 @@ class OilTemperature(Table):
     viscosity_index: (
         Annotated[
             float,
-            Quantity("", least=0.0, most=400.0, reason="ASTM D2270; 95 to 100 is usual for mineral oils"),
+            Amount("", least=0.0, most=400.0, reason="ASTM D2270; 95 to 100 is usual for mineral oils"),
         ]
         | None
     ) = None
-    density_15: Annotated[float, Quantity("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
+    density_15: Annotated[float, Amount("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
     # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as later works quote it.
-    expansion: Annotated[float, Quantity("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
+    expansion: Annotated[float, Amount("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
     base_oil: Literal["mineral-paraffinic", "mineral-naphthenic", "pao", "ester", "polyglycol"] | None = None
     thermal_conductivity: (
-        Annotated[float, Quantity("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None
+        Annotated[float, Amount("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None
     ) = None
 
     @model_validator(mode="after")

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.row import formatted
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
@@ -16,6 +15,7 @@ from ehlectric.contact.spots.oil_balance import OilBalance, oil_balance
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.quantities.rows import formatted
 
 # Oil that a film may make or lose without a warning, over the mean flow through its contact.
 MASS_ERROR = 1e-3

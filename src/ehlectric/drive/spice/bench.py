@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.motor import Motor
-from ehlectric.cases.units import rpm
 from ehlectric.drive.spice.subcircuit import Subcircuit
 from ehlectric.drive.spice.text import SIGNATURE, Parameter, comment
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import rpm
 from ehlectric.version import __version__
 
 # Number of periods of the inverter that are simulated, and of steps in an edge and in a period.

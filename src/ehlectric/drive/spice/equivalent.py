@@ -12,8 +12,8 @@ from ehlectric.bearing.discharges.leakage import oil_conductance
 from ehlectric.bearing.impedance import oil_relaxation_time
 from ehlectric.bearing.intermittency.duty import duty_of
 from ehlectric.bearing.solution import BearingSolution, capacitance, lambda_text, lubrication
-from ehlectric.cases.units import rpm_text
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import rpm_text
 
 # Resistance in place of an insulator [Ohm]. It has no effect on a drive: with the capacitance of a bearing it
 # has a time constant of minutes. Without it, a node between capacitors has no voltage before the first step.

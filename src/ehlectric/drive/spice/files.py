@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from ehlectric.bearing.result import BearingResult
-from ehlectric.cases.quantity import Quantity
+from ehlectric.cases.amounts import Amount
 from ehlectric.drive.spice.bench import bench_lines
 from ehlectric.drive.spice.subcircuit import Arc, Subcircuit, file_text, subcircuit_of
 from ehlectric.drive.spice.text import SIGNATURE
@@ -19,8 +19,8 @@ from ehlectric.runtime.files import reading, refuse_special, write
 # Paths that a test bench can name: other characters mean something in a netlist, or are not ASCII.
 _NAMEABLE = re.compile(r"[\w ./+:-]+", re.ASCII)
 
-_RESISTANCE = Quantity("ohm", least=1e-6, most=1e9, reason="of an arc")
-_VOLTAGE = Quantity("V", least=1e-6, most=1e6, reason="across the films")
+_RESISTANCE = Amount("ohm", least=1e-6, most=1e9, reason="of an arc")
+_VOLTAGE = Amount("V", least=1e-6, most=1e6, reason="across the films")
 
 
 def write_netlist(

@@ -12,10 +12,10 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lubrication
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.units import rpm, rpm_text
 from ehlectric.drive.spice.equivalent import Equivalent
 from ehlectric.drive.spice.text import Parameter
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.units import rpm, rpm_text
 from ehlectric.runtime.progress import Progress, silent
 
 # Largest number of speeds in a range, and the smallest ratio of two speeds: the logarithm of their ratio, to

@@ -12,12 +12,12 @@ from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import capacitance_is_bound, lambda_text, lubrication
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW
-from ehlectric.cases.row import amount
-from ehlectric.cases.units import rpm, rpm_text
 from ehlectric.drive.spice.equivalent import OPEN, Equivalent, equivalent_of
 from ehlectric.drive.spice.over_speed import check_table, interpolated, nodes, parts
 from ehlectric.drive.spice.text import SIGNATURE, Parameter, ascii_of, comment, name_of
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.rows import amount
+from ehlectric.quantities.units import rpm, rpm_text
 from ehlectric.version import __version__
 
 # Resistance of an open switch over that of the leak beside it.

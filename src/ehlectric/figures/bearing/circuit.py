@@ -11,11 +11,11 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.result import BearingResult
-from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
 from ehlectric.figures.bearing.curves import nearly_equal
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, fill_text, label_ends, volts
 from ehlectric.figures.style import BLUE, ORANGE, axes_or_new, figure_of, legend_above
+from ehlectric.quantities.units import unit_for
 
 # Largest number of elements that have a tick on the axis of a figure of this width [inches]. Fewer have one
 # in a narrower figure.

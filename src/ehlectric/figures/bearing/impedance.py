@@ -9,8 +9,8 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.discharges.leakage import shaft_leakage
 from ehlectric.bearing.impedance import Impedance, impedance_of
 from ehlectric.bearing.result import BearingResult
-from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new
+from ehlectric.quantities.units import unit_for
 
 # Frequencies of a common inverter [Hz]: from the lowest switching frequency to those in the edges of its
 # voltage, 1/(pi t) for a rise time t of 60 ns. They are no values of the case.

@@ -11,10 +11,10 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.meter.path import shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.result import BearingResult
-from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.bearing.curves import nearly_equal
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
 from ehlectric.figures.style import BLUE, GREY, axes_or_new, legend_above
+from ehlectric.quantities.units import unit_for
 
 # A quantity that varies by less than this part of its mean over a pitch is a number, not a figure.
 LEAST_VARIATION = 0.01

@@ -17,9 +17,9 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
-from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.axes import is_wide, round_numbers
 from ehlectric.figures.style import BLUE, GREY, ORANGE, page_size
+from ehlectric.quantities.units import unit_for
 
 # Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
 # the line of the inner ring is drawn last, over the wider line of the outer ring.

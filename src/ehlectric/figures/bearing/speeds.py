@@ -13,8 +13,6 @@ from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL
-from ehlectric.cases import units
-from ehlectric.cases.quantity import unit_for
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.axes import is_wide, scale_axis
 from ehlectric.figures.bearing.curves import (
@@ -30,6 +28,8 @@ from ehlectric.figures.bearing.curves import (
 )
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, legend_above
+from ehlectric.quantities import units
+from ehlectric.quantities.units import unit_for
 
 # Legend entry of speeds at which no voltage is computed.
 _OPENING = r"$\lambda$ < 1: contacts open and close, discharges likely"

@@ -13,7 +13,6 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 from ehlectric.field.point import PointField
 from ehlectric.figures.contact.breakdown import limit_line
@@ -22,6 +21,7 @@ from ehlectric.figures.contact.maps import film_unit, film_window, round_levels
 from ehlectric.figures.lengths import label_position
 from ehlectric.figures.section import draw_section
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, legend_above, new_panels
+from ehlectric.quantities.units import unit_for
 
 # Colour and dashes of the cut through the centre, and of the cut through the minimum film or maximum field.
 _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.spots.warnings import about_share
 from ehlectric.discharge.utilisation import FieldUtilisation
@@ -21,6 +20,7 @@ from ehlectric.figures.names import (
     SPOTS_FIGURE,
     TEMPERATURE_FIGURE,
 )
+from ehlectric.quantities.units import unit_for
 
 AnyContact = Result | PointResult
 

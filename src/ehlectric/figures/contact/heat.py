@@ -12,7 +12,6 @@ from matplotlib.colors import Normalize
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 from ehlectric.figures.axes import BAR
 from ehlectric.figures.contact.findings import AnyContact
@@ -20,6 +19,7 @@ from ehlectric.figures.lengths import in_half_widths, label_position
 from ehlectric.figures.names import SHEAR_FIGURE, TEMPERATURE_FIGURE
 from ehlectric.figures.section import section_part
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, legend_above, new_panels
+from ehlectric.quantities.units import unit_for
 
 # Absolute temperature of 0 degC [K].
 _CELSIUS = 273.15

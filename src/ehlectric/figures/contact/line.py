@@ -11,7 +11,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
 from ehlectric.figures.contact.breakdown import breakdown_figures_of, limit_line
 from ehlectric.figures.contact.findings import cut_offs, disagreement, per_cent, strength_limit
@@ -24,6 +23,7 @@ from ehlectric.figures.lengths import LENGTH_AXIS, in_half_widths, label_positio
 from ehlectric.figures.names import ROUGHNESS_FIGURE
 from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.formulas.hertz_line import line_pressure
+from ehlectric.quantities.units import unit_for
 
 
 def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:

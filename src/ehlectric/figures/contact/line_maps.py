@@ -10,7 +10,6 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import Result
 from ehlectric.figures.axes import BAR
 from ehlectric.figures.contact.maps import round_levels
@@ -18,6 +17,7 @@ from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
 from ehlectric.figures.lengths import in_half_widths, label_position
 from ehlectric.figures.section import MAXIMUM, draw_section, section_part
 from ehlectric.figures.style import BODY, OUT_OF_RANGE, axes_or_new, figure_of, legend_above
+from ehlectric.quantities.units import unit_for
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:

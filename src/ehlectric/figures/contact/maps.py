@@ -18,11 +18,11 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import Transform, offset_copy
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.results import PointResult
 from ehlectric.figures.lengths import label_position
 from ehlectric.figures.style import figure_of, new_panels, page_width
+from ehlectric.quantities.units import unit_for
 
 # Ratio a/b of the semi-axes, a across and b along entrainment, above which a contact is drawn turned: its
 # long axis lies along the page, and entrainment points down.

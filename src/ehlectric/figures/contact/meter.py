@@ -8,12 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.meter.profile import meter_profile
 from ehlectric.contact.meter.reading import Metered
 from ehlectric.figures.contact.findings import AnyContact, with_unit
 from ehlectric.figures.names import METER_FIGURE
 from ehlectric.figures.style import BLUE, GREY, ORANGE, legend_above, new_panels
+from ehlectric.quantities.units import unit_for
 
 
 def meter(result: AnyContact, ax: Axes | None = None) -> Axes:

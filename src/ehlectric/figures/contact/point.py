@@ -12,7 +12,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult
 from ehlectric.field.zones import HIGH_FIELD
 from ehlectric.figures.contact.breakdown import breakdown_figures_of
@@ -43,6 +42,7 @@ from ehlectric.figures.contact.refined import refined, smoothed
 from ehlectric.figures.contact.spots import spots_figures_of
 from ehlectric.figures.names import ROUGHNESS_FIGURE
 from ehlectric.figures.style import GREY, OUT_OF_RANGE, legend_above
+from ehlectric.quantities.units import unit_for
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")
 

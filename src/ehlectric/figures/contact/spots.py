@@ -10,7 +10,6 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.figures.contact.findings import AnyContact
 from ehlectric.figures.contact.maps import (
@@ -27,6 +26,7 @@ from ehlectric.figures.contact.maps import (
 from ehlectric.figures.lengths import LENGTH_AXIS, in_half_widths, label_position, length_axis
 from ehlectric.figures.names import SPOTS_FIGURE
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.quantities.units import unit_for
 
 # Share of the Hertz zone outside of the spots whose film the colours and the axis span.
 _SHOWN = 95.0

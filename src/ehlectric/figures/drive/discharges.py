@@ -9,12 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, PEAK, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.axes import is_wide, scale_axis
 from ehlectric.figures.drive.looks import COLOURS, NAMES, events_of, number_of_events
 from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.quantities.units import unit_for
 
 # Quantities of a discharge: name, column of a record, and unit.
 QUANTITIES = (

@@ -8,13 +8,13 @@ import textwrap
 import numpy as np
 
 from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.row import amount, number_text
-from ehlectric.cases.units import rpm
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.bearing.impedance import prefixed
 from ehlectric.figures.drive.looks import NAMES, breakdown_of, number_of_events
 from ehlectric.figures.drive.remedies import variants
+from ehlectric.quantities.rows import amount, number_text
+from ehlectric.quantities.units import rpm
 
 # Share of time from which on a voltage is told [%].
 _TOLD = 1.0

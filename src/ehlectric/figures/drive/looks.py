@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.drive.discharges.record import FILM
-from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.style import BLUE, ORANGE
+from ehlectric.quantities.drive_results import NAMES_OF_ENDS
+from ehlectric.quantities.units import unit_for
 
 # Names of both bearings in titles and legends, and their colours.
 NAMES = tuple(NAMES_OF_ENDS.values())

@@ -12,12 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.quantity import unit_for
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.drive.looks import COLOURS, NAMES
 from ehlectric.figures.names import literal
 from ehlectric.figures.style import GREY, axes_or_new, legend_above
+from ehlectric.quantities.units import unit_for
 
 # Letters on a line of a name, and lines of it; distance of both bearings from the middle of their row.
 _LETTERS, _LINES, _BESIDE = 20, 2, 0.16

@@ -11,11 +11,11 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from ehlectric.cases.quantity import unit_for
 from ehlectric.drive.discharges.record import ON, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive.looks import COLOURS, NAMES, THRESHOLD, breakdown_of, events_of, voltage_unit
 from ehlectric.figures.style import GREY, axes_or_new, legend_above
+from ehlectric.quantities.units import unit_for
 
 # Breakdown voltage over the largest voltage of a panel up to which it is drawn.
 _NEAR = 1.8

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.measurements.factors import FilmFactors, factor_text
-from ehlectric.cases.units import rpm
 from ehlectric.figures.axes import is_wide, scale_axis
 from ehlectric.figures.names import MEASURED_FIGURE, in_formats
 from ehlectric.figures.style import (
@@ -29,6 +28,7 @@ from ehlectric.figures.style import (
     save_figure,
     style,
 )
+from ehlectric.quantities.units import rpm
 
 # Width and height [inches].
 _SIZE = (6.3, 5.2)

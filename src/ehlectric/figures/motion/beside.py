@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.motion.panels import (
     Unit,
     along_label,
@@ -23,6 +22,7 @@ from ehlectric.figures.motion.panels import (
 )
 from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
 from ehlectric.motion.stored_run import MotionRun, coincident_frame
+from ehlectric.quantities.units import unit_for
 
 
 def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:

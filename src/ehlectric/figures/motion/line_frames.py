@@ -13,7 +13,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.figures.motion.beside import roughness_at
 from ehlectric.figures.motion.panels import (
     field_unit,
@@ -28,6 +27,7 @@ from ehlectric.figures.motion.panels import (
 )
 from ehlectric.figures.style import BLUE, BODY, OIL, ORANGE, figure_of, new_panels
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.units import unit_for
 
 # Size of a frame [inches].
 _SIZE = (5.2, 6.6)

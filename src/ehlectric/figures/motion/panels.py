@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.contact.bodies import surface_ratios
 from ehlectric.figures.style import figure_of, name_over
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.units import unit_for
 
 # Range of x in the figures [half-widths], as in the figures of stationary contacts.
 _BEFORE, _BEHIND = -2.0, 1.5

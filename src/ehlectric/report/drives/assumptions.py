@@ -10,8 +10,8 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
 from ehlectric.cases.input_keys import end_and_key, of_both_ends
-from ehlectric.cases.row import amount
 from ehlectric.figures.names import with_units_kept
+from ehlectric.quantities.rows import amount
 from ehlectric.report.content import Section, Table, Text
 from ehlectric.report.origins import input_text, inputs_of
 

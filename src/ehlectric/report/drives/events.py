@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ehlectric.cases.quantity import unit_for
-from ehlectric.cases.row import number_text
-from ehlectric.drive.keys import EVENT_COLUMNS, NAMES_OF_ENDS
 from ehlectric.drive.result import DriveResult
+from ehlectric.quantities.drive_results import EVENT_COLUMNS, NAMES_OF_ENDS
+from ehlectric.quantities.rows import number_text
+from ehlectric.quantities.units import unit_for
 from ehlectric.report.content import Block, Table, Text
 
 # Largest number of discharges that a report lists.

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ehlectric.cases.drives.case import ENDS
-from ehlectric.cases.row import UNITS, number_text
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
-from ehlectric.drive.keys import DRIVE_KEYS, LIMITS, NAMES_OF_ENDS
+from ehlectric.quantities.drive_results import DRIVE_KEYS, LIMITS, NAMES_OF_ENDS
+from ehlectric.quantities.rows import UNITS, number_text
 from ehlectric.report.content import Table, Text
 
 # Row of the bounds of the rate of discharges.
@@ -140,7 +140,7 @@ def end_tables(summary: Mapping[str, Any]) -> Iterator[Table | Text]:
 def _name(key: str) -> str:
     if key in _NAMES:
         return _NAMES[key]
-    return DRIVE_KEYS[f"{ENDS[0]}.{key}"].name.removesuffix(f", {NAMES_OF_ENDS[ENDS[0]]}")
+    return DRIVE_KEYS[f"{ENDS[0]}.{key}"].label.removesuffix(f", {NAMES_OF_ENDS[ENDS[0]]}")
 
 
 def value_text(end: Mapping[str, Any], key: str, unit: str) -> str:

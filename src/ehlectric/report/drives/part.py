@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any
 
 from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.row import amount, number_text
-from ehlectric.cases.units import rpm
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.names import with_units_kept
+from ehlectric.quantities.rows import amount, number_text
+from ehlectric.quantities.units import rpm
 from ehlectric.report.content import Block, Section
 from ehlectric.report.drawn import pictures_of
 from ehlectric.report.drives.assumptions import assumption_section

@@ -8,10 +8,10 @@ from typing import Any
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import of_both_ends
-from ehlectric.drive.keys import NAMES_OF_ENDS
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.errors import CODES, printable
+from ehlectric.quantities.drive_results import NAMES_OF_ENDS
 from ehlectric.report.content import Block, Table, Text
 from ehlectric.report.drives.numbers import BOUNDS, value_text
 from ehlectric.report.light import light_of

@@ -14,9 +14,9 @@ from ehlectric.bearing.margin.sensitivity import OF_TABLE, Effect
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.units import rpm_text
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import rpm_text
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

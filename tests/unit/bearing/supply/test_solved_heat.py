@@ -15,9 +15,9 @@ from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.bearing.storage.dataset import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.supply import solved_heat
-from ehlectric.cases.row import value_at
 from ehlectric.contact.kinds import KINDS
 from ehlectric.errors import ConvergenceError, InputError
+from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.checks.schema import UnfitError
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.each import each

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.cases.result_key import key_of
 from ehlectric.contact.check import check_case
 from ehlectric.contact.files import load, save
-from ehlectric.contact.keys import CONTACT_KEYS
 from ehlectric.contact.spots.asperities import asperities
 from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.contact.spots.warnings import about_share, share_text, spot_warnings
 from ehlectric.figures import names
 from ehlectric.figures.contact.findings import finding
 from ehlectric.figures.results import figure, figure_names
+from ehlectric.quantities.contact_results import CONTACT_KEYS
+from ehlectric.quantities.quantity import key_of
 from ehlectric.report.light import light_of
 from ehlectric.tables.contact import result_rows
 from tests.helpers.each import each

@@ -10,13 +10,13 @@ from ehlectric.app.answers.bearing import Figure, Table
 from ehlectric.app.figures.drives.voltages import COLOURS
 from ehlectric.app.figures.look import Plot, axis, plot, values
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, PEAK, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.discharges import bins_of
 from ehlectric.figures.drive.looks import NAMES, events_of, number_of_events
+from ehlectric.quantities.units import unit_for
 
 # Quantities of a discharge by the names of their figures: words, column, unit, and name in the summary.
 QUANTITIES = {

@@ -10,11 +10,11 @@ from typing import Any
 from ehlectric.app.answers.bearing import Figure, Table
 from ehlectric.app.figures.drives.voltages import COLOURS
 from ehlectric.app.figures.look import Plot, axis, plot
-from ehlectric.cases.row import number_text
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.looks import NAMES
 from ehlectric.figures.drive.remedies import variants
+from ehlectric.quantities.rows import number_text
 
 # Height of a row, and of what surrounds the rows [px]; letters on a line of a name.
 _ROW, _REST, _LETTERS = 62, 110, 16

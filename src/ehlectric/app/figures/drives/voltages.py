@@ -11,11 +11,11 @@ from ehlectric.app.answers.bearing import Figure, Table
 from ehlectric.app.figures.look import BLUE, GREY, ORANGE, Plot, axis, plot, thinned, values
 from ehlectric.app.figures.stack import Along, Curve, Panel, stack
 from ehlectric.arrays import Array
-from ehlectric.cases.quantity import unit_for
 from ehlectric.drive.discharges.record import ON, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.looks import NAMES, breakdown_of, events_of, voltage_unit
+from ehlectric.quantities.units import unit_for
 
 COLOURS = (BLUE, ORANGE)
 

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ehlectric.cases import units
 from ehlectric.drive.source.text.heads import Head, Heads
 from ehlectric.drive.source.text.spelling import TIMES, VOLTAGES, unit_of
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities import units
 
 # Most columns that an error lists: as many as an oscilloscope has channels, with their times.
 _LISTED = 9

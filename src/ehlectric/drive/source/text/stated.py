@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from ehlectric.cases import units
 from ehlectric.drive.source.text.dialect import Dialect, Layout, bare
 from ehlectric.drive.source.text.spelling import NUMBERINGS, TIMES, spelled
+from ehlectric.quantities import units
 
 # Keys of the lines above the numbers, in small letters.
 _STEP = (

@@ -6,13 +6,10 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
-from ehlectric.cases.quantity import unit_for
-from ehlectric.cases.result_key import Keys, key_of
-
-# Sign of a value that is a bound only; empty for any other value.
-Bound: TypeAlias = Literal["", "≤", "≥"]
+from ehlectric.quantities.quantity import Bound, Keys, key_of
+from ehlectric.quantities.units import unit_for
 
 # SI unit of each unit that is shown, in the notation of pint, and the factor from the SI unit to the shown
 # unit.
@@ -179,7 +176,7 @@ def rows_of(
 
     Parameters
     ----------
-    keys : mapping of str to ResultKey
+    keys : mapping of str to Quantity
         Keys of the summary, with the SI unit of each number.
     summary : mapping
         Nested summary, SI units.
@@ -195,8 +192,8 @@ def rows_of(
 
     Examples
     --------
-    >>> from ehlectric.cases.result_key import ResultKey
-    >>> keys = {"film.error": ResultKey("error"), "film.minimum": ResultKey("minimum", "m")}
+    >>> from ehlectric.quantities.quantity import Quantity
+    >>> keys = {"film.error": Quantity("error"), "film.minimum": Quantity("minimum", "m")}
     >>> entries = [("error", "film.error", "%"), ("minimum film", "film.minimum", "µm", ", of all")]
     >>> list(rows_of(keys, {"film": {"error": None, "minimum": 1e-7}}, entries))
     [Row(name='minimum film', value=1e-07, unit='µm', note=', of all', digits='.4g', alarm=False, bound='')]

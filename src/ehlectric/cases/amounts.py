@@ -1,10 +1,9 @@
-"""Numbers and units in case files: conversion of strings to SI values, and checks of bounds."""
+"""Numbers of case files: values in SI units from what a user wrote, within their bounds."""
 
 from __future__ import annotations
 
 import math
 import numbers
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -12,126 +11,14 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from ehlectric.cases import units
 from ehlectric.errors import InputError, short, shown
-
-_PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
-
-# Groups that are never given up, "++" and the like, keep the time proportional to the length of the text.
-_NUMBER_AND_UNIT = re.compile(r"([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?+)\s*+(.*)")
-
-# Longest text of a number with its unit [characters].
-_LONGEST = 200
+from ehlectric.quantities import units
 
 # Temperatures without a unit whose size is below this are meant in degC [K].
 _COLDEST_BARE = 200.0
 
 # Key of the context of a validation: whether a person wrote the tables into a file.
 WRITTEN = "written"
-
-
-def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
-    """Factor from ``unit`` to a prefixed unit in which ``largest`` is at least ``least``, and this unit."""
-    size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
-    prefixed = _PREFIXES[size] + unit
-    # Dielectric strengths are usually given in V/µm.
-    return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed
-
-
-def to_si(text: str, unit: str) -> float:
-    """Convert a string such as "1.57 MN/m" to a value in an SI unit.
-
-    Parameters
-    ----------
-    text : str
-        Number and unit.
-    unit : str
-        SI unit of the quantity, as pint writes it.
-
-    Returns
-    -------
-    float
-        Value in ``unit``.
-
-    Raises
-    ------
-    ValueError
-        If the string is not a number with a unit of the right dimension; the message says why.
-
-    Examples
-    --------
-    >>> to_si("22 1/GPa", "1/Pa")
-    2.2e-08
-    """
-    number, written = _split(text)
-    if not written:
-        raise ValueError("it has no unit")
-    if unit == "K":
-        return units.absolute(number, written)
-    ratio = units.factor(written, unit)
-    # Fifteen digits remove the rounding error of factors such as 1e-3, which are not binary numbers. A number
-    # in the SI unit itself stays as it is: it may have been written by ``to_toml``.
-    return number if ratio == 1.0 else float(f"{number * ratio:.15g}")
-
-
-def _split(text: str, otherwise: str = "it is not a number with a unit") -> tuple[float, str]:
-    """Number and unit in a text; raises ValueError, with advice or the given words, if it has none."""
-    if len(text) > _LONGEST:
-        raise ValueError(f"it has {len(text)} characters, which is too long")
-    match = _NUMBER_AND_UNIT.fullmatch(units.plain(text).strip())
-    advice = units.comma_advice(text)
-    if match is None or advice:
-        raise ValueError(advice or otherwise)
-    return float(match[1]), match[2]
-
-
-def to_fraction(text: str) -> float:
-    """Convert a string in percent to a fraction.
-
-    Parameters
-    ----------
-    text : str
-        Number, followed by "%" or "percent".
-
-    Returns
-    -------
-    float
-        Fraction, dimensionless.
-
-    Raises
-    ------
-    ValueError
-        If the string is not a number in percent. Other dimensionless units, such as rad, are refused.
-
-    Examples
-    --------
-    >>> to_fraction("3 %")
-    0.03
-    """
-    number, written = _split(text, "it is not a number in percent")
-    if written not in ("%", "percent"):
-        raise ValueError("it is not a number in percent")
-    return float(f"{number / 100.0:.15g}")
-
-
-def length_unit(text: str) -> str:
-    """Check that a string is a unit of length, and return it.
-
-    Raises
-    ------
-    InputError
-        If the string is not a unit of length.
-
-    Examples
-    --------
-    >>> length_unit("um")
-    'um'
-    """
-    try:
-        to_si(f"1 {text}", "m")
-    except ValueError as error:
-        raise InputError(got=f"{shown(text)} ({error})", takes="a unit of length such as 'um'") from None
-    return text
 
 
 def scalar(entry: object) -> object:
@@ -158,7 +45,7 @@ def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], 
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Amount:
     """Pydantic annotation of a physical quantity: number in SI units or string with its unit, within bounds.
 
     Attributes
@@ -267,10 +154,10 @@ class Quantity:
         if self.difference and units.on_scale(entry):
             raise ValueError("it is a difference of temperatures, not a temperature")
         if isinstance(entry, str) and self.unit:
-            return to_si(entry, self.unit)
+            return units.to_si(entry, self.unit)
         if isinstance(entry, str) and self.fraction:
-            return to_fraction(entry)
-        if isinstance(entry, str) and len(entry) <= _LONGEST and (advice := units.comma_advice(entry)):
+            return units.to_fraction(entry)
+        if isinstance(entry, str) and len(entry) <= units.LONGEST and (advice := units.comma_advice(entry)):
             raise ValueError(advice)
         if units.is_pint(entry):
             return units.from_pint(entry, self.unit)
@@ -306,18 +193,18 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class Quantities:
+class Amounts:
     """Pydantic annotation of a list of quantities of one kind, parsed to a tuple of floats in SI units.
 
     Attributes
     ----------
-    each : Quantity
+    each : Amount
         Unit and bounds of each value.
     least : int
         Smallest number of values.
     """
 
-    each: Quantity
+    each: Amount
     least: int = 1
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:

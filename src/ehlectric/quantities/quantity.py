@@ -1,18 +1,22 @@
-"""Keys of results: meaning, SI unit, name and symbol of each number of a summary.
+"""A quantity of the book: what every output says about one result or input.
 
-Each package lists the keys that it fills in its module ``keys``. Labels of figures, attributes of NetCDF
-files and tables of the documentation are made from these lists.
+The modules beside this one list the quantities of each kind of file. Tables, pages, reports, figures, heads
+of columns and the documentation look them up by key, and have no labels, units or digits of their own.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+# Sign of a value that is a bound only; empty for any other value.
+Bound: TypeAlias = Literal["", "≤", "≥"]
 
 
 @dataclass(frozen=True)
-class ResultKey:
-    """Meaning, unit, name and symbol of one key of a summary.
+class Quantity:
+    """Label, symbol, units, digits and meaning of one quantity.
 
     Attributes
     ----------
@@ -20,64 +24,75 @@ class ResultKey:
         Meaning of the value, as a phrase for the documentation.
     unit : str
         SI unit as pint writes it, such as "V/m"; empty for a dimensionless number, a text or a choice.
-    name : str
-        Name in labels, such as "minimum film thickness"; if it is empty, labels show the dotted key.
+    label : str
+        Label, such as "minimum film thickness"; if it is empty, outputs show the dotted key.
     symbol : str
         Symbol in labels, in LaTeX; empty if there is none.
+    shown : str
+        Unit in which the value is shown, such as "µm"; if it is empty, the unit with the prefix that suits
+        the value.
+    digits : str
+        Format of the shown number.
+    bound : str
+        What an ideal film makes of the value: "≤" for an upper bound, "≥" for a lower one. ``bounds`` says
+        whether it holds for a result.
     """
 
     meaning: str
     unit: str = ""
-    name: str = ""
+    label: str = ""
     symbol: str = ""
+    shown: str = field(default="", kw_only=True)
+    digits: str = field(default=".4g", kw_only=True)
+    bound: Bound = field(default="", kw_only=True)
 
 
 # Keys of a summary, or of one of its tables. An item of a list has the key of the list, if it has none of its
 # own; ``*`` stands for any single name.
-Keys = Mapping[str, ResultKey]
+Keys = Mapping[str, Quantity]
 
 
-def under(table: str, keys: Keys) -> dict[str, ResultKey]:
+def under(table: str, keys: Keys) -> dict[str, Quantity]:
     """Convert the keys of a table to dotted keys of the summary that contains the table.
 
     Parameters
     ----------
     table : str
         Dotted key of the table.
-    keys : mapping of str to ResultKey
+    keys : mapping of str to Quantity
         Keys within the table.
 
     Returns
     -------
-    dict of str to ResultKey
+    dict of str to Quantity
         The same keys, each preceded by ``table`` and a dot.
 
     Examples
     --------
-    >>> list(under("film", {"residual": ResultKey("largest residual")}))
+    >>> list(under("film", {"residual": Quantity("largest residual")}))
     ['film.residual']
     """
     return {f"{table}.{name}": key for name, key in keys.items()}
 
 
-def key_of(keys: Keys, dotted: str) -> ResultKey | None:
+def key_of(keys: Keys, dotted: str) -> Quantity | None:
     """Look up a dotted key of a summary.
 
     Parameters
     ----------
-    keys : mapping of str to ResultKey
+    keys : mapping of str to Quantity
         Keys of the summary.
     dotted : str
         Dotted key; items of lists are numbered, as in "contacts.0.load".
 
     Returns
     -------
-    ResultKey or None
+    Quantity or None
         Meaning, unit, name and symbol of the key; None if the key is unknown.
 
     Examples
     --------
-    >>> keys = {"contacts.load": ResultKey("load", "N"), "sources.*": ResultKey("source of a number")}
+    >>> keys = {"contacts.load": Quantity("load", "N"), "sources.*": Quantity("source of a number")}
     >>> key_of(keys, "contacts.0.load").unit
     'N'
     >>> key_of(keys, "sources.zone_size").meaning

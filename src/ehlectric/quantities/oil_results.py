@@ -1,38 +1,43 @@
-"""Keys of an oil at its temperature in summary.json."""
+"""Results of an oil at the temperature of a contact."""
 
 from __future__ import annotations
 
-from ehlectric.cases.result_key import Keys, ResultKey, under
-from ehlectric.lubricant.oil import LAW_NAMES
+from ehlectric.quantities.quantity import Keys, Quantity, under
+
+# What the laws of an oil describe, in the order of files.
+LAW_NAMES = (
+    *("atmospheric", "viscosity", "density", "permittivity", "conductivity"),
+    *("thermal_conductivity", "heat_capacity", "strength"),
+)
 
 OIL_KEYS: Keys = {
-    "name": ResultKey("name of the oil in the library; null for another"),
-    "temperature": ResultKey(
+    "name": Quantity("name of the oil in the library; null for another"),
+    "temperature": Quantity(
         "temperature of the oil in the contacts; null where the case gives none",
         "K",
         "temperature of the oil",
     ),
-    "viscosity": ResultKey(
+    "viscosity": Quantity(
         "viscosity of the oil at ambient pressure and that temperature", "Pa*s", "viscosity", r"$\eta_0$"
     ),
-    "pressure_viscosity_coefficient": ResultKey(
+    "pressure_viscosity_coefficient": Quantity(
         "slope of the logarithm of the viscosity at zero pressure and that temperature",
         "1/Pa",
         "pressure-viscosity coefficient",
         r"$\alpha$",
     ),
-    "alpha_star": ResultKey(
+    "alpha_star": Quantity(
         "reciprocal asymptotic pressure-viscosity coefficient at that temperature, which film formulas and "
         "the group L take",
         "1/Pa",
         "reciprocal asymptotic coefficient",
         r"$\alpha^*$",
     ),
-    "density": ResultKey("density at ambient pressure; null where it is not known", "kg/m**3", "density"),
-    "relative_permittivity": ResultKey(
+    "density": Quantity("density at ambient pressure; null where it is not known", "kg/m**3", "density"),
+    "relative_permittivity": Quantity(
         "relative permittivity at ambient pressure", "", "relative permittivity", r"$\varepsilon_\mathrm{r}$"
     ),
-    "conductivity": ResultKey(
+    "conductivity": Quantity(
         "electrical conductivity, that of `[discharge]` or else of the oil; null where it is not known",
         "S/m",
         "conductivity of the oil",
@@ -40,6 +45,6 @@ OIL_KEYS: Keys = {
     ),
     **under(
         "laws",
-        {name: ResultKey(f"law of the {name.replace('_', ' ')}; null without one") for name in LAW_NAMES},
+        {name: Quantity(f"law of the {name.replace('_', ' ')}; null without one") for name in LAW_NAMES},
     ),
 }

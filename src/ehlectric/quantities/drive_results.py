@@ -1,4 +1,4 @@
-"""Keys of the summary.json of a drive."""
+"""Results of a drive: the keys of its summary.json."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
-from ehlectric.cases.result_key import Keys, ResultKey, under
+from ehlectric.quantities.quantity import Keys, Quantity, under
 
 # Voltages whose share of time is told [V]: field experience has discharges from a few volts on.
 LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
@@ -17,56 +17,52 @@ NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
 )
 
 _ABOUT: Keys = {
-    "schema": ResultKey("name of the format"),
-    "version": ResultKey("version of the program"),
-    "title": ResultKey("title of the drive file"),
-    "converged": ResultKey("whether the films of both bearings are converged"),
-    "warnings": ResultKey("warnings, to be read before the numbers are used"),
-    "warning_codes": ResultKey("code of each warning, in the same order"),
-    "verdict": ResultKey(
+    "schema": Quantity("name of the format"),
+    "version": Quantity("version of the program"),
+    "title": Quantity("title of the drive file"),
+    "converged": Quantity("whether the films of both bearings are converged"),
+    "warnings": Quantity("warnings, to be read before the numbers are used"),
+    "warning_codes": Quantity("code of each warning, in the same order"),
+    "verdict": Quantity(
         "answer: how often which bearing discharges, with which energy, and what it rests on"
     ),
-    "level": ResultKey('colour of the answer: "green", "yellow", "red", or "grey" where there is none'),
-    "inputs": ResultKey("the drive file, with both bearings"),
+    "level": Quantity('colour of the answer: "green", "yellow", "red", or "grey" where there is none'),
+    "inputs": Quantity("the drive file, with both bearings"),
 }
 _SOURCE: Keys = {
-    "peak": ResultKey("largest absolute common-mode voltage, without ringing", "V", "common-mode voltage"),
-    "edges_per_second": ResultKey("steps of the common-mode voltage", "1/s", "edges of the source"),
-    "fundamental_frequency": ResultKey(
+    "peak": Quantity("largest absolute common-mode voltage, without ringing", "V", "common-mode voltage"),
+    "edges_per_second": Quantity("steps of the common-mode voltage", "1/s", "edges of the source"),
+    "fundamental_frequency": Quantity(
         "frequency of the fundamental at this speed; null for a measured source",
         "Hz",
         "fundamental frequency",
     ),
-    "modulation_index": ResultKey(
+    "modulation_index": Quantity(
         "modulation index at this speed; null for six-step modulation and a measured source",
         "",
         "modulation index",
     ),
 }
 _CIRCUIT: Keys = {
-    "winding_rotor_capacitance": ResultKey(
+    "winding_rotor_capacitance": Quantity(
         "capacitance from the winding to the rotor, given or from the geometry", "F", "winding to rotor"
     ),
-    "rotor_frame_capacitance": ResultKey(
+    "rotor_frame_capacitance": Quantity(
         "capacitance from the rotor to the frame, given or from the geometry", "F", "rotor to frame"
     ),
-    "winding_frame_capacitance": ResultKey(
+    "winding_frame_capacitance": Quantity(
         "capacitance from the winding to the frame, given or from the geometry", "F", "winding to frame"
     ),
 }
 _DRIVE: Keys = {
-    "speed": ResultKey("speed of the rotor", "rad/s", "speed"),
-    "temperature": ResultKey(
-        "temperature of the oil of the drive-end bearing", "K", "temperature of the oil"
-    ),
-    "duration": ResultKey("simulated time, after the circuit has settled", "s", "simulated time"),
-    "periods": ResultKey(
-        "periods of the fundamental in this time; null for a measured source", "", "periods"
-    ),
-    "seed": ResultKey("seed of the random numbers"),
-    "events": ResultKey("discharges of both bearings", "", "discharges"),
-    "events_per_second": ResultKey("discharges of both bearings in a second", "1/s", "discharges per second"),
-    "power": ResultKey(
+    "speed": Quantity("speed of the rotor", "rad/s", "speed"),
+    "temperature": Quantity("temperature of the oil of the drive-end bearing", "K", "temperature of the oil"),
+    "duration": Quantity("simulated time, after the circuit has settled", "s", "simulated time"),
+    "periods": Quantity("periods of the fundamental in this time; null for a measured source", "", "periods"),
+    "seed": Quantity("seed of the random numbers"),
+    "events": Quantity("discharges of both bearings", "", "discharges"),
+    "events_per_second": Quantity("discharges of both bearings in a second", "1/s", "discharges per second"),
+    "power": Quantity(
         "energy of the discharges of both bearings in a second", "W", "power of the discharges"
     ),
 }
@@ -79,104 +75,104 @@ _SPREADS = {
 }
 _STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "largest"}
 _END: Keys = {
-    "capacitance": ResultKey("capacitance of the films, mean over the positions", "F", "bearing capacitance"),
-    "conductance": ResultKey("conductance of the oil of the films", "S", "conductance of the films"),
-    "breakdown_voltage": ResultKey(
+    "capacitance": Quantity("capacitance of the films, mean over the positions", "F", "bearing capacitance"),
+    "conductance": Quantity("conductance of the oil of the films", "S", "conductance of the films"),
+    "breakdown_voltage": Quantity(
         "voltage across the films at which an element breaks down from ring to ring, weakest position; "
         "null for ceramic elements",
         "V",
         "breakdown voltage",
     ),
-    "weibull_shape": ResultKey(
+    "weibull_shape": Quantity(
         "shape of Weibull's law of that voltage; null without scatter", "", "Weibull shape"
     ),
-    "renewal_time": ResultKey(
+    "renewal_time": Quantity(
         "mean time after which other oil, with another threshold, is in them", "s", "renewal time"
     ),
-    "touching_time_share": ResultKey(
+    "touching_time_share": Quantity(
         "share of time in which asperities close the films", "", "share of contact"
     ),
-    "voltage_ratio": ResultKey(
+    "voltage_ratio": Quantity(
         "voltage across the films per volt of the source right after an edge, by the capacitive divider, "
         "with the elements at their first position; inductances are left out",
         "",
         "bearing voltage ratio",
     ),
-    "waveform_ratio": ResultKey(
+    "waveform_ratio": Quantity(
         "largest voltage across the films over the largest voltage of the source, as simulated",
         "",
         "voltage ratio by the waveform",
     ),
-    "peak_voltage": ResultKey("largest voltage across the films", "V", "largest bearing voltage"),
-    "rms_voltage": ResultKey("root mean square of the voltage across the films", "V", "rms bearing voltage"),
-    "burning_time_share": ResultKey(
+    "peak_voltage": Quantity("largest voltage across the films", "V", "largest bearing voltage"),
+    "rms_voltage": Quantity("root mean square of the voltage across the films", "V", "rms bearing voltage"),
+    "burning_time_share": Quantity(
         "part of the time for which the films conduct by an arc, from breakdown until they insulate again "
         "(`recovery_time` after the arc goes out); also of arcs that still burn at the end",
         "",
         "share of time with conducting films",
     ),
-    "time_above": ResultKey("share of time above each of the voltages, by the voltage in volts"),
+    "time_above": Quantity("share of time above each of the voltages, by the voltage in volts"),
     **{
-        f"time_above.{limit:g}": ResultKey(
+        f"time_above.{limit:g}": Quantity(
             f"share of time above {limit:g} V", "", f"share of time above {limit:g} V"
         )
         for limit in LIMITS
     },
-    "events": ResultKey("number of discharges", "", "discharges"),
-    "events_per_second": ResultKey("discharges in a second", "1/s", "discharges per second"),
-    "events_per_second_low": ResultKey(
+    "events": Quantity("number of discharges", "", "discharges"),
+    "events_per_second": Quantity("discharges in a second", "1/s", "discharges per second"),
+    "events_per_second_low": Quantity(
         "lower bound of that rate, at 95 %", "1/s", "discharges per second, lower bound"
     ),
-    "events_per_second_high": ResultKey(
+    "events_per_second_high": Quantity(
         "upper bound of that rate, at 95 %", "1/s", "discharges per second, upper bound"
     ),
-    "events_per_edge": ResultKey("discharges over edges of the source", "", "discharges per edge"),
-    "power": ResultKey("energy of the discharges in a second", "W", "power of the discharges"),
+    "events_per_edge": Quantity("discharges over edges of the source", "", "discharges per edge"),
+    "power": Quantity("energy of the discharges in a second", "W", "power of the discharges"),
     **{
-        f"{name}_{short}": ResultKey(f"{meaning}: {statistic}", unit, f"{label}, {statistic}")
+        f"{name}_{short}": Quantity(f"{meaning}: {statistic}", unit, f"{label}, {statistic}")
         for name, (meaning, unit, label) in _SPREADS.items()
         for short, statistic in _STATISTICS.items()
     },
-    "contact_current": ResultKey(
+    "contact_current": Quantity(
         "largest current through asperities that touch; 0 where none do",
         "A",
         "peak current through asperities",
     ),
-    "real_area": ResultKey(
+    "real_area": Quantity(
         "real area of contact of all elements whose asperities touch both rings, mean over the time in which "
         "any does; null without `[bearing.summits]` of the bearing file, and where nothing touches",
         "m**2",
         "real area of contact",
     ),
-    "real_current_density": ResultKey(
+    "real_current_density": Quantity(
         "contact_current over real_area; published limits are for Hertz areas",
         "A/m**2",
         "current density, real area",
     ),
-    "hertz_area": ResultKey(
+    "hertz_area": Quantity(
         "dry contact areas through which a current can flow, together", "m**2", "Hertz area"
     ),
-    "current_density": ResultKey(
+    "current_density": Quantity(
         "largest current, of an arc or through asperities, over all Hertz areas; null without a current",
         "A/m**2",
         "current density",
     ),
-    "element_current_density": ResultKey(
+    "element_current_density": Quantity(
         "largest current over the Hertz area of the most loaded element, through which an arc flows alone",
         "A/m**2",
         "current density of an element",
     ),
-    "current_density_limits": ResultKey("published limits of the current density", "A/m**2"),
+    "current_density_limits": Quantity("published limits of the current density", "A/m**2"),
 }
 _ENDS: Keys = {
-    f"{end}.{name}": replace(key, name=f"{key.name}, {words}" if key.name else "")
+    f"{end}.{name}": replace(key, label=f"{key.label}, {words}" if key.label else "")
     for end, words in NAMES_OF_ENDS.items()
     for name, key in _END.items()
 }
 _REMEDY: Keys = {
-    "title": ResultKey("title of the remedy"),
-    "changes": ResultKey("what it changes, by dotted key"),
-    "changes.*": ResultKey("new value of a key of the drive file"),
+    "title": Quantity("title of the remedy"),
+    "changes": Quantity("what it changes, by dotted key"),
+    "changes.*": Quantity("new value of a key of the drive file"),
     **_ENDS,
 }
 
@@ -187,7 +183,7 @@ DRIVE_KEYS: Keys = {
     **under("drive", _DRIVE),
     **_ENDS,
     **under("remedies", _REMEDY),
-    "seconds": ResultKey("computing time", "s", "computing time"),
+    "seconds": Quantity("computing time", "s", "computing time"),
 }
 
 # Columns of the spectrum of the shaft voltage, with their units.

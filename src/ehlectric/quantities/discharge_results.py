@@ -1,8 +1,8 @@
-"""Keys of the table ``discharge`` in summary.json; capacitances of a line contact are per length."""
+"""Results of the discharge of a contact; capacitances of a line contact are per length."""
 
 from __future__ import annotations
 
-from ehlectric.cases.result_key import Keys, ResultKey
+from ehlectric.quantities.quantity import Keys, Quantity
 
 
 def _keys(capacitance: str) -> Keys:
@@ -11,69 +11,69 @@ def _keys(capacitance: str) -> Keys:
 
 
 _BREAKDOWN: Keys = {
-    "strength_law": ResultKey(
+    "strength_law": Quantity(
         'law of the dielectric strength: "constant", "table over pressure", "table over temperature" or '
         '"weibull"; null without a strength'
     ),
-    "dielectric_strength": ResultKey(
+    "dielectric_strength": Quantity(
         "dielectric strength in the zone that breaks down first; null for a Weibull law",
         "V/m",
         "dielectric strength",
     ),
-    "breakdown_voltage": ResultKey(
+    "breakdown_voltage": Quantity(
         "voltage at which the dielectric strength is reached; of a Weibull law at a probability of 63.2 %",
         "V",
         "breakdown voltage",
         r"$V_\mathrm{b}$",
     ),
-    "breakdown_voltage_low": ResultKey(
+    "breakdown_voltage_low": Quantity(
         "breakdown voltage at a probability of 5 %; null without a Weibull law",
         "V",
         "breakdown voltage at 5 %",
     ),
-    "breakdown_voltage_high": ResultKey(
+    "breakdown_voltage_high": Quantity(
         "breakdown voltage at a probability of 95 %; null without a Weibull law",
         "V",
         "breakdown voltage at 95 %",
     ),
-    "margin": ResultKey(
+    "margin": Quantity(
         "breakdown_voltage / voltage of the case",
         "",
         "margin (breakdown / applied voltage)",
         r"$V_\mathrm{b}/V_{12}$",
     ),
-    "probability": ResultKey(
+    "probability": Quantity(
         "probability of breakdown at the voltage of the case; 0 or 1 without a Weibull law",
         "",
         "probability of breakdown",
     ),
-    "breakdown_field_error": ResultKey(
+    "breakdown_field_error": Quantity(
         "relative error of breakdown_voltage that is due to the field, `field.max_strength_error`; the error "
         "of the film comes on top; null if unknown"
     ),
 }
 _ZONE: Keys = {
-    "zone_position": ResultKey(
+    "zone_position": Quantity(
         "position at which the field uses most of the strength, x, or [x, y] of a point contact",
         "m",
         "place of the zone that breaks down first",
     ),
-    "zone_size": ResultKey(
+    "zone_size": Quantity(
         "width of the zone around zone_position that uses at least 95 % of that; of a point contact the "
         "diameter of a circle of the same area",
         "m",
         "size of the zone that breaks down first",
     ),
-    "zone_area": ResultKey(
+    "zone_area": Quantity(
         "area of that zone; of a line contact its width times the length",
         "m**2",
         "area of the zone that breaks down first",
     ),
-    "zone_over_half_width": ResultKey("zone_size / half-width b", "", "size of the zone / half-width"),
-    "zone_over_largest_pit": ResultKey(
+    "zone_over_half_width": Quantity("zone_size / half-width b", "", "size of the zone / half-width"),
+    "zone_over_largest_pit": Quantity(
         "zone_size / largest published pit, 4 µm", "", "size of the zone / largest pit"
     ),
-    "zone_over_mean_pit": ResultKey(
+    "zone_over_mean_pit": Quantity(
         "zone_size / mean published pit, 1.7 µm", "", "size of the zone / mean pit"
     ),
 }
@@ -81,55 +81,53 @@ _ZONE: Keys = {
 
 def _capacitances(unit: str) -> Keys:
     return {
-        "capacitance": ResultKey(
+        "capacitance": Quantity(
             "capacitance over the whole domain of the film, the outlet filled as `outlet` says",
             unit,
             "capacitance of the whole film",
             "$C$",
         ),
-        "capacitance_beyond": ResultKey(
+        "capacitance_beyond": Quantity(
             "what `capacitance` would have more on a domain twice as large, were its gap full of oil",
             unit,
             "capacitance beyond the domain",
         ),
-        "capacitance_hertz": ResultKey(
+        "capacitance_hertz": Quantity(
             "part of the Hertz zone", unit, "capacitance of the Hertz zone", r"$C_\mathrm{H}$"
         ),
-        "capacitance_inlet": ResultKey("part before the Hertz zone", unit, "capacitance of the inlet"),
-        "capacitance_outlet": ResultKey("part behind the Hertz zone", unit, "capacitance of the outlet"),
-        "capacitance_sides": ResultKey(
+        "capacitance_inlet": Quantity("part before the Hertz zone", unit, "capacitance of the inlet"),
+        "capacitance_outlet": Quantity("part behind the Hertz zone", unit, "capacitance of the outlet"),
+        "capacitance_sides": Quantity(
             "part beside the Hertz zone of a point contact; null for a line contact",
             unit,
             "capacitance of the sides",
         ),
-        "capacitance_plate": ResultKey(
+        "capacitance_plate": Quantity(
             "capacitance of parallel plates, ε0 ε_r A_H/h(0) with ε_r at ambient pressure",
             unit,
             "capacitance of parallel plates",
             r"$\varepsilon_0 \varepsilon_\mathrm{r} A_\mathrm{H}/h(0)$",
         ),
-        "capacitance_ratio": ResultKey(
-            "capacitance / capacitance_plate", "", "capacitance / parallel plates"
-        ),
-        "capacitance_outlet_full": ResultKey(
+        "capacitance_ratio": Quantity("capacitance / capacitance_plate", "", "capacitance / parallel plates"),
+        "capacitance_outlet_full": Quantity(
             "capacitance of the outlet where oil alone fills the gap behind the exit",
             unit,
             "capacitance of the outlet, full of oil",
         ),
-        "capacitance_outlet_fingers": ResultKey(
+        "capacitance_outlet_fingers": Quantity(
             "capacitance of the outlet where oil reaches from wall to wall beside gas",
             unit,
             "capacitance of the outlet, oil in fingers",
         ),
-        "capacitance_outlet_layers": ResultKey(
+        "capacitance_outlet_layers": Quantity(
             "capacitance of the outlet where oil lies on both walls with gas between",
             unit,
             "capacitance of the outlet, oil in layers",
         ),
-        "capacitance_full": ResultKey("capacitance over the whole domain, full of oil", unit),
-        "capacitance_fingers": ResultKey("capacitance over the whole domain, oil in fingers", unit),
-        "capacitance_layers": ResultKey("capacitance over the whole domain, oil in layers", unit),
-        "outlet": ResultKey(
+        "capacitance_full": Quantity("capacitance over the whole domain, full of oil", unit),
+        "capacitance_fingers": Quantity("capacitance over the whole domain, oil in fingers", unit),
+        "capacitance_layers": Quantity("capacitance over the whole domain, oil in layers", unit),
+        "outlet": Quantity(
             'filling of the outlet that `capacitance` and the energies count with: "full", "fingers" or '
             '"layers"',
             "",
@@ -139,44 +137,44 @@ def _capacitances(unit: str) -> Keys:
 
 
 _COSTS: Keys = {
-    "contact_energy": ResultKey(
+    "contact_energy": Quantity(
         "energy C V²/2 of the contact at the voltage of the case",
         "J",
         "energy of the contact",
         "$C V_{12}^2/2$",
     ),
-    "discharge_energy": ResultKey(
+    "discharge_energy": Quantity(
         "the same energy with the external capacitance", "J", "energy of the discharge", "$W$"
     ),
-    "breakdown_energy": ResultKey(
+    "breakdown_energy": Quantity(
         "discharge_energy at the breakdown voltage",
         "J",
         "energy of the discharge at breakdown",
         r"$W_\mathrm{b}$",
     ),
-    "pit_volume": ResultKey("volume that discharge_energy melts of one surface", "m**3", "volume of the pit"),
-    "pit_diameter": ResultKey("diameter of a hemisphere of pit_volume", "m", "diameter of the pit"),
-    "current_density": ResultKey(
+    "pit_volume": Quantity("volume that discharge_energy melts of one surface", "m**3", "volume of the pit"),
+    "pit_diameter": Quantity("diameter of a hemisphere of pit_volume", "m", "diameter of the pit"),
+    "current_density": Quantity(
         "peak current / area of the dry contact", "A/m**2", "apparent current density", "$J$"
     ),
-    "current_density_limits": ResultKey(
+    "current_density_limits": Quantity(
         "published limits of the current density", "A/m**2", "published limit of the current density"
     ),
-    "relaxation_time": ResultKey(
+    "relaxation_time": Quantity(
         "charge relaxation time ε0 ε_r/σ at ambient pressure; in a film with heat, with the mean "
         "conductivity of its Hertz zone",
         "s",
         "charge relaxation time",
         r"$\varepsilon/\sigma$",
     ),
-    "corner_frequency": ResultKey(
+    "corner_frequency": Quantity(
         "frequency above which the film is capacitive",
         "Hz",
         "frequency above which the film is capacitive",
         r"$f_\mathrm{c}$",
     ),
-    "sources": ResultKey("sources and assumptions of the keys that need one, by the name of the key"),
-    "sources.*": ResultKey("source or assumption of the key of that name"),
+    "sources": Quantity("sources and assumptions of the keys that need one, by the name of the key"),
+    "sources.*": Quantity("source or assumption of the key of that name"),
 }
 
 LINE_KEYS: Keys = _keys("F/m")

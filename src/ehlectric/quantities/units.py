@@ -1,4 +1,4 @@
-"""Units of numbers: factors to SI units, and the spellings in which people print them."""
+"""Units: numbers with units as people write them, factors to SI units, and prefixed units to show."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import sys
 from functools import cache
 from typing import TYPE_CHECKING, TypeGuard
 
-from ehlectric.errors import short, shown
+from ehlectric.errors import InputError, short, shown
 
 if TYPE_CHECKING:
     import pint
@@ -75,6 +75,15 @@ FREQUENT = {
     ("nF", "F"): 1e-9,
     ("pS/m", "S/m"): 1e-12,
 }
+
+# Prefixes by their factor.
+_PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
+
+# Groups that are never given up, "++" and the like, keep the time proportional to the length of the text.
+_NUMBER_AND_UNIT = re.compile(r"([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?+)\s*+(.*)")
+
+# Longest text of a number with its unit [characters].
+LONGEST = 200
 
 _COMMA = re.compile(r"\s*+([-+]?\d++),(\d++)((?:[eE][-+]?\d++)?(?![,\d]).*)", re.DOTALL)
 
@@ -273,3 +282,107 @@ def from_pint(entry: pint.Quantity[float], unit: str) -> float:
     if unit == ROTATION and _ANGLE.search(written) is None:
         raise ValueError(f"{written} is a frequency, which may count turns or radians: use rpm or rad/s")
     return float(f"{value:.15g}")
+
+
+def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, str]:
+    """Factor from ``unit`` to a prefixed unit in which ``largest`` is at least ``least``, and this unit."""
+    size = next((p for p in _PREFIXES if least * p <= largest), 1e-12)
+    prefixed = _PREFIXES[size] + unit
+    # Dielectric strengths are usually given in V/µm.
+    return 1.0 / size, "V/µm" if prefixed == "MV/m" else prefixed
+
+
+def to_si(text: str, unit: str) -> float:
+    """Convert a string such as "1.57 MN/m" to a value in an SI unit.
+
+    Parameters
+    ----------
+    text : str
+        Number and unit.
+    unit : str
+        SI unit of the quantity, as pint writes it.
+
+    Returns
+    -------
+    float
+        Value in ``unit``.
+
+    Raises
+    ------
+    ValueError
+        If the string is not a number with a unit of the right dimension; the message says why.
+
+    Examples
+    --------
+    >>> to_si("22 1/GPa", "1/Pa")
+    2.2e-08
+    """
+    number, written = _split(text)
+    if not written:
+        raise ValueError("it has no unit")
+    if unit == "K":
+        return absolute(number, written)
+    ratio = factor(written, unit)
+    # Fifteen digits remove the rounding error of factors such as 1e-3, which are not binary numbers. A number
+    # in the SI unit itself stays as it is: it may have been written by ``to_toml``.
+    return number if ratio == 1.0 else float(f"{number * ratio:.15g}")
+
+
+def _split(text: str, otherwise: str = "it is not a number with a unit") -> tuple[float, str]:
+    """Number and unit in a text; raises ValueError, with advice or the given words, if it has none."""
+    if len(text) > LONGEST:
+        raise ValueError(f"it has {len(text)} characters, which is too long")
+    found = _NUMBER_AND_UNIT.fullmatch(plain(text).strip())
+    advice = comma_advice(text)
+    if found is None or advice:
+        raise ValueError(advice or otherwise)
+    return float(found[1]), found[2]
+
+
+def to_fraction(text: str) -> float:
+    """Convert a string in percent to a fraction.
+
+    Parameters
+    ----------
+    text : str
+        Number, followed by "%" or "percent".
+
+    Returns
+    -------
+    float
+        Fraction, dimensionless.
+
+    Raises
+    ------
+    ValueError
+        If the string is not a number in percent. Other dimensionless units, such as rad, are refused.
+
+    Examples
+    --------
+    >>> to_fraction("3 %")
+    0.03
+    """
+    number, written = _split(text, "it is not a number in percent")
+    if written not in ("%", "percent"):
+        raise ValueError("it is not a number in percent")
+    return float(f"{number / 100.0:.15g}")
+
+
+def length_unit(text: str) -> str:
+    """Check that a string is a unit of length, and return it.
+
+    Raises
+    ------
+    InputError
+        If the string is not a unit of length.
+
+    Examples
+    --------
+    >>> length_unit("um")
+    'um'
+    """
+    try:
+        to_si(f"1 {text}", "m")
+    except ValueError as error:
+        raise InputError(got=f"{shown(text)} ({error})", takes="a unit of length such as 'um'") from None
+    return text

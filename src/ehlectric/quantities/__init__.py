@@ -1,0 +1,1 @@
+"""One entry for each input and result: label, symbol, unit, digits, meaning; and the units of numbers."""
