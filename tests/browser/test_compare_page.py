@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 from ehlectric.app.inputs import Inputs
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from tests.browser.driving import seen
 from tests.browser.outputs import address_of, summary_by_command
 from tests.helpers.places import EXAMPLES

@@ -12,7 +12,7 @@ import openpyxl
 import pytest
 from scipy.io import loadmat
 
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from tests.browser.driving import type_into, wait_for_number
 from tests.browser.outputs import address_of, command, downloaded
 from tests.browser.test_contact_page import example, solve, upload, wait_until_solved

@@ -18,8 +18,8 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.quantities.bearing_results import BEARING_KEYS, CONTACT_KEYS
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.quantity import key_of
-from ehlectric.quantities.rows import amount
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.files import plain

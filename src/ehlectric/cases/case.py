@@ -32,7 +32,7 @@ from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.own import SampledLaws
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.runtime.display import Tabled, headline
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.

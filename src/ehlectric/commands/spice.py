@@ -185,7 +185,8 @@ def _named_as_options() -> Iterator[None]:
 
 def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
     """Rows of the table: the subcircuit and its parameters, and what it has at each speed of a table."""
-    from ehlectric.quantities.rows import Row, amount
+    from ehlectric.quantities.formats import amount
+    from ehlectric.quantities.rows import Row
     from ehlectric.quantities.units import rpm_text
 
     yield Row("subcircuit", f"{subcircuit.name} shaft housing")

@@ -19,7 +19,7 @@ from ehlectric.field.zones import Zone, contact_zones
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.formulas.film_line import Thickness
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.runtime.display import headline
 
 if TYPE_CHECKING:

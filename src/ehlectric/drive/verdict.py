@@ -21,7 +21,7 @@ from ehlectric.drive.statistics import FEW
 from ehlectric.drive.warnings import MOSTLY
 from ehlectric.errors import CODES, ResultWarning
 from ehlectric.quantities.drive_results import NAMES_OF_ENDS
-from ehlectric.quantities.rows import amount, number_text
+from ehlectric.quantities.formats import amount, number_text
 
 # Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,
 # where a drive that discharges does so thousands of times in a second.

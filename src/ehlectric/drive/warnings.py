@@ -18,7 +18,7 @@ from ehlectric.drive.discharges.record import FILM, ON
 from ehlectric.drive.solution import DriveSolution
 from ehlectric.drive.statistics import FEW
 from ehlectric.errors import ResultWarning
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2

@@ -10,7 +10,7 @@ import numpy as np
 from ehlectric.errors import ResultWarning
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import summary_of
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.stored_warnings import warnings_of
 

@@ -25,31 +25,41 @@ _BREAKDOWN: Keys = {
         "V",
         "breakdown voltage",
         r"$V_\mathrm{b}$",
+        bound="≤",
     ),
     "breakdown_voltage_low": Quantity(
         "breakdown voltage at a probability of 5 %; null without a Weibull law",
         "V",
         "breakdown voltage at 5 %",
+        bound="≤",
     ),
     "breakdown_voltage_high": Quantity(
         "breakdown voltage at a probability of 95 %; null without a Weibull law",
         "V",
         "breakdown voltage at 95 %",
+        bound="≤",
     ),
     "margin": Quantity(
         "breakdown_voltage / voltage of the case",
         "",
         "margin (breakdown / applied voltage)",
         r"$V_\mathrm{b}/V_{12}$",
+        digits=".3g",
+        bound="≤",
     ),
     "probability": Quantity(
         "probability of breakdown at the voltage of the case; 0 or 1 without a Weibull law",
         "",
         "probability of breakdown",
+        digits=".3g",
     ),
     "breakdown_field_error": Quantity(
         "relative error of breakdown_voltage that is due to the field, `field.max_strength_error`; the error "
-        "of the film comes on top; null if unknown"
+        "of the film comes on top; null if unknown",
+        "",
+        "error of the breakdown voltage, field",
+        shown="%",
+        digits=".1g",
     ),
 }
 _ZONE: Keys = {
@@ -80,6 +90,7 @@ _ZONE: Keys = {
 
 
 def _capacitances(unit: str) -> Keys:
+    """Keys of capacitances in a unit."""
     return {
         "capacitance": Quantity(
             "capacitance over the whole domain of the film, the outlet filled as `outlet` says",
@@ -140,22 +151,27 @@ _COSTS: Keys = {
     "contact_energy": Quantity(
         "energy C V²/2 of the contact at the voltage of the case",
         "J",
-        "energy of the contact",
+        "energy stored in the contact",
         "$C V_{12}^2/2$",
     ),
     "discharge_energy": Quantity(
-        "the same energy with the external capacitance", "J", "energy of the discharge", "$W$"
+        "the same energy with the external capacitance", "J", "energy of a discharge", "$W$"
     ),
     "breakdown_energy": Quantity(
         "discharge_energy at the breakdown voltage",
         "J",
-        "energy of the discharge at breakdown",
+        "energy of a discharge at breakdown",
         r"$W_\mathrm{b}$",
+        bound="≤",
     ),
     "pit_volume": Quantity("volume that discharge_energy melts of one surface", "m**3", "volume of the pit"),
     "pit_diameter": Quantity("diameter of a hemisphere of pit_volume", "m", "diameter of the pit"),
     "current_density": Quantity(
-        "peak current / area of the dry contact", "A/m**2", "apparent current density", "$J$"
+        "peak current / area of the dry contact",
+        "A/m**2",
+        "apparent current density",
+        "$J$",
+        digits=".3g",
     ),
     "current_density_limits": Quantity(
         "published limits of the current density", "A/m**2", "published limit of the current density"
@@ -166,12 +182,14 @@ _COSTS: Keys = {
         "s",
         "charge relaxation time",
         r"$\varepsilon/\sigma$",
+        digits=".3g",
     ),
     "corner_frequency": Quantity(
         "frequency above which the film is capacitive",
         "Hz",
-        "frequency above which the film is capacitive",
+        "the film is capacitive above",
         r"$f_\mathrm{c}$",
+        digits=".3g",
     ),
     "sources": Quantity("sources and assumptions of the keys that need one, by the name of the key"),
     "sources.*": Quantity("source or assumption of the key of that name"),

@@ -16,22 +16,29 @@ OIL_KEYS: Keys = {
         "temperature of the oil in the contacts; null where the case gives none",
         "K",
         "temperature of the oil",
+        shown="°C",
     ),
     "viscosity": Quantity(
-        "viscosity of the oil at ambient pressure and that temperature", "Pa*s", "viscosity", r"$\eta_0$"
+        "viscosity of the oil at ambient pressure and that temperature",
+        "Pa*s",
+        "viscosity at ambient pressure",
+        r"$\eta_0$",
+        shown="mPa s",
     ),
     "pressure_viscosity_coefficient": Quantity(
         "slope of the logarithm of the viscosity at zero pressure and that temperature",
         "1/Pa",
         "pressure-viscosity coefficient",
         r"$\alpha$",
+        shown="1/GPa",
     ),
     "alpha_star": Quantity(
         "reciprocal asymptotic pressure-viscosity coefficient at that temperature, which film formulas and "
         "the group L take",
         "1/Pa",
-        "reciprocal asymptotic coefficient",
-        r"$\alpha^*$",
+        "pressure-viscosity coefficient α*",
+        "",
+        shown="1/GPa",
     ),
     "density": Quantity("density at ambient pressure; null where it is not known", "kg/m**3", "density"),
     "relative_permittivity": Quantity(

@@ -1,94 +1,17 @@
-"""Rows of a table of key figures, as data: a terminal prints them, a page can render them."""
+"""Rows of key figures as data, and sheets: which quantities a kind of result shows, in which order."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
-from ehlectric.quantities.quantity import Bound, Keys, key_of
-from ehlectric.quantities.units import unit_for
+from ehlectric.quantities.formats import UNITS, USUAL, formatted, scale_of, suited
+from ehlectric.quantities.quantity import Bound, Keys, Quantity, key_of
 
-# SI unit of each unit that is shown, in the notation of pint, and the factor from the SI unit to the shown
-# unit.
-UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
-    {
-        "": ("", 1.0),
-        "%": ("", 1e2),
-        "N": ("N", 1.0),
-        "MN/m": ("N/m", 1e-6),
-        "GPa": ("Pa", 1e-9),
-        "1/GPa": ("1/Pa", 1e9),
-        "m/s": ("m/s", 1.0),
-        "rpm": ("rad/s", 30.0 / math.pi),
-        "deg": ("rad", 180.0 / math.pi),
-        "mPa s": ("Pa*s", 1e3),
-        "m": ("m", 1.0),
-        "mm": ("m", 1e3),
-        "µm": ("m", 1e6),
-        "nm": ("m", 1e9),
-        "µm²": ("m**2", 1e12),
-        "µs": ("s", 1e6),
-        "ms": ("s", 1e3),
-        "s": ("s", 1.0),
-        "Hz": ("Hz", 1.0),
-        "GHz": ("Hz", 1e-9),
-        "kHz": ("Hz", 1e-3),
-        "Ω": ("ohm", 1.0),
-        "1/s": ("1/s", 1.0),
-        "nC": ("C", 1e9),
-        "mA": ("A", 1e3),
-        "µW": ("W", 1e6),
-        "V": ("V", 1.0),
-        "V/µm": ("V/m", 1e-6),
-        "1/µm": ("1/m", 1e-6),
-        "pF": ("F", 1e12),
-        "nF/m": ("F/m", 1e9),
-        "nJ": ("J", 1e9),
-        "A/mm²": ("A/m**2", 1e-6),
-        "kg/m³": ("kg/m**3", 1.0),
-        "S/m": ("S/m", 1.0),
-        "W/m/K": ("W/m/K", 1.0),
-        "MJ/m³/K": ("J/m**3/K", 1e-6),
-        "Pa s": ("Pa*s", 1.0),
-    }
-)
-
-
-# Number from which one with few digits has an exponent; below it the exponent only hides how large it is.
-_LARGE = 1e4
-
-
-def formatted(value: float, digits: str) -> str:
-    """Number as a string in a format, without an exponent where its few digits can be read without one.
-
-    Parameters
-    ----------
-    value : float
-        Number.
-    digits : str
-        Format, such as ".2g".
-
-    Examples
-    --------
-    >>> [formatted(value, ".2g") for value in (0.012, 98.6, 213.0, 41234.0)]
-    ['0.012', '99', '210', '4.1e+04']
-    """
-    text = format(value, digits)
-    return f"{float(text):.0f}" if "e+" in text and abs(value) < _LARGE else text
-
-
-def number_text(value: float) -> str:
-    """Text: number with three digits, without a power of ten up to a million.
-
-    Examples
-    --------
-    >>> number_text(29731.0), number_text(0.1234)
-    ('29700', '0.123')
-    """
-    return f"{float(f'{value:.3g}'):.7g}"
+# Nested tables of a result, SI units, as summary.json has them.
+Summary: TypeAlias = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -98,7 +21,7 @@ class Row:
     Attributes
     ----------
     name : str
-        Name of the quantity, which a reader understands without the other rows.
+        Label of the quantity, which a reader understands without the other rows.
     value : float, str or None
         Number in the SI unit of ``unit``, or a string; None for a row with a name and a note only.
     unit : str
@@ -111,6 +34,8 @@ class Row:
         True if the row says that the numbers must not be used.
     bound : str
         "≤" for a value that is an upper bound, "≥" for a lower bound; it holds for both ends of a range.
+    key : str
+        Dotted key of the quantity; empty for a row that shows none.
 
     Raises
     ------
@@ -135,6 +60,7 @@ class Row:
     digits: str = field(default=".4g", kw_only=True)
     alarm: bool = field(default=False, kw_only=True)
     bound: Bound = field(default="", kw_only=True)
+    key: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
         if isinstance(self.value, int | float) and self.unit not in UNITS:
@@ -145,7 +71,7 @@ class Row:
         """Value as a string, in the shown unit."""
         if self.value is None or isinstance(self.value, str):
             return self.value or ""
-        return formatted(self.value * UNITS[self.unit][1], self.digits)
+        return formatted(scale_of(self.unit).of(self.value), self.digits)
 
     @property
     def bounded(self) -> str:
@@ -153,12 +79,16 @@ class Row:
         return " ".join(filter(None, [self.bound, self.shown]))
 
     @property
+    def amount(self) -> str:
+        """Value with the sign of its bound and its unit."""
+        return " ".join(filter(None, [self.bounded, self.unit]))
+
+    @property
     def text(self) -> str:
         """Bound, value, unit and note as one string."""
-        value = " ".join(filter(None, [self.bounded, self.unit]))
         if self.note.startswith((",", ";")):
-            return value + self.note
-        return " ".join(filter(None, [value, self.note.strip()]))
+            return self.amount + self.note
+        return " ".join(filter(None, [self.amount, self.note.strip()]))
 
     @property
     def heading(self) -> bool:
@@ -166,48 +96,143 @@ class Row:
         return bool(self.name) and not self.text
 
 
-def rows_of(
-    keys: Keys,
-    summary: Mapping[str, Any],
-    entries: Iterable[tuple[str, ...]],
+@dataclass(frozen=True)
+class Section:
+    """Section of a sheet: its heading, and the keys of its quantities in the order in which they stand."""
+
+    heading: str
+    keys: tuple[str, ...]
+
+
+# What a kind of result shows: one list for the terminal, the notebook, the report and the page.
+Sheet: TypeAlias = tuple[Section, ...]
+
+
+@dataclass(frozen=True)
+class Words:
+    """What stands beside the numbers of a kind of result, by dotted key; functions of the summary.
+
+    Attributes
+    ----------
+    notes : mapping
+        Note of a quantity, as ``Row`` has it.
+    values : mapping
+        Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
+        text with its unit, or None where there is nothing to show.
+    alarms : mapping
+        Whether a quantity says that the numbers must not be used.
+    rows : mapping
+        Rows of a key that stands for several quantities, as "film_formulas.*.minimum_thickness".
+    hidden : callable
+        Keys that are not shown for a summary, although it has a value.
+    """
+
+    notes: Mapping[str, Callable[[Summary], str]] = field(default_factory=dict)
+    values: Mapping[str, Callable[[Summary], Any]] = field(default_factory=dict)
+    alarms: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
+    rows: Mapping[str, Callable[[Summary], Iterable[Row]]] = field(default_factory=dict)
+    hidden: Callable[[Summary], Container[str]] = lambda _: ()
+
+    def __or__(self, other: Words) -> Words:
+        """Words of both, those of the other where both have some; what is hidden is that of the first."""
+        return Words(
+            {**self.notes, **other.notes},
+            {**self.values, **other.values},
+            {**self.alarms, **other.alarms},
+            {**self.rows, **other.rows},
+            self.hidden,
+        )
+
+
+def sheet_rows(
+    sheet: Iterable[Section],
+    book: Keys,
+    summary: Summary,
+    words: Words = Words(),
     bounds: Mapping[str, Bound] = MappingProxyType({}),
 ) -> Iterator[Row]:
-    """Rows of the numbers of a summary, without the numbers that are None.
+    """Rows of a sheet, without quantities that a summary lacks and without sections that have none.
 
     Parameters
     ----------
-    keys : mapping of str to Quantity
-        Keys of the summary, with the SI unit of each number.
+    sheet : iterable of Section
+        Sections of the kind of result.
+    book : mapping of str to Quantity
+        Its quantities by dotted key.
     summary : mapping
-        Nested summary, SI units.
-    entries : iterable of tuple of str
-        Name of the row, dotted key of its number, shown unit, and optionally a note.
+        Nested tables of the result, SI units.
+    words : Words, optional
+        What stands beside its numbers.
     bounds : mapping of str to str, optional
-        "≤" or "≥" by the dotted keys of numbers that are bounds only.
-
-    Raises
-    ------
-    ValueError
-        If the shown unit of a number is not a multiple of the SI unit of its key.
+        "≤" or "≥" by the keys of numbers that are bounds only.
 
     Examples
     --------
-    >>> from ehlectric.quantities.quantity import Quantity
-    >>> keys = {"film.error": Quantity("error"), "film.minimum": Quantity("minimum", "m")}
-    >>> entries = [("error", "film.error", "%"), ("minimum film", "film.minimum", "µm", ", of all")]
-    >>> list(rows_of(keys, {"film": {"error": None, "minimum": 1e-7}}, entries))
-    [Row(name='minimum film', value=1e-07, unit='µm', note=', of all', digits='.4g', alarm=False, bound='')]
+    >>> book = {"film.error": Quantity("error"), "film.minimum": Quantity("", "m", "minimum film")}
+    >>> sheet = [Section("film", ("film.error", "film.minimum"))]
+    >>> [row.name for row in sheet_rows(sheet, book, {"film": {"error": None, "minimum": 1e-7}})]
+    ['film', 'minimum film']
     """
-    for name, key, unit, *note in entries:
-        value, entry = value_at(summary, key), key_of(keys, key)
-        if value is None or entry is None:
-            continue
-        if UNITS[unit][0] != entry.unit:
-            raise ValueError(f"{key} in {entry.unit or 'no unit'} is not shown in {unit or 'no unit'}")
-        yield Row(name, value, unit, *note, bound=bounds.get(key, ""))
+    hidden = words.hidden(summary)
+    for section in sheet:
+        keys = (key for key in section.keys if key not in hidden)
+        found = [row for key in keys for row in _row(key, book, summary, words, bounds)]
+        if found:
+            yield Row(section.heading)
+            yield from found
 
 
-def value_at(table: Mapping[str, Any], key: str) -> Any:
+def _row(key: str, book: Keys, summary: Summary, words: Words, bounds: Mapping[str, Bound]) -> Iterator[Row]:
+    """Rows of a key; none where the summary has no value."""
+    if key in words.rows:
+        yield from words.rows[key](summary)
+        return
+    value = words.values[key](summary) if key in words.values else value_at(summary, key)
+    if value is None:
+        return
+    about = key_of(book, key)
+    if about is None:
+        raise KeyError(key)
+    note = words.notes[key](summary) if key in words.notes else ""
+    alarm = words.alarms[key](summary) if key in words.alarms else False
+    yield row_of(key, about, value, note, bound=bounds.get(key, ""), alarm=alarm)
+
+
+def row_of(
+    key: str,
+    about: Quantity,
+    value: float | str | tuple[str, str],
+    note: str = "",
+    *,
+    bound: Bound = "",
+    alarm: bool = False,
+) -> Row:
+    """Row of a quantity with its label, unit and digits; a text may have its unit beside it.
+
+    Examples
+    --------
+    >>> row_of("film.minimum", Quantity("", "m", "minimum film"), 2e-7).text
+    '0.2 µm'
+    >>> row_of("energy", Quantity("", "J", "energy"), 2e-9).text
+    '2 nJ'
+    """
+    name = about.label or key
+    if isinstance(value, tuple):
+        return Row(name, *value, note, alarm=alarm, bound=bound, key=key)
+    if isinstance(value, str):
+        return Row(name, value, "", note, alarm=alarm, bound=bound, key=key)
+    unit = shown_unit(about, value)
+    return Row(name, value, unit, note, digits=about.digits, alarm=alarm, bound=bound, key=key)
+
+
+def shown_unit(about: Quantity, value: float) -> str:
+    """Unit in which a value of a quantity is shown: its own, the usual one, or one that suits the value."""
+    if about.shown or about.unit in USUAL:
+        return about.shown or USUAL[about.unit]
+    return suited(value, about.unit)[1]
+
+
+def value_at(table: Summary, key: str) -> Any:
     """Value at a dotted key of nested tables and lists; None if a table of the path is None or lacks its key.
 
     Examples
@@ -226,44 +251,23 @@ def value_at(table: Mapping[str, Any], key: str) -> Any:
     return value
 
 
-def amount_row(name: str, value: float, unit: str, note: str = "", *, bound: Bound = "") -> Row:
-    """Row of a value in a prefixed unit that suits it.
+def rows_of(
+    keys: Keys,
+    summary: Summary,
+    entries: Iterable[tuple[str, ...]],
+    bounds: Mapping[str, Bound] = MappingProxyType({}),
+) -> Iterator[Row]:
+    """Rows of numbers of a summary by name, dotted key, shown unit and optionally a note; none of None."""
+    for name, key, unit, *note in entries:
+        value, entry = value_at(summary, key), key_of(keys, key)
+        if value is None or entry is None:
+            continue
+        if UNITS[unit][0] != entry.unit:
+            raise ValueError(f"{key} in {entry.unit or 'no unit'} is not shown in {unit or 'no unit'}")
+        yield Row(name, value, unit, *note, bound=bounds.get(key, ""), key=key)
 
-    Examples
-    --------
-    >>> row = amount_row("charge relaxation time", 2.1e-3, "s", ", of the oil")
-    >>> row.shown, row.unit, row.text
-    ('2.1', 'ms', '2.1 ms, of the oil')
-    """
+
+def amount_row(name: str, value: float, unit: str, note: str = "", *, bound: Bound = "") -> Row:
+    """Row of a value in a prefixed unit that suits it."""
     factor, prefixed = suited(value, unit)
     return Row(name, f"{factor * value:.4g}", prefixed, note, bound=bound)
-
-
-def amount(value: float, unit: str) -> str:
-    """Value in a prefixed unit that suits it, with four digits.
-
-    Lengths and field strengths below 1 of a unit stay in it, as films do in micrometres.
-
-    Examples
-    --------
-    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m"), amount(300.0, "V")
-    ('0.74 µm', '2.5 V/µm', '300 V')
-    """
-    factor, prefixed = suited(value, unit)
-    return f"{factor * value:.4g} {prefixed}"
-
-
-def suited(value: float, unit: str) -> tuple[float, str]:
-    """Factor from an SI unit to a prefixed unit that suits a value, and this unit.
-
-    Units that have a prefix already, as kg, or a power of their own, as 1/K, get no other one.
-
-    Examples
-    --------
-    >>> suited(870.0, "kg/m**3"), suited(2.3e-10, "F")
-    ((1.0, 'kg/m³'), (1000000000000.0, 'pF'))
-    """
-    if not unit or "**" in unit or unit.startswith(("kg", "1/", "K", "deg", "rad")):
-        return 1.0, unit.replace("**2", "²").replace("**3", "³").replace("*", " ")
-    factor, prefixed = unit_for(abs(value), unit, least=0.1 if unit in ("m", "V/m") else 1.0)
-    return round(factor, 12), prefixed.replace("*", " ")

@@ -12,6 +12,7 @@ import numpy as np
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.errors import InputError, printable
+from ehlectric.quantities.formats import CELSIUS, Scale
 from ehlectric.quantities.rows import value_at
 from ehlectric.report.content import Block, Section, Table, Text
 from ehlectric.report.drawn import SWEPT, pictures_of, swept_names
@@ -23,7 +24,7 @@ from ehlectric.report.limits import limits_of, references_of
 from ehlectric.report.part import Part, lead_of
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import breakdown_of, main_value, ranked_value
-from ehlectric.sweep.labels import CELSIUS, Scale, label_of
+from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.points import Point
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import sensitivity

@@ -102,7 +102,8 @@ def _check_contact(case: Case) -> Meaning:
     from ehlectric.tables.motion import schedule_rows
 
     contact = check_case(case)
-    rows, summary = case_rows(case, contact.conditions), case_summary(case, contact.conditions)
+    summary = case_summary(case, contact.conditions)
+    rows = case_rows(case, summary)
     estimate = _breakdown_by_formula(case, contact.conditions)
     if estimate is not None:
         summary["breakdown_by_formula"] = estimate

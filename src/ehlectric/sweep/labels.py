@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -17,11 +16,9 @@ from ehlectric.cases.oils.laws import law_parameters
 from ehlectric.quantities.bearing_results import BEARING_KEYS
 from ehlectric.quantities.contact_results import CONTACT_KEYS
 from ehlectric.quantities.drive_results import DRIVE_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.formats import Scale, scale_for
 from ehlectric.quantities.motion_results import MOTION_KEYS
 from ehlectric.quantities.quantity import Keys, key_of
-
-# Units without prefixes: none, angles, absolute temperatures and their inverse, and events per second.
-_PLAIN = ("", "deg", "K", "rad", "1/K", "1/s")
 
 
 @dataclass(frozen=True)
@@ -50,53 +47,6 @@ class Label:
     def axis(self, scale: Scale) -> str:
         """Label of an axis: name, symbol and the unit of ``scale``."""
         return " ".join(filter(None, [self.name, self.symbol, f"[{scale.unit}]" if scale.unit else ""]))
-
-
-@dataclass(frozen=True)
-class Scale:
-    """Unit in which values are shown.
-
-    Attributes
-    ----------
-    factor : float
-        Factor from values in SI units to values in this unit.
-    unit : str
-        Unit as printed, such as "µm".
-    offset : float
-        Number added after the multiplication, for temperatures in °C.
-    """
-
-    factor: float
-    unit: str
-    offset: float = 0.0
-
-    def of(self, values: Any) -> Any:
-        """Numbers of SI values in this unit.
-
-        Examples
-        --------
-        >>> round(CELSIUS.of(343.15), 9), Scale(1e6, "µm").of(2e-6)
-        (70.0, 2.0)
-        """
-        return self.factor * values + self.offset
-
-    def text(self, value: Any) -> str:
-        """Text of an SI value in this unit, with four digits; a text is returned unchanged."""
-        if not isinstance(value, int | float):
-            return str(value)
-        return f"{self.of(value):.4g} {self.unit}".rstrip()
-
-
-# Absolute temperatures in figures.
-CELSIUS = Scale(1.0, "°C", -273.15)
-
-# Other units without prefixes: limits of current density are published in A/mm^2, shaft speeds in rpm, and
-# kinematic viscosities in mm^2/s.
-_OWN = {
-    "A/m**2": Scale(1e-6, "A/mm²"),
-    "rad/s": Scale(30.0 / np.pi, "rpm"),
-    "m**2/s": Scale(1e6, "mm²/s"),
-}
 
 
 def label_of(key: str, case: SweptCase) -> Label:
@@ -161,63 +111,3 @@ def result_keys(case: SweptCase) -> Keys:
     if isinstance(case, DriveCase):
         return DRIVE_KEYS
     return (CONTACT_KEYS if case.motion is None else MOTION_KEYS)[case.contact.geometry]
-
-
-def scale_for(largest: float, unit: str) -> Scale:
-    """Prefixed unit that suits values up to ``largest``.
-
-    Parameters
-    ----------
-    largest : float
-        Largest of the values, in SI units, > 0.
-    unit : str
-        SI unit in the notation of pint.
-
-    Returns
-    -------
-    Scale
-        Prefixed unit as printed, and the factor from SI values to it.
-
-    Examples
-    --------
-    >>> scale_for(2.2e-8, "1/Pa")
-    Scale(factor=1000000000.0, unit='1/GPa', offset=0.0)
-    >>> scale_for(3e-12, "m**2")
-    Scale(factor=1000000000000.0, unit='µm²', offset=0.0)
-    >>> scale_for(0.04, "Pa*s")
-    Scale(factor=1000.0, unit='mPa s', offset=0.0)
-    """
-    if unit in _PLAIN:
-        return Scale(1.0, unit)
-    if unit in _OWN:
-        return _OWN[unit]
-    if unit.startswith("kg"):
-        return Scale(1.0, _printed(unit))  # it has a prefix
-    # Imported here because it imports matplotlib, which tables of names and units do not need.
-    from ehlectric.quantities.units import unit_for
-
-    if unit.startswith("1/"):
-        # The prefix belongs to the unit in the denominator.
-        factor, prefixed = unit_for(1.0 / largest, unit[2:], least=0.001)
-        return Scale(round_factor(1.0 / factor), f"1/{prefixed}")
-    base, power = (unit[:-3], int(unit[-1])) if unit in ("m**2", "m**3") else (unit, 1)
-    if unit == "s":
-        largest = min(largest, 1.0)
-    factor, prefixed = unit_for(largest ** (1.0 / power), base)
-    return Scale(round_factor(factor) ** power, _printed(prefixed) + {1: "", 2: "²", 3: "³"}[power])
-
-
-def round_factor(factor: float) -> float:
-    """Round a power of ten to nine digits, which removes the rounding error of a division.
-
-    Examples
-    --------
-    >>> round_factor(1 / 1e-6)
-    1000000.0
-    """
-    return float(f"{factor:.9g}")
-
-
-def _printed(unit: str) -> str:
-    """Unit in the notation of pint as printed text."""
-    return unit.replace("**3", "³").replace("**2", "²").replace("*", " ").replace("ohm", "Ω")

@@ -24,9 +24,10 @@ from ehlectric.discharge.verdict import (
     ratio_text,
     strength_interval,
 )
+from ehlectric.quantities.formats import Scale
 from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
-from ehlectric.sweep.labels import Scale, label_of
+from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.points import Point, SweepPoints
 
 # Reason for which a bearing with a lambda ratio below 1 has no margin.

@@ -11,10 +11,10 @@ from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.discharge.verdict import ratio_text
 from ehlectric.quantities.bearing_results import BEARING_KEYS
+from ehlectric.quantities.formats import Scale, amount, scale_for
 from ehlectric.quantities.quantity import Bound
-from ehlectric.quantities.rows import Row, amount, amount_row, rows_of
+from ehlectric.quantities.rows import Row, amount_row, rows_of
 from ehlectric.quantities.units import rpm_text
-from ehlectric.sweep.labels import Scale, scale_for
 from ehlectric.tables.bearing_asperities import duty_rows
 from ehlectric.tables.bearing_bounds import bounds_of
 from ehlectric.tables.bearing_films import film_factors, friction_rows

@@ -2,342 +2,536 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from ehlectric.cases.case import Case
+from ehlectric.cases.input_keys import unit_of
 from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.spots.warnings import share_text
+from ehlectric.contact.summary import case_summary
+from ehlectric.discharge.laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.film.accuracy.max_pressure import UNRESOLVED
-from ehlectric.formulas.film_line import FORMULAS as LINE_FORMULAS
-from ehlectric.formulas.film_line import Formula, Thickness
-from ehlectric.formulas.film_line import regime as line_regime
-from ehlectric.formulas.film_point import FORMULAS as POINT_FORMULAS
-from ehlectric.formulas.film_point import regime as point_regime
-from ehlectric.lubricant.oil import Oil
-from ehlectric.quantities.rows import Row
-from ehlectric.tables.asperities import asperity_rows
-from ehlectric.tables.discharge import discharge_rows
-from ehlectric.tables.heat import heat_rows
-from ehlectric.tables.meter import meter_rows
+from ehlectric.quantities.bounds import bound_words, contact_bounds
+from ehlectric.quantities.contact_results import CONTACT_BOOK
+from ehlectric.quantities.formats import amount, formatted
+from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
+from ehlectric.quantities.sheets import CHECK, CONTACT
 
-_FORMULAS: Mapping[str, Mapping[str, Formula[Any]]] = {"line": LINE_FORMULAS, "point": POINT_FORMULAS}
+# Relative error of the field up to which the table does not repeat it for the breakdown voltage.
+_SMALL = 0.002
 
-# Names of the film thicknesses that formulas give, by their attribute.
-_FILMS = {"minimum_thickness": "minimum film", "central_thickness": "central film"}
+# Error of the oil balance below which it is not stated.
+_LEAST_ERROR = 1e-4
+
+# Names of the laws between shear stress and shear rate.
+RHEOLOGIES = {
+    "newtonian": "Newtonian",
+    "eyring": "Ree-Eyring",
+    "carreau": "Carreau",
+    "limiting": "limiting shear stress",
+}
 
 
-def case_rows(case: Case, conditions: Conditions | PointConditions) -> list[Row]:
+def case_rows(case: Case, summary: Summary) -> list[Row]:
     """Rows of a contact before it is solved: its conditions, dry contact, and film thicknesses by formulas.
 
-    Parameters
-    ----------
-    case : Case
-        Case of a line or point contact.
-    conditions : Conditions or PointConditions
-        Resolved conditions of the case.
-
-    Returns
-    -------
-    list of Row
-        Values in SI units.
+    ``summary`` is that of ``contact.summary.case_summary``.
     """
-    formulas = _FORMULAS[conditions.geometry]
-    thicknesses = {name: formula(conditions.contact) for name, formula in formulas.items()}
-    rows = [*condition_rows(conditions, case.electric.voltage, case.oil), *_dry_contact(conditions)]
-    rows += [Row("film thickness by published formulas")]
-    rows += [Row(name, value, "µm") for _, name, value in _by_formula(formulas, thicknesses)]
-    rows += [Row("usual difference from a solved film", "up to 40", "%")]
-    rows += [Row("numerical model"), *_GRIDS[conditions.geometry](case, conditions)]
-    return [*rows, Row("dimensionless velocity parameter Λ", conditions.velocity_parameter)]
+    words = _WORDS | Words(
+        values={"grid.film": lambda _: _grid(case)}, notes={"inputs.grid.side": lambda _: "semi-axes a"}
+    )
+    return list(sheet_rows(CHECK, CONTACT_BOOK[_geometry(summary)], summary, words))
 
 
-def condition_rows(conditions: Conditions | PointConditions, voltage: float, oil: Oil) -> Iterator[Row]:
-    """Rows of the operating conditions that decide film and field.
-
-    Parameters
-    ----------
-    conditions : Conditions or PointConditions
-        Resolved conditions of a case.
-    voltage : float
-        Voltage across the film [V].
-    oil : Oil
-        Oil at the temperature of the contact.
-
-    Yields
-    ------
-    Row
-        Load, speeds, temperature, viscosity, radii, modulus and voltage, values in SI units.
-    """
-    yield Row("operating conditions")
-    if isinstance(conditions, PointConditions):
-        yield Row("load", conditions.load, "N")
-    else:
-        yield Row("load per length", conditions.load_per_length, "MN/m")
-    yield Row("entrainment speed", conditions.entrainment_speed, "m/s")
-    yield Row("slide-to-roll ratio", conditions.slide_to_roll_ratio, note=_surface_speeds(conditions))
-    if oil.temperature is not None:
-        of = f", {oil.name}" if oil.name else ""
-        yield Row("temperature of the oil", f"{oil.temperature - 273.15:.4g}", "°C", of)
-    yield Row("viscosity at ambient pressure", conditions.viscosity, "mPa s")
-    if isinstance(conditions, PointConditions):
-        yield _length("reduced radius along entrainment", conditions.radius_x)
-        yield _length("reduced radius across entrainment", conditions.radius_y)
-    else:
-        yield _length("reduced radius", conditions.reduced_radius)
-    yield Row("reduced elastic modulus E'", conditions.reduced_modulus, "GPa")
-    yield Row("voltage across the film", voltage, "V")
+def condition_rows(case: Case, conditions: Conditions | PointConditions) -> Iterator[Row]:
+    """Rows of the operating conditions of a case, which decide film and field."""
+    summary = case_summary(case, conditions)
+    return sheet_rows(CHECK[:1], CONTACT_BOOK[conditions.geometry], summary, _WORDS)
 
 
-def _surface_speeds(conditions: Conditions | PointConditions) -> str:
+def result_rows(result: Result | PointResult) -> list[Row]:
+    """Rows of a solved contact: its conditions, film, field and discharge, and the film by formulas."""
+    summary = result.summary()
+    book = CONTACT_BOOK[result.conditions.geometry]
+    rows = sheet_rows(CONTACT, book, summary, _WORDS | _of_arrays(result), contact_bounds(book, summary))
+    return [*_status(summary), *rows]
+
+
+def _status(summary: Summary) -> Iterator[Row]:
+    """Row that warns of a film that is not converged."""
+    if not summary["converged"]:
+        yield Row("NOT CONVERGED", note=f"{summary['status']}: do not use these numbers", alarm=True)
+
+
+def _of_arrays(result: Result | PointResult) -> Words:
+    """Words that need the arrays or the case of a result: what its summary does not have."""
+    kind = KINDS[result.conditions.geometry]
+    surfaces = getattr(result.film.heated, "surface_temperatures", None)
+    highest = () if surfaces is None else tuple(float(surface.max()) for surface in surfaces)
+    values: dict[str, Any] = {
+        f"film.surface_temperature_{k}": partial(_same, value) for k, value in enumerate(highest, 1)
+    }
+    return Words(
+        values=values | {"regime": partial(_same, kind.regime(result.conditions.contact))},
+        notes={
+            "film.rheology": lambda _: _constants(result.case),
+            "film.thermal": lambda _: _inlet(result.case),
+        },
+    )
+
+
+def _same(value: Any, _: Summary) -> Any:
+    """Value of any summary."""
+    return value
+
+
+def _geometry(summary: Summary) -> str:
+    return str(summary["inputs"]["contact"]["geometry"])
+
+
+def _touches(summary: Summary) -> bool:
+    return "asperities" in summary
+
+
+# Of a film whose surfaces touch, not shown: what would be the breakdown of the boundary film, and errors of a
+# field that its thickness gives.
+_OF_FLOATING = frozenset(
+    f"{table}.{name}"
+    for table, names in (
+        ("field", ("max_strength_error", "max_dimensionless", "thin_gap_error")),
+        ("discharge", ("zone_position", "zone_size", "breakdown_energy", "dielectric_strength", "margin")),
+        ("discharge", ("breakdown_field_error", "breakdown_range", "probability")),
+    )
+    for name in names
+)
+
+# Not shown where no film is left around the spots.
+_AROUND_SPOTS = frozenset(
+    f"asperities.{name}"
+    for name in ("mean_film", "rq_deformed", "lambda_undeformed", "lambda_deformed", "boundary_friction")
+)
+
+
+def _hidden(summary: Summary) -> frozenset[str]:
+    if not _touches(summary):
+        return frozenset()
+    return _OF_FLOATING | (_AROUND_SPOTS if summary["asperities"]["film_5"] is None else frozenset())
+
+
+def _axis_ratio(summary: Summary) -> float | None:
+    hertz = summary["hertz"]
+    return hertz["semi_axis_y"] / hertz["semi_axis_x"] if "semi_axis_x" in hertz else None
+
+
+def _behaviour(summary: Summary) -> str:
+    share = 100.0 * summary["asperities"]["time_share"]
+    return f", at 10 kHz; a spot is there {share:.3g} % of the time"
+
+
+def _grid(case: Case) -> str | tuple[str, str]:
+    """Nodes of the film, or the error to which its grid is refined."""
+    if case.grid.target is not None:
+        return f"refined to an error of {100.0 * case.grid.target:g} %"
+    if case.contact.geometry == "line":
+        return str(case.grid.nodes), "nodes"
+    return f"{case.first_grid.nodes_along} x {case.first_grid.nodes_across}", "nodes"
+
+
+def _voltage(summary: Summary) -> float:
+    """Voltage across the film [V]; before a solution that of the case."""
+    field = summary.get("field")
+    return float(field["voltage"]) if field else float(summary["inputs"]["electric"]["voltage"])
+
+
+def _speeds(summary: Summary) -> str:
     """Note with the speeds of both surfaces."""
-    mean, half = conditions.entrainment_speed, 0.5 * conditions.slide_to_roll_ratio
+    contact = summary["inputs"]["contact"]
+    mean, half = contact["entrainment_speed"], 0.5 * contact["slide_to_roll_ratio"]
     if half == 0.0:
         return ", pure rolling"
     return f", surfaces at {mean * (1.0 + half):.4g} and {mean * (1.0 - half):.4g} m/s"
 
 
-def _length(name: str, value: float) -> Row:
-    """Row of a radius in mm, or in m from 1 m."""
-    return Row(name, value, "m" if value >= 1.0 else "mm")
+def _half_width(summary: Summary) -> float:
+    hertz = summary["hertz"]
+    return float(hertz["half_width"] if "half_width" in hertz else hertz["semi_axis_x"])
 
 
-def _dry_contact(conditions: Conditions | PointConditions) -> Iterator[Row]:
-    """Rows of the dry contact and its groups, in the tables of a case and of its solution."""
-    yield Row("dry contact (Hertz)")
-    yield Row("Hertz pressure", conditions.max_pressure, "GPa")
-    if isinstance(conditions, PointConditions):
-        yield Row("semi-axis b along entrainment", conditions.semi_axis_x, "µm")
-        yield Row("semi-axis a across entrainment", conditions.semi_axis_y, "µm")
-        yield Row("axis ratio a/b", conditions.ratio)
-        regime = point_regime(conditions.contact)
-    else:
-        yield Row("half-width b", conditions.half_width, "µm")
-        regime = line_regime(conditions.contact)
-    alpha = conditions.pressure_viscosity_coefficient
-    yield Row("pressure-viscosity coefficient α*", alpha, "1/GPa", ", reciprocal asymptotic")
-    yield Row("load parameter M (Moes)", conditions.contact.moes_m)
-    yield Row("material parameter L (Moes)", conditions.contact.moes_l)
-    yield Row("lubrication regime", regime)
+def _place(summary: Summary, key: str) -> str:
+    """Position in half-widths, or in semi-axes b of a point contact, with the name of the axes."""
+    position = value_at(summary, key)
+    places = position if isinstance(position, Sequence) else (position,)
+    texts = ", ".join(f"{place / _half_width(summary):.4g}" for place in places)
+    return f"{'x/b, y/b' if len(places) > 1 else 'x/b'} = {texts}"
 
 
-def _nodes(case: Case, nodes: str) -> Row:
-    """Nodes of the film, or the error to which its grid is refined."""
-    target = case.grid.target
-    if target is None:
-        return Row("grid of the film", nodes, "nodes")
-    return Row("grid of the film", f"refined to an error of {100.0 * target:g} %")
+def _in_spot(summary: Summary) -> str:
+    """Note of a value in the boundary film; empty where the surfaces do not touch."""
+    return ", in the boundary film" if _touches(summary) else ""
 
 
-def _line_grid(case: Case, _: Conditions) -> Iterator[Row]:
-    yield _nodes(case, str(case.grid.nodes))
-    yield _wedge(case)
+def _zone(summary: Summary) -> str:
+    return "Hertz zone" if _geometry(summary) == "line" else "Hertz ellipse"
 
 
-def _point_grid(case: Case, conditions: PointConditions) -> Iterator[Row]:
-    yield _nodes(case, f"{case.first_grid.nodes_along} x {case.first_grid.nodes_across}")
-    yield Row("half-width of the domain across", conditions.side, note="semi-axes a")
-    yield _wedge(case)
-
-
-def _wedge(case: Case) -> Row:
-    return Row("discretisation of the wedge term", case.grid.wedge)
-
-
-def _by_formula(
-    formulas: Mapping[str, Formula[Any]], thicknesses: Mapping[str, Thickness]
-) -> Iterator[tuple[str, str, float]]:
-    """Attribute, name and value [m] of each film thickness that formulas give, minimum thicknesses first."""
-    for key, film in _FILMS.items():
-        for name, thickness in thicknesses.items():
-            value = getattr(thickness, key)
-            if value is not None:
-                yield key, f"{film} ({formulas[name].name})", value
-
-
-def result_rows(result: Result | PointResult) -> list[Row]:
-    """Rows of a solved contact: its conditions, film, field and discharge, and the film by formulas.
-
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of ``solve``.
-
-    Returns
-    -------
-    list of Row
-        Values in SI units.
-    """
-    rows = [*_status(result), *condition_rows(result.conditions, result.field.voltage, result.case.oil)]
-    rows += [*_dry_contact(result.conditions), *_film(result), *heat_rows(result)]
-    rows += [*_roughness(result), *asperity_rows(result), *_field(result)]
-    return [*rows, *discharge_rows(result), *meter_rows(result), *_formulas(result)]
-
-
-def _status(result: Result | PointResult) -> Iterator[Row]:
-    """Row that warns of a film that is not converged."""
-    if not result.converged:
-        yield Row("NOT CONVERGED", note=f"{result.film.status}: do not use these numbers", alarm=True)
-
-
-def _film(result: Result | PointResult) -> Iterator[Row]:
-    film = result.film
-    zone = "Hertz zone" if isinstance(result, Result) else "Hertz ellipse"
-    yield Row("film")
-    at = _at(result, film.minimum_position) + _where(result)
-    yield Row("minimum film thickness h_min", film.minimum_thickness, "µm", at)
-    yield Row("central film thickness", film.central_thickness, "µm")
-    yield from _supply(result)
-    yield Row("mean film thickness", film.mean_thickness, "µm", f", in the {zone}")
-    yield Row("maximum pressure", film.max_pressure, "GPa", _pressure_error(film.max_pressure_error))
-    nodes = " x ".join(str(count) for count in film.thickness.shape)
-    target = result.case.grid.target
-    asked = "" if target is None else f", {100.0 * target:g} % asked"
-    name, error = "discretisation error of the film", result.film_error
-    grid = f", {nodes} nodes{asked}"
-    if film.contact_pressure is not None:
-        grid = f"where surfaces touch{grid}"
-    yield Row(name, "unknown", note=grid) if error is None else Row(name, error, "%", grid, digits=".2g")
-    steps = "V-cycles" if result.film_solver == "paper" else "Newton steps"
-    after = f"after {film.newton_iterations} {steps}"
-    yield Row("residual of the film equations", film.residual, note=after, digits=".1e")
-    yield Row("residual of the load balance", film.load_residual, digits=".1e")
-
-
-def _supply(result: Result | PointResult) -> Iterator[Row]:
-    """Rows of the supply of oil of a starved contact; none where it is not given."""
-    found = result.film.starvation
-    if found is None:
-        return
-    yield _known("central film / flooded central film", found.film_ratio)
-    yield _known("minimum film if flooded", found.flooded_minimum_thickness, "µm")
-    yield _known("layer of oil before the contact", found.oil_layer, "µm", ", on both surfaces together")
-    place, filled = found.meniscus, "none: flooded"
-    if place is not None:
-        filled = f"x/b = {place / result.conditions.half_width:.3g}"
-    elif result.film.film_fraction is not None:
-        filled = "at the inlet edge on y = 0"
-    yield Row("meniscus, where oil fills the gap", filled)
-
-
-def _known(name: str, value: float | None, unit: str = "", note: str = "") -> Row:
-    """Row of a number that may be unknown."""
-    return Row(name, "unknown") if value is None else Row(name, value, unit, note)
-
-
-def _pressure_error(error: float | None) -> str:
+def _pressure_error(summary: Summary) -> str:
     """Note with the error of the maximum pressure; empty if the error is unknown."""
+    error = summary["film"]["max_pressure_error"]
     if error is None:
         return ""
     return f", error {100 * error:.2g} %" if error <= UNRESOLVED else ", not resolved by the grid"
 
 
-def _at(result: Result | PointResult, position: float | tuple[float, float]) -> str:
-    """Note with a position in half-widths, or in semi-axes b of a point contact."""
-    if isinstance(position, tuple):
-        x, y = (place / result.conditions.half_width for place in position)
-        return f" at x/b, y/b = {x:.3g}, {y:.3g}"
-    return f" at x/b = {position / result.conditions.half_width:.4g}"
+def _film_grid(summary: Summary) -> str:
+    """Note of the discretisation error: nodes, and the error that was asked for."""
+    film = summary["film"]
+    nodes = film["nodes"] if isinstance(film["nodes"], Sequence) else (film["nodes"],)
+    target = film["target_error"]
+    asked = "" if target is None else f", {100.0 * target:g} % asked"
+    touch = "where surfaces touch" if _touches(summary) else ""
+    return f"{touch}, {' x '.join(map(str, nodes))} nodes{asked}"
 
 
-def _where(result: Result | PointResult) -> str:
-    """Note of a value in the boundary film; empty where the surfaces do not touch."""
-    return "" if result.spots is None else ", in the boundary film"
+def _iterations(summary: Summary) -> str:
+    film = summary["film"]
+    return f"after {film['newton_iterations']} {'V-cycles' if film['solver'] == 'paper' else 'Newton steps'}"
 
 
-def _roughness(result: Result | PointResult) -> Iterator[Row]:
-    """Rows of the roughness within the Hertz zone; none for smooth surfaces."""
-    if not result.rough:
-        return
-    roughness = result.roughness_statistics
-    yield Row("roughness")
-    for k, rq in ((1, roughness.rq_1), (2, roughness.rq_2)):
-        yield Row(f"Rq of surface {k}", rq, "nm", ", in the Hertz zone", digits=".3g")
-    if roughness.lambda_ratio is not None:
-        least = "minimum film" if result.spots is None else "boundary film"
-        about = f", {least} / combined Rq"
-        yield Row("lambda ratio", roughness.lambda_ratio, note=about, digits=".3g")
-    if roughness.lambda_ratio_smooth is not None:
-        about = ", smooth film / combined Rq"
-        yield Row("lambda ratio of the smooth film", roughness.lambda_ratio_smooth, note=about, digits=".3g")
-    if result.smooth:
-        yield Row("minimum film with smooth surfaces", result.smooth.minimum_thickness, "µm")
+def _known(key: str, *, only: str) -> Callable[[Summary], Any]:
+    """Value of a key, or "unknown" where it is null, of a table ``film`` that has a key of this name."""
+
+    def value(summary: Summary) -> Any:
+        if value_at(summary, "film") is None or only not in summary["film"]:
+            return None
+        found = value_at(summary, key)
+        return "unknown" if found is None else found
+
+    return value
 
 
-def _field(result: Result | PointResult) -> Iterator[Row]:
-    field = result.field
-    at = _at(result, field.max_strength_position) + _where(result)
-    if result.rough:
-        at += f", {field.max_strength_wall}"
-    yield Row("electric field")
-    if result.spots is None:
-        yield Row("maximum field", field.max_strength, "V/µm", at, bound="≥")
-        yield from _accuracy_of_maximum(result)
-    else:
-        # The voltage over a given gap: nothing of it is computed, and no error is to be stated.
-        yield Row("maximum field", field.max_strength, "V/µm", at, digits=".3g")
-    if isinstance(result, Result):
-        yield from _line_field(result)
-    else:
-        yield from _point_field(result)
+def _meniscus(summary: Summary) -> str | None:
+    """Where oil fills the gap; None without a supply of oil."""
+    film = summary["film"]
+    if "oil_layer" not in film:
+        return None
+    if film["meniscus"] is not None:
+        return _place(summary, "film.meniscus")
+    return "none: flooded" if film["film_ratio"] == 1.0 else "at the inlet edge on y = 0"
 
 
-def _accuracy_of_maximum(result: Result | PointResult) -> Iterator[Row]:
-    """Rows of the error of the maximum field, and of its ratio to that of parallel plates."""
-    name, error = "error of the maximum field", result.field.strength_error
-    yield Row(name, "unknown") if error is None else Row(name, error, "%", digits=".1g")
-    name = "maximum field / parallel-plate field"
-    yield Row(name, result.max_dimensionless, note="(parallel plates: V/h_min)", digits=".4f")
-    if result.thin_gap_error is not None:
-        yield Row("error of the estimate V/h_min", result.thin_gap_error, "%", digits=".2g")
+def _change(name: str) -> Callable[[Summary], str]:
+    """Note with the effect of heat and shear on a film, over the isothermal, Newtonian one."""
+
+    def note(summary: Summary) -> str:
+        film = summary["film"]
+        simple = film["isothermal"][f"{name}_thickness"]
+        effect = "heat and shear" if film["thermal"] else "shear"
+        if simple is None or not summary["converged"]:
+            return ""
+        return f", {100.0 * (film[f'{name}_thickness'] / simple - 1.0):+.2g} % by {effect}"
+
+    return note
 
 
-def _line_field(result: Result) -> Iterator[Row]:
-    field = result.field
-    yield Row("width of the high-field zone", field.high_field_width, "µm", ", above 95 % of maximum")
-    yield Row("capacitance per length", field.capacitance, "nF/m", ", over the field range")
-    if result.rough:
-        yield Row("grid of the field", str(field.x.size), "columns")
+def _solved_heat(key: str) -> Callable[[Summary], Any]:
+    """Value of a film with heat or shear, or that it did not converge; None of another film."""
+
+    def value(summary: Summary) -> Any:
+        found = value_at(summary, key)
+        return "not converged" if found is None and "rheology" in summary["film"] else found
+
+    return value
 
 
-def _point_field(result: PointResult) -> Iterator[Row]:
-    field = result.field
-    yield Row("area of the high-field zone", field.high_field_area, "µm²", ", above 95 % of maximum")
-    yield Row("capacitance", field.capacitance, "pF", ", over the field range")
-    for zone, capacitance in result.capacitance_by_zone.items():
-        yield Row(f"capacitance of the {_ZONES.get(zone, zone)}", capacitance, "pF")
+def _constants(case: object) -> str:
+    """Note with the constants of the rheology of a case."""
+    if not isinstance(case, Case) or case.film is None:
+        return ""
+    given = case.film.constants(case.lubricant).items()
+    texts = (f"{key} {amount(value, unit_of(f'lubricant.{key}'))}".rstrip() for key, value in given)
+    return "".join(f", {text}" for text in texts)
 
 
-def _formulas(result: Result | PointResult) -> Iterator[Row]:
-    """Rows of the film formulas, each with its difference from the solved film, and of the time."""
-    yield Row("film thickness by published formulas")
-    formulas = _FORMULAS[result.conditions.geometry]
-    for key, name, value in _by_formula(formulas, result.formulas()):
-        yield Row(name, value, "µm", _beside_formula(result, key, value))
-    if result.spots is None:
-        yield Row("usual difference from a solved film", "up to 40", "%")
-    else:
-        yield Row(
-            "difference from the solved film", "none: surfaces touch", note=", formulas are of smooth ones"
-        )
-    yield Row("run")
-    yield Row("computing time", result.film_seconds + result.field_seconds, "s", digits=".2g")
+def _inlet(case: object) -> str:
+    """Note with the temperatures of the oil in the inlet and of the bodies."""
+    if not isinstance(case, Case) or case.contact.temperature is None:
+        return ""
+    contact = case.contact
+    found = {"oil": contact.temperature, "body 1": contact.temperature_1, "body 2": contact.temperature_2}
+    known = {name: value for name, value in found.items() if value is not None}
+    return "".join(f", {name} at {value - 273.15:.4g} °C" for name, value in known.items())
 
 
-def _beside_formula(result: Result | PointResult, key: str, value: float) -> str:
+def _temperature(summary: Summary) -> str | None:
+    thermal = summary["film"].get("thermal")
+    return None if thermal is None else "computed" if thermal else "that of the inlet"
+
+
+def _temperature_error(summary: Summary) -> str:
+    error = summary["film"]["temperature_rise_error"]
+    return "" if error is None else f", error {error:.1g} K"
+
+
+def _load_share(summary: Summary) -> tuple[str, str] | None:
+    """Load share with no more digits than its change from a coarser grid leaves."""
+    found = summary.get("asperities")
+    return found and (share_text(found["load_share"], found["load_share_coarser"]), "%")
+
+
+def _coarser_share(summary: Summary) -> str:
+    found = summary["asperities"]
+    before = found["load_share_coarser"]
+    if before is None:
+        return ", not known on a coarser grid"
+    return f", {share_text(before, found['load_share'])} % on half the nodes"
+
+
+def _area_error(summary: Summary) -> str:
+    """Note of the real area of contact: what it is a part of, and its error by the grid."""
+    error = summary["asperities"]["contact_area_error"]
+    part = "width" if _geometry(summary) == "line" else "area"
+    within = "" if error is None else f", ± {min(100.0 * error, 100.0):.0f} % of it by the grid"
+    return f", of the Hertz {part}{within}"
+
+
+def _spots(summary: Summary) -> str:
+    single = summary["asperities"]["spots_of_one_node"]
+    strips = ", strips along the contact" if _geometry(summary) == "line" else ""
+    return strips + (f", {single} of a single node" if single else "")
+
+
+def _oil_error(summary: Summary) -> Any:
+    error = value_at(summary, "asperities.mass_error")
+    if error is None or error >= _LEAST_ERROR:
+        return error
+    return f"< {100.0 * _LEAST_ERROR:g}", "%"
+
+
+def _resistance(summary: Summary) -> str:
+    return ", ridges along the whole length" if _geometry(summary) == "line" else ""
+
+
+def _rough_columns(summary: Summary) -> Any:
+    """Columns of the field of a rough line contact, whose number follows from the roughness."""
+    rough_line = "roughness" in summary and _geometry(summary) == "line"
+    return (str(summary["field"]["columns"]), "columns") if rough_line else None
+
+
+def _field_place(summary: Summary) -> str:
+    wall = f", {summary['field']['max_strength_wall']}" if "roughness" in summary else ""
+    return f" at {_place(summary, 'field.max_strength_position')}{_in_spot(summary)}{wall}"
+
+
+def _strength(summary: Summary) -> Any:
+    """Dielectric strength; that it is not given where there is no law."""
+    found = summary.get("discharge")
+    if found is None:
+        return None
+    return "not given" if found["strength_law"] is None else found["dielectric_strength"]
+
+
+def _strength_note(summary: Summary) -> str:
+    found = summary["discharge"]
+    return (
+        ", no breakdown voltage is computed"
+        if found["strength_law"] is None
+        else f", {found['strength_law']}"
+    )
+
+
+def _breakdown_note(summary: Summary) -> str:
+    strength = summary["discharge"]["dielectric_strength"]
+    condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
+    if _touches(summary):
+        return ", in the boundary film; metal may conduct there at any voltage"
+    return ", ".join(filter(None, [f", at {condition}", bound_words(summary)]))
+
+
+def _breakdown_error(summary: Summary) -> Any:
+    error = value_at(summary, "discharge.breakdown_field_error")
+    return None if error is None or error <= _SMALL else error
+
+
+def _breakdown_range(summary: Summary) -> Any:
+    found = summary.get("discharge", {})
+    low, high = found.get("breakdown_voltage_low"), found.get("breakdown_voltage_high")
+    return None if low is None or high is None else (f"{low:.4g} to {high:.4g}", "V")
+
+
+def _probability(summary: Summary) -> Any:
+    weibull = value_at(summary, "discharge.strength_law") == "weibull"
+    return summary["discharge"]["probability"] if weibull else None
+
+
+def _breaks_down(summary: Summary) -> bool:
+    margin = value_at(summary, "discharge.margin")
+    return margin is not None and margin < 1.0
+
+
+def _zone_place(summary: Summary) -> str | None:
+    return _place(summary, "discharge.zone_position") if "discharge" in summary else None
+
+
+def _beyond(summary: Summary) -> str:
+    found = summary["discharge"]
+    beyond = 100.0 * found["capacitance_beyond"] / found["capacitance"]
+    return f", a domain twice as large would add {beyond:.2g} % if full of oil"
+
+
+def _by_outlet(summary: Summary) -> Any:
+    """Range of the capacitance between oil in layers and a full outlet."""
+    found = summary.get("discharge")
+    if found is None:
+        return None
+    factor, unit = (1e9, "nF/m") if _geometry(summary) == "line" else (1e12, "pF")
+    ends = (formatted(factor * found[f"capacitance_{name}"], ".4g") for name in ("layers", "full"))
+    return " to ".join(ends), unit
+
+
+def _meter_range(summary: Summary) -> Any:
+    found = summary.get("meter")
+    if found is None:
+        return None
+    return " to ".join(formatted(1e12 * found[f"capacitance_{name}"], ".4g") for name in ("air", "oil")), "pF"
+
+
+def _share(name: str) -> Callable[[Summary], str]:
+    return lambda summary: f", {100.0 * summary['meter'][f'share_of_{name}']:.0f} %"
+
+
+def _limits(summary: Summary) -> str:
+    limits = summary["discharge"]["current_density_limits"] or ()
+    return ", published limits " + ", ".join(f"{limit / 1e6:g}" for limit in limits)
+
+
+def _formula_rows(key: str) -> Callable[[Summary], Iterator[Row]]:
+    """Rows of a film thickness by each formula that gives it, beside the solved one."""
+
+    def rows(summary: Summary) -> Iterator[Row]:
+        about = CONTACT_BOOK[_geometry(summary)][f"film_formulas.*.{key}"]
+        formulas: Mapping[str, Any] = KINDS[_geometry(summary)].formulas
+        for name, film in summary["film_formulas"].items():
+            if film[key] is not None:
+                note = _beside(summary, key, film[key])
+                row = row_of(f"film_formulas.{name}.{key}", about, film[key], note)
+                yield replace(row, name=f"{key.replace('_thickness', ' film')} ({formulas[name].name})")
+
+    return rows
+
+
+def _beside(summary: Summary, key: str, value: float) -> str:
     """Note with the difference of a film by formula from the solved one, or from that of smooth surfaces.
 
     Where surfaces touch, the minimum film is the boundary film, and the centre may lie in a spot.
     """
-    if not result.converged:
+    if not summary.get("converged"):
         return ""
-    if result.spots is None:
-        return f", {100.0 * (value / getattr(result.film, key) - 1.0):+.0f} % vs. solved film"
-    if result.smooth is None or key != "minimum_thickness":
+    if not _touches(summary):
+        return f", {100.0 * (value / summary['film'][key] - 1.0):+.0f} % vs. solved film"
+    smooth = value_at(summary, "roughness.smooth_minimum_thickness")
+    if smooth is None or key != "minimum_thickness":
         return ""
-    return f", {100.0 * (value / result.smooth.minimum_thickness - 1.0):+.0f} % vs. film of smooth surfaces"
+    return f", {100.0 * (value / smooth - 1.0):+.0f} % vs. film of smooth surfaces"
 
 
-# Names of the zones of a point contact, and rows of the grid by the geometry of the contact.
-_ZONES = {"hertz": "Hertz ellipse"}
-_GRIDS: Mapping[str, Callable[..., Iterator[Row]]] = {"line": _line_grid, "point": _point_grid}
+def _formula_error(summary: Summary) -> Any:
+    return "none: surfaces touch" if _touches(summary) else ("up to 40", "%")
+
+
+_WORDS = Words(
+    notes={
+        "inputs.contact.slide_to_roll_ratio": _speeds,
+        "lubricant.temperature": lambda s: f", {s['lubricant']['name']}" if s["lubricant"]["name"] else "",
+        "lubricant.alpha_star": lambda _: ", reciprocal asymptotic",
+        "film.minimum_thickness": lambda s: f" at {_place(s, 'film.minimum_position')}{_in_spot(s)}",
+        "film.oil_layer": lambda _: ", on both surfaces together",
+        "film.mean_thickness": lambda s: f", in the {_zone(s)}",
+        "film.max_pressure": _pressure_error,
+        "film.discretisation_error": _film_grid,
+        "film.residual": _iterations,
+        "film.isothermal.minimum_thickness": _change("minimum"),
+        "film.isothermal.central_thickness": _change("central"),
+        "film.max_temperature_rise": _temperature_error,
+        "film.rolling_coefficient": lambda _: ", of each surface",
+        "roughness.rq_1": lambda _: ", in the Hertz zone",
+        "roughness.rq_2": lambda _: ", in the Hertz zone",
+        "roughness.lambda_ratio": lambda s: (
+            f", {'boundary' if _touches(s) else 'minimum'} film / combined Rq"
+        ),
+        "roughness.lambda_ratio_smooth": lambda _: ", smooth film / combined Rq",
+        "asperities.behaviour": _behaviour,
+        "asperities.load_share": _coarser_share,
+        "asperities.contact_area_share": _area_error,
+        "asperities.spots": _spots,
+        "asperities.mass_error": lambda _: ", of the mean flow",
+        "asperities.boundary_film": lambda _: ", gap at which the surfaces touch",
+        "asperities.mean_film": lambda _: ", in the Hertz zone",
+        "asperities.rq_deformed": lambda _: ", in the Hertz zone",
+        "asperities.boundary_friction": lambda _: ", of the asperities where they slide",
+        "asperities.resistance": _resistance,
+        "asperities.corner_frequency": lambda _: ", above it the film takes more current than the spots",
+        "asperities.breakdown_voltage": lambda _: ", at a probability of 63.2 %",
+        "asperities.breakdown_probability": lambda _: ", at the applied voltage",
+        "field.max_strength": _field_place,
+        "field.max_dimensionless": lambda _: "(parallel plates: V/h_min)",
+        "field.high_field_width": lambda _: ", above 95 % of maximum",
+        "field.high_field_area": lambda _: ", above 95 % of maximum",
+        "discharge.zone_size": lambda _: (
+            f", above 95 %; published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
+        ),
+        "discharge.capacitance": _beyond,
+        "discharge.capacitance_outlet": lambda s: f", filling: {s['discharge']['outlet']}",
+        "discharge.capacitance_by_outlet": lambda _: ", assumption: layers to full",
+        "discharge.pit_diameter": lambda _: "; assumption: a hemisphere",
+        "discharge.current_density": _limits,
+        "discharge.relaxation_time": lambda _: ", at ambient pressure",
+        "discharge.dielectric_strength": _strength_note,
+        "discharge.breakdown_voltage": _breakdown_note,
+        "discharge.probability": lambda _: "at the applied voltage",
+        "meter.capacitance": lambda s: f", {s['meter']['bodies']}",
+        "meter.capacitance_domain": _share("domain"),
+        "meter.capacitance_hertz": _share("hertz"),
+        "meter.capacitance_outside": _share("outside"),
+        "meter.parallel_capacitance": lambda _: ", from the case",
+        "meter.coating_voltage_share": lambda _: ", at the minimum film",
+        "meter.film_breakdown_voltage": lambda _: ", between the bodies",
+        "meter.coating_breakdown_voltage": lambda _: ", with the film bridged",
+        "meter.breakdown_voltage": lambda _: ", between the bodies",
+        "formula_error": lambda s: ", formulas are of smooth ones" if _touches(s) else "",
+    },
+    values={
+        "field.voltage": _voltage,
+        "hertz.axis_ratio": _axis_ratio,
+        "film.film_ratio": _known("film.film_ratio", only="oil_layer"),
+        "film.flooded.minimum_thickness": _known("film.flooded.minimum_thickness", only="oil_layer"),
+        "film.oil_layer": _known("film.oil_layer", only="oil_layer"),
+        "film.meniscus": _meniscus,
+        "film.discretisation_error": _known("film.discretisation_error", only="residual"),
+        "film.rheology": lambda s: RHEOLOGIES[s["film"]["rheology"]] if "rheology" in s["film"] else None,
+        "film.thermal": _temperature,
+        "film.isothermal.minimum_thickness": _solved_heat("film.isothermal.minimum_thickness"),
+        "film.isothermal.central_thickness": _solved_heat("film.isothermal.central_thickness"),
+        "film.traction_coefficient": _solved_heat("film.traction_coefficient"),
+        "asperities.load_share": _load_share,
+        "asperities.spots": lambda s: str(s["asperities"]["spots"]) if _touches(s) else None,
+        "asperities.mass_error": _oil_error,
+        "field.columns": _rough_columns,
+        "discharge.zone_position": _zone_place,
+        "discharge.capacitance_by_outlet": _by_outlet,
+        "discharge.dielectric_strength": _strength,
+        "discharge.breakdown_field_error": _breakdown_error,
+        "discharge.breakdown_range": _breakdown_range,
+        "discharge.probability": _probability,
+        "meter.capacitance_by_gap": _meter_range,
+        "formula_error": _formula_error,
+        "seconds.both": lambda s: s["seconds"]["film"] + s["seconds"]["field"],
+    },
+    alarms={"discharge.margin": _breaks_down},
+    hidden=_hidden,
+    rows={f"film_formulas.*.{key}": _formula_rows(key) for key in ("minimum_thickness", "central_thickness")},
+)

@@ -10,7 +10,8 @@ from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.errors import printable
 from ehlectric.quantities.drive_results import DRIVE_KEYS, NAMES_OF_ENDS
-from ehlectric.quantities.rows import UNITS, Row, number_text
+from ehlectric.quantities.formats import UNITS, number_text
+from ehlectric.quantities.rows import Row
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -18,10 +18,11 @@ from ehlectric.contact.results import ContactResult
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import ResultWarning, printable
 from ehlectric.motion.result import MotionResult
-from ehlectric.quantities.rows import Row, suited
+from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
+from ehlectric.quantities.rows import Row
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.labels import CELSIUS, Scale, label_of, scale_for
+from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.points import Range
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.warnings import sweep_warnings

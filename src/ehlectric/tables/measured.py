@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.measurements.average import RAISED, SCATTER, MeanFactor
 from ehlectric.cases.measurements.factors import FilmFactors
-from ehlectric.quantities.rows import Row, amount
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.rows import Row
 from ehlectric.quantities.units import rpm
 from ehlectric.tables.layout import table_of
 

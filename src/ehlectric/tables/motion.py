@@ -79,7 +79,7 @@ def run_rows(summary: Mapping[str, Any]) -> list[Row]:
     conditions = KINDS[case.contact.geometry].resolve(case)
     halvings = summary["motion"]["halvings"] or None
     shown = {**summary, "motion": {**summary["motion"], "halvings": halvings}}
-    rows = [*condition_rows(conditions, case.electric.voltage, case.oil)]
+    rows = [*condition_rows(case, conditions)]
     for heading, entries in _entries(summary):
         found = list(rows_of(LINE_KEYS, shown, entries, _BOUNDS))
         rows += [Row(heading), *found] if found else []

@@ -22,7 +22,7 @@ from ehlectric.app.figures.bearing_speeds import OverSpeed, speed_rows
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.discharge.verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.units import rpm
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text

@@ -12,7 +12,7 @@ from ehlectric.app.pages.starts import DRIVE
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.quick import expected, quick_drive
 from ehlectric.errors import CODES, InputError
-from ehlectric.quantities.rows import number_text
+from ehlectric.quantities.formats import number_text
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.meaning import check
 

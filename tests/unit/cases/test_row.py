@@ -5,8 +5,9 @@ import sys
 
 import pytest
 
+from ehlectric.quantities.formats import UNITS
 from ehlectric.quantities.quantity import Quantity
-from ehlectric.quantities.rows import UNITS, Row, rows_of, value_at
+from ehlectric.quantities.rows import Row, rows_of, value_at
 from ehlectric.quantities.units import to_si
 from ehlectric.tables.layout import table_of
 from tests.helpers.each import each

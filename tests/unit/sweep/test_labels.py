@@ -13,10 +13,11 @@ from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.quantities.contact_results import heat_keys
+from ehlectric.quantities.formats import scale_for
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.units import to_si
 from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.labels import label_of, result_keys, scale_for
+from ehlectric.sweep.labels import label_of, result_keys
 from ehlectric.sweep.results import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.drives import small_drive

@@ -6,9 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
+from ehlectric.quantities.formats import scale_for
 from ehlectric.sweep.breakdown_keys import CONTACT
 from ehlectric.sweep.interpolation import spaced_log, surface_of
-from ehlectric.sweep.labels import label_of, scale_for
+from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import Range
 from ehlectric.sweep.slices import take
 from tests.helpers.each import each

@@ -33,7 +33,7 @@ from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW, quick_way
 from ehlectric.errors import InputError
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress

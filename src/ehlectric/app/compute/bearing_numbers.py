@@ -11,7 +11,8 @@ from ehlectric.bearing.intermittency.duty import CAPACITIVE
 from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.discharge.verdict import ratio_text
-from ehlectric.quantities.rows import Row, amount
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.rows import Row
 from ehlectric.quantities.units import rpm_text
 from ehlectric.tables.bearing import total_rows
 

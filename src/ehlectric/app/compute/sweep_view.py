@@ -20,11 +20,12 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.input_keys import unit_of
 from ehlectric.errors import CODES
+from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import value_at
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import Breakdown, breakdown_of
-from ehlectric.sweep.labels import CELSIUS, Scale, label_of, result_keys, scale_for
+from ehlectric.sweep.labels import label_of, result_keys
 from ehlectric.sweep.points import Point, flat
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import known_values

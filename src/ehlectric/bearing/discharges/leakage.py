@@ -16,7 +16,7 @@ from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, capacitance, insulating
 from ehlectric.cases.bearings.motor import Motor
 from ehlectric.errors import ResultWarning
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 
 # Switching frequencies of inverters for low-voltage motors [Hz], with which the leakage is compared where the
 # case gives none. They are typical values of catalogues.

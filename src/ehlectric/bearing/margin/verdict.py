@@ -33,7 +33,7 @@ from ehlectric.discharge.verdict import (
     unusable,
     weibull_part,
 )
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.units import rpm, rpm_text
 
 # Sentence about contacts of asperities, without its full stop.

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from scipy.optimize import brentq
 
 from ehlectric.errors import InputError
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 
 # Film factors that are looked at: a film of a hundredth, and of three times the flooded isothermal one.
 LEAST, MOST = 0.01, 3.0

@@ -36,7 +36,8 @@ from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.table import Table, read_toml, with_further
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError
-from ehlectric.quantities.rows import amount, value_at
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.units import ROTATION, rpm
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.runtime.values import is_number

@@ -11,7 +11,7 @@ from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
 from ehlectric.formulas.machine_capacitances import Machine, MachineCapacitances, machine_capacitances
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 
 _Length = Annotated[float, Amount("m", above=0.0, most=100.0, reason="of an electric machine")]
 _Permittivity = Annotated[float, Amount("", least=1.0, most=100.0, reason="1 for air")]

@@ -15,7 +15,7 @@ from ehlectric.contact.spots.oil_balance import OilBalance, oil_balance
 from ehlectric.errors import ResultWarning
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
-from ehlectric.quantities.rows import formatted
+from ehlectric.quantities.formats import formatted
 
 # Oil that a film may make or lose without a warning, over the mean flow through its contact.
 MASS_ERROR = 1e-3

@@ -16,7 +16,7 @@ from ehlectric.drive.spice.equivalent import OPEN, Equivalent, equivalent_of
 from ehlectric.drive.spice.over_speed import check_table, interpolated, nodes, parts
 from ehlectric.drive.spice.text import SIGNATURE, Parameter, ascii_of, comment, name_of
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.quantities.units import rpm, rpm_text
 from ehlectric.version import __version__
 

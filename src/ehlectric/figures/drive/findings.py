@@ -13,7 +13,7 @@ from ehlectric.drive.summary import end_summary
 from ehlectric.figures.bearing.impedance import prefixed
 from ehlectric.figures.drive.looks import NAMES, breakdown_of, number_of_events
 from ehlectric.figures.drive.remedies import variants
-from ehlectric.quantities.rows import amount, number_text
+from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.units import rpm
 
 # Share of time from which on a voltage is told [%].

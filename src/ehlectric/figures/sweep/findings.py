@@ -13,7 +13,7 @@ from ehlectric.discharge.verdict import ratio_text
 from ehlectric.figures.sweep.paths import LinePath, joined, lines_of
 from ehlectric.figures.sweep.points import labelled, voltage_text
 from ehlectric.figures.sweep.time_shares import TIME_SHARES
-from ehlectric.quantities.rows import number_text
+from ehlectric.quantities.formats import number_text
 from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.interpolation import spaced_log
 from ehlectric.sweep.labels import label_of

@@ -41,8 +41,8 @@ from ehlectric.figures.sweep.points import (
     voltage_text,
 )
 from ehlectric.figures.sweep.time_shares import TIME_SHARES
+from ehlectric.quantities.formats import Scale
 from ehlectric.sweep.interpolation import spaced_log
-from ehlectric.sweep.labels import Scale
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice, take
 

@@ -36,8 +36,8 @@ from ehlectric.figures.sweep.time_shares import (
     regime_handles,
     scatter_regimes,
 )
+from ehlectric.quantities.formats import Scale
 from ehlectric.sweep.interpolation import Surface, applied_at, spaced_log, surface_of
-from ehlectric.sweep.labels import Scale
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice, take
 

@@ -16,7 +16,8 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.figures.style import GREY, ORANGE, name_over
 from ehlectric.figures.sweep.time_shares import TIME_SHARES
-from ehlectric.sweep.labels import CELSIUS, Label, Scale, label_of
+from ehlectric.quantities.formats import CELSIUS, Scale
+from ehlectric.sweep.labels import Label, label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 

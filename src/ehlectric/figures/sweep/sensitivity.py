@@ -26,8 +26,9 @@ from ehlectric.figures.style import (
 )
 from ehlectric.figures.sweep import findings
 from ehlectric.figures.sweep.points import labelled, name_figure, range_text
+from ehlectric.quantities.formats import Scale
 from ehlectric.sweep.breakdown_keys import breakdown_of
-from ehlectric.sweep.labels import Scale, label_of
+from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, Sensitivity
 from ehlectric.sweep.slices import numbers_of

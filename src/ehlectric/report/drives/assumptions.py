@@ -11,7 +11,7 @@ from ehlectric.cases.changes import flattened
 from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
 from ehlectric.cases.input_keys import end_and_key, of_both_ends
 from ehlectric.figures.names import with_units_kept
-from ehlectric.quantities.rows import amount
+from ehlectric.quantities.formats import amount
 from ehlectric.report.content import Section, Table, Text
 from ehlectric.report.origins import input_text, inputs_of
 

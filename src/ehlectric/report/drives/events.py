@@ -8,7 +8,7 @@ import numpy as np
 
 from ehlectric.drive.result import DriveResult
 from ehlectric.quantities.drive_results import EVENT_COLUMNS, NAMES_OF_ENDS
-from ehlectric.quantities.rows import number_text
+from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.units import unit_for
 from ehlectric.report.content import Block, Table, Text
 

@@ -8,7 +8,7 @@ from typing import Any
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
 from ehlectric.quantities.drive_results import DRIVE_KEYS, LIMITS, NAMES_OF_ENDS
-from ehlectric.quantities.rows import UNITS, number_text
+from ehlectric.quantities.formats import UNITS, number_text
 from ehlectric.report.content import Table, Text
 
 # Row of the bounds of the rate of discharges.

@@ -9,7 +9,7 @@ from typing import Any
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.names import with_units_kept
-from ehlectric.quantities.rows import amount, number_text
+from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.units import rpm
 from ehlectric.report.content import Block, Section
 from ehlectric.report.drawn import pictures_of

@@ -9,7 +9,7 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.cases.input_keys import end_and_key
 from ehlectric.discharge.verdict import Level, Verdict
 from ehlectric.drive.verdict import drive_verdict
-from ehlectric.quantities.rows import number_text
+from ehlectric.quantities.formats import number_text
 from ehlectric.sweep.results import SweepResults
 
 # Results of both bearings, and of one of them, that a report draws and lists.

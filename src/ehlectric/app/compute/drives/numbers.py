@@ -10,7 +10,7 @@ from ehlectric.app.answers.bearing import Number, Table
 from ehlectric.app.answers.told import Told, beside
 from ehlectric.cases.drives.case import ENDS
 from ehlectric.quantities.drive_results import NAMES_OF_ENDS
-from ehlectric.quantities.rows import UNITS, amount, number_text
+from ehlectric.quantities.formats import UNITS, amount, number_text
 from ehlectric.quantities.units import unit_for
 from ehlectric.tables.drive import end_cells, remedy_cells
 

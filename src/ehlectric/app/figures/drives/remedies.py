@@ -14,7 +14,7 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.looks import NAMES
 from ehlectric.figures.drive.remedies import variants
-from ehlectric.quantities.rows import number_text
+from ehlectric.quantities.formats import number_text
 
 # Height of a row, and of what surrounds the rows [px]; letters on a line of a name.
 _ROW, _REST, _LETTERS = 62, 110, 16

@@ -1,0 +1,243 @@
+"""Numbers as texts: units in which quantities are shown, prefixes that suit a value, and digits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+from ehlectric.quantities.units import unit_for
+
+# Zero point of the scale of Celsius [K].
+_CELSIUS = 273.15
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Unit in which values are shown.
+
+    Attributes
+    ----------
+    factor : float
+        Factor from values in SI units to values in this unit.
+    unit : str
+        Unit as printed, such as "µm".
+    offset : float
+        Number added after the multiplication, for temperatures in °C.
+    """
+
+    factor: float
+    unit: str
+    offset: float = 0.0
+
+    def of(self, values: Any) -> Any:
+        """Numbers of SI values in this unit.
+
+        Examples
+        --------
+        >>> round(CELSIUS.of(343.15), 9), Scale(1e6, "µm").of(2e-6)
+        (70.0, 2.0)
+        """
+        return self.factor * values + self.offset
+
+    def text(self, value: Any) -> str:
+        """Text of an SI value in this unit, with four digits; a text is returned unchanged."""
+        if not isinstance(value, int | float):
+            return str(value)
+        return f"{self.of(value):.4g} {self.unit}".rstrip()
+
+
+# Absolute temperatures.
+CELSIUS = Scale(1.0, "°C", -_CELSIUS)
+
+# SI unit of each unit that is shown, in the notation of pint, and the factor from the SI unit to it.
+UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
+    {
+        "": ("", 1.0),
+        "%": ("", 1e2),
+        "MN/m": ("N/m", 1e-6),
+        "1/GPa": ("1/Pa", 1e9),
+        "m/s": ("m/s", 1.0),
+        "rpm": ("rad/s", 30.0 / math.pi),
+        "deg": ("rad", 180.0 / math.pi),
+        "mPa s": ("Pa*s", 1e3),
+        "Pa s": ("Pa*s", 1.0),
+        "mm²/s": ("m**2/s", 1e6),
+        "µm²": ("m**2", 1e12),
+        "mm²": ("m**2", 1e6),
+        "µm³": ("m**3", 1e18),
+        "1/s": ("1/s", 1.0),
+        "1/K": ("1/K", 1.0),
+        "V/µm": ("V/m", 1e-6),
+        "1/µm": ("1/m", 1e-6),
+        "A/mm²": ("A/m**2", 1e-6),
+        "kg/m³": ("kg/m**3", 1.0),
+        "W/m/K": ("W/m/K", 1.0),
+        "MJ/m³/K": ("J/m**3/K", 1e-6),
+        "K": ("K", 1.0),
+        "°C": ("K", 1.0),
+        "Nm": ("N*m", 1.0),
+    }
+    | {
+        f"{prefix}{name}": (unit, 1.0 / size)
+        for unit, name in (
+            *(("m", "m"), ("s", "s"), ("N", "N"), ("Pa", "Pa"), ("V", "V"), ("A", "A"), ("F", "F")),
+            *(("F/m", "F/m"), ("W", "W"), ("W/m", "W/m"), ("J", "J"), ("C", "C"), ("Hz", "Hz")),
+            *(("ohm", "Ω"), ("S/m", "S/m")),
+        )
+        for prefix, size in (
+            *(("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)),
+            ("p", 1e-12),
+        )
+    }
+)
+
+# Units in which quantities of these SI units are shown; others get the prefix that suits the value.
+USUAL: Mapping[str, str] = MappingProxyType(
+    {
+        "": "",
+        "m": "µm",
+        "m**2": "µm²",
+        "Pa": "GPa",
+        "K": "K",
+        "N": "N",
+        "m/s": "m/s",
+        "rad/s": "rpm",
+        "rad": "deg",
+        "V": "V",
+        "V/m": "V/µm",
+        "1/m": "1/µm",
+        "F": "pF",
+        "F/m": "nF/m",
+        "A/m**2": "A/mm²",
+    }
+)
+
+# Number from which one with few digits has an exponent; below it the exponent only hides how large it is.
+_LARGE = 1e4
+
+
+def scale_of(unit: str) -> Scale:
+    """Scale of a unit of ``UNITS``.
+
+    Examples
+    --------
+    >>> scale_of("°C").of(300.0), scale_of("nF/m").of(2e-9)
+    (26.850000000000023, 2.0)
+    """
+    return CELSIUS if unit == "°C" else Scale(round_factor(UNITS[unit][1]), unit)
+
+
+def formatted(value: float, digits: str) -> str:
+    """Number as a string in a format, without an exponent where its few digits can be read without one.
+
+    Examples
+    --------
+    >>> [formatted(value, ".2g") for value in (0.012, 98.6, 213.0, 41234.0)]
+    ['0.012', '99', '210', '4.1e+04']
+    """
+    text = format(value, digits)
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < _LARGE else text
+
+
+def number_text(value: float) -> str:
+    """Text: number with three digits, without a power of ten up to a million.
+
+    Examples
+    --------
+    >>> number_text(29731.0), number_text(0.1234)
+    ('29700', '0.123')
+    """
+    return f"{float(f'{value:.3g}'):.7g}"
+
+
+def amount(value: float, unit: str) -> str:
+    """Value in a prefixed unit that suits it, with four digits.
+
+    Lengths and field strengths below 1 of a unit stay in it, as films do in micrometres.
+
+    Examples
+    --------
+    >>> amount(7.4e-7, "m"), amount(2.5e6, "V/m"), amount(300.0, "V")
+    ('0.74 µm', '2.5 V/µm', '300 V')
+    """
+    factor, prefixed = suited(value, unit)
+    return f"{factor * value:.4g} {prefixed}"
+
+
+def suited(value: float, unit: str) -> tuple[float, str]:
+    """Factor from an SI unit to a prefixed unit that suits a value, and this unit.
+
+    Units that have a prefix already, as kg, or a power of their own, as 1/K, get no other one.
+
+    Examples
+    --------
+    >>> suited(870.0, "kg/m**3"), suited(2.3e-10, "F")
+    ((1.0, 'kg/m³'), (1000000000000.0, 'pF'))
+    """
+    if not unit or "**" in unit or unit.startswith(("kg", "1/", "K", "deg", "rad")):
+        return 1.0, printed_unit(unit)
+    factor, prefixed = unit_for(abs(value), unit, least=0.1 if unit in ("m", "V/m") else 1.0)
+    return round(factor, 12), printed_unit(prefixed)
+
+
+# Units without prefixes: none, angles, absolute temperatures and their inverse, and events per second.
+_PLAIN = ("", "deg", "K", "rad", "1/K", "1/s")
+
+# Other units without prefixes: limits of current density are published in A/mm^2, shaft speeds in rpm, and
+# kinematic viscosities in mm^2/s.
+_OWN = ("A/mm²", "rpm", "mm²/s")
+
+
+def scale_for(largest: float, unit: str) -> Scale:
+    """Prefixed unit that suits values up to ``largest`` > 0, in SI units, for the numbers of an axis.
+
+    Examples
+    --------
+    >>> scale_for(2.2e-8, "1/Pa")
+    Scale(factor=1000000000.0, unit='1/GPa', offset=0.0)
+    >>> scale_for(3e-12, "m**2")
+    Scale(factor=1000000000000.0, unit='µm²', offset=0.0)
+    >>> scale_for(0.04, "Pa*s")
+    Scale(factor=1000.0, unit='mPa s', offset=0.0)
+    """
+    if unit in _PLAIN:
+        return Scale(1.0, unit)
+    for own in _OWN:
+        if UNITS[own][0] == unit:
+            return Scale(UNITS[own][1], own)
+    if unit.startswith("kg"):
+        return Scale(1.0, printed_unit(unit))  # it has a prefix
+    if unit.startswith("1/"):
+        # The prefix belongs to the unit in the denominator.
+        factor, prefixed = unit_for(1.0 / largest, unit[2:], least=0.001)
+        return Scale(round_factor(1.0 / factor), f"1/{prefixed}")
+    base, power = (unit[:-3], int(unit[-1])) if unit in ("m**2", "m**3") else (unit, 1)
+    if unit == "s":
+        largest = min(largest, 1.0)
+    factor, prefixed = unit_for(largest ** (1.0 / power), base)
+    return Scale(round_factor(factor) ** power, printed_unit(prefixed) + {1: "", 2: "²", 3: "³"}[power])
+
+
+def round_factor(factor: float) -> float:
+    """Round a power of ten to nine digits, which removes the rounding error of a division.
+
+    Examples
+    --------
+    >>> round_factor(1 / 1e-6)
+    1000000.0
+    """
+    return float(f"{factor:.9g}")
+
+
+def printed_unit(unit: str) -> str:
+    """Unit in the notation of pint as printed text.
+
+    Examples
+    --------
+    >>> printed_unit("kg/m**3"), printed_unit("Pa*s"), printed_unit("ohm")
+    ('kg/m³', 'Pa s', 'Ω')
+    """
+    return unit.replace("**3", "³").replace("**2", "²").replace("*", " ").replace("ohm", "Ω")

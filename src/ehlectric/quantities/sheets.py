@@ -1,0 +1,230 @@
+"""Sheets: the quantities that each kind of result shows, by section and in order.
+
+The terminal, the notebook and the report show whole sheets; a page shows the same rows, some of them large.
+"""
+
+from __future__ import annotations
+
+from ehlectric.quantities.rows import Section, Sheet
+
+_CONDITIONS = Section(
+    "operating conditions",
+    (
+        "inputs.contact.load",
+        "inputs.contact.load_per_length",
+        "inputs.contact.entrainment_speed",
+        "inputs.contact.slide_to_roll_ratio",
+        "lubricant.temperature",
+        "lubricant.viscosity",
+        "inputs.contact.radius_x",
+        "inputs.contact.radius_y",
+        "inputs.contact.reduced_radius",
+        "inputs.contact.reduced_modulus",
+        "field.voltage",
+    ),
+)
+_DRY_CONTACT = Section(
+    "dry contact (Hertz)",
+    (
+        "hertz.max_pressure",
+        "hertz.half_width",
+        "hertz.semi_axis_x",
+        "hertz.semi_axis_y",
+        "hertz.axis_ratio",
+        "lubricant.alpha_star",
+        "groups.moes_m",
+        "groups.moes_l",
+        "regime",
+    ),
+)
+_FORMULAS = Section(
+    "film thickness by published formulas",
+    ("film_formulas.*.minimum_thickness", "film_formulas.*.central_thickness", "formula_error"),
+)
+
+# A contact before it is solved.
+CHECK: Sheet = (
+    _CONDITIONS,
+    _DRY_CONTACT,
+    _FORMULAS,
+    Section("numerical model", ("grid.film", "inputs.grid.side", "inputs.grid.wedge", "velocity_parameter")),
+)
+
+CONTACT: Sheet = (
+    _CONDITIONS,
+    _DRY_CONTACT,
+    Section(
+        "film",
+        (
+            "film.minimum_thickness",
+            "film.central_thickness",
+            "film.film_ratio",
+            "film.flooded.minimum_thickness",
+            "film.oil_layer",
+            "film.meniscus",
+            "film.mean_thickness",
+            "film.max_pressure",
+            "film.discretisation_error",
+            "film.residual",
+            "film.load_residual",
+        ),
+    ),
+    Section(
+        "heat and shear in the film",
+        (
+            "film.rheology",
+            "film.thermal",
+            "film.isothermal.minimum_thickness",
+            "film.isothermal.central_thickness",
+            "film.max_temperature_rise",
+            "film.surface_temperature_1",
+            "film.surface_temperature_2",
+            "film.traction_coefficient",
+            "film.rolling_coefficient",
+            "film.power_loss",
+        ),
+    ),
+    Section(
+        "roughness",
+        (
+            "roughness.rq_1",
+            "roughness.rq_2",
+            "roughness.lambda_ratio",
+            "roughness.lambda_ratio_smooth",
+            "roughness.smooth_minimum_thickness",
+        ),
+    ),
+    Section(
+        "asperities that touch",
+        (
+            "asperities.behaviour",
+            "asperities.load_share",
+            "asperities.contact_area_share",
+            "asperities.contact_area",
+            "asperities.spots",
+            "asperities.mean_spot",
+            "asperities.largest_spot",
+            "asperities.mass_error",
+            "asperities.boundary_film",
+            "asperities.mean_film",
+            "asperities.film_5",
+            "asperities.rq_deformed",
+            "asperities.lambda_undeformed",
+            "asperities.lambda_deformed",
+            "asperities.boundary_friction",
+            "asperities.resistance",
+            "asperities.capacitance_outside",
+            "asperities.corner_frequency",
+            "asperities.breakdown_1",
+            "asperities.breakdown_5",
+            "asperities.breakdown_50",
+            "asperities.breakdown_voltage",
+            "asperities.breakdown_probability",
+        ),
+    ),
+    Section(
+        "electric field",
+        (
+            "field.max_strength",
+            "field.max_strength_error",
+            "field.max_dimensionless",
+            "field.thin_gap_error",
+            "field.high_field_width",
+            "field.high_field_area",
+            "field.capacitance_per_length",
+            "field.capacitance",
+            "field.capacitance_by_zone.hertz",
+            "field.capacitance_by_zone.inlet",
+            "field.capacitance_by_zone.outlet",
+            "field.capacitance_by_zone.sides",
+            "field.columns",
+        ),
+    ),
+    Section(
+        "discharge",
+        (
+            "discharge.zone_position",
+            "discharge.zone_size",
+            "discharge.capacitance",
+            "discharge.capacitance_ratio",
+            "discharge.capacitance_hertz",
+            "discharge.capacitance_inlet",
+            "discharge.capacitance_outlet",
+            "discharge.capacitance_sides",
+            "discharge.capacitance_by_outlet",
+            "discharge.contact_energy",
+            "discharge.discharge_energy",
+            "discharge.breakdown_energy",
+            "discharge.pit_diameter",
+            "discharge.current_density",
+            "discharge.relaxation_time",
+            "discharge.corner_frequency",
+            "discharge.dielectric_strength",
+            "discharge.breakdown_voltage",
+            "discharge.breakdown_field_error",
+            "discharge.breakdown_range",
+            "discharge.margin",
+            "discharge.probability",
+        ),
+    ),
+    Section(
+        "capacitance at the meter",
+        (
+            "meter.capacitance",
+            "meter.capacitance_by_gap",
+            "meter.capacitance_domain",
+            "meter.capacitance_hertz",
+            "meter.capacitance_outside",
+            "meter.parallel_capacitance",
+            "meter.roughness_factor",
+            "meter.capacitance_uncoated",
+            "meter.coating_capacitance",
+            "meter.coating_voltage_share",
+            "meter.film_breakdown_voltage",
+            "meter.coating_breakdown_voltage",
+            "meter.breakdown_voltage",
+        ),
+    ),
+    _FORMULAS,
+    Section("run", ("seconds.both",)),
+)
+
+# Quantities that the page of a contact shows large: before it is solved, solved, and where surfaces touch.
+CHECK_CARDS = (
+    "hertz.max_pressure",
+    "hertz.half_width",
+    "hertz.semi_axis_x",
+    "hertz.semi_axis_y",
+    "film_formulas.*.minimum_thickness",
+    "film_formulas.*.central_thickness",
+    "groups.moes_m",
+    "groups.moes_l",
+    "breakdown_by_formula.breakdown_voltage",
+)
+CONTACT_CARDS = (
+    "film.minimum_thickness",
+    "film.central_thickness",
+    "film.mean_thickness",
+    "film.max_pressure",
+    "field.max_strength",
+    "field.capacitance_per_length",
+    "field.capacitance",
+    "discharge.breakdown_voltage",
+    "film.max_temperature_rise",
+    "film.traction_coefficient",
+    "film.power_loss",
+)
+SPOT_CARDS = (
+    "asperities.behaviour",
+    "asperities.load_share",
+    "asperities.contact_area",
+    "asperities.spots",
+    "asperities.boundary_friction",
+    "asperities.resistance",
+    "asperities.capacitance_outside",
+    "asperities.breakdown_1",
+    "asperities.breakdown_5",
+    "asperities.breakdown_50",
+    "asperities.breakdown_voltage",
+    "asperities.breakdown_probability",
+)
