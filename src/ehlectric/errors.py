@@ -249,74 +249,230 @@ def shown(value: object) -> str:
 
 @dataclass(frozen=True)
 class Cause:
-    """Meaning of a warning code, in one sentence, and severity of its warnings."""
+    """Meaning of a warning code in one sentence, severity, and keys of the quantities that it concerns.
+
+    Outputs show a warning beside those quantities; one without any concerns the whole result. The keys of
+    both bearings of a drive begin with "end".
+    """
 
     meaning: str
     severity: Severity = "warning"
+    concerns: tuple[str, ...] = ()
 
+
+# Quantities that many warnings concern, of contacts, of bearings, and of the bearings at the ends of a drive.
+_FILM = ("film.minimum_thickness", "film.central_thickness")
+_FIRST = ("bearing.first_break", "bearing.margin", "end.breakdown_voltage")
+_OF_BEARINGS = ("bearing.lambda_ratio", *_FIRST)
+_EVERY_FILM = (*_FILM, *_OF_BEARINGS)
+_BREAKDOWN = ("discharge.breakdown_voltage", *_FIRST)
+_CAPACITANCE = ("bearing.capacitance", "end.capacitance")
+_PEAK = ("end.voltage_at_peak", "end.peak_voltage")
+_ALL = (
+    *_EVERY_FILM,
+    *_CAPACITANCE,
+    "film.max_pressure",
+    "field.max_strength",
+    "field.capacitance",
+    "discharge.breakdown_voltage",
+    "bearing.shaft_voltage",
+)
 
 CODES: Mapping[str, Cause] = MappingProxyType(
     {
         # Contact, known before its film is computed
-        "regime": Cause("The lubrication regime is outside the validity of most film formulas."),
+        "regime": Cause(
+            "The lubrication regime is outside the validity of most film formulas.", concerns=_EVERY_FILM
+        ),
         "radius-large": Cause("A radius above 1 m was probably given in the wrong unit."),
         "modulus-low": Cause("A modulus of rubber was probably given in the wrong unit."),
-        "ambient-pressure": Cause("The ambient pressure carries more than 1 % of the load."),
-        "plastic-deformation": Cause("The Hertz pressure deforms bearing steel permanently."),
-        "hardness-low": Cause("The hardness of the surfaces is below the Hertz pressure."),
-        "law-range": Cause("A law of the lubricant is not reliable at this Hertz pressure."),
-        "roelands-z": Cause("The exponent roelands_z does not fit the viscosity and its coefficient."),
-        "estimated-alpha": Cause("The pressure-viscosity coefficient is estimated from the base oil."),
+        "ambient-pressure": Cause(
+            "The ambient pressure carries more than 1 % of the load.", concerns=("hertz.max_pressure",)
+        ),
+        "plastic-deformation": Cause(
+            "The Hertz pressure deforms bearing steel permanently.",
+            concerns=(*_OF_BEARINGS, "hertz.max_pressure"),
+        ),
+        "hardness-low": Cause(
+            "The hardness of the surfaces is below the Hertz pressure.",
+            concerns=(*_OF_BEARINGS, "hertz.max_pressure"),
+        ),
+        "law-range": Cause(
+            "A law of the lubricant is not reliable at this Hertz pressure.",
+            concerns=(*_OF_BEARINGS, "hertz.max_pressure"),
+        ),
+        "roelands-z": Cause(
+            "The exponent roelands_z does not fit the viscosity and its coefficient.", concerns=_EVERY_FILM
+        ),
+        "estimated-alpha": Cause(
+            "The pressure-viscosity coefficient is estimated from the base oil.", concerns=_EVERY_FILM
+        ),
         # Rough surfaces
         "spacing-irregular": Cause("Samples may be missing in a file of heights."),
         "voids-filled": Cause("Voids in a measured surface were filled.", "note"),
         "heights-cut": Cause("The key truncate cuts a large share of the heights."),
         "roughness-continued": Cause("A rough surface is shorter than the domain and was continued."),
-        "roughness-unresolved": Cause("The grid does not resolve a rough surface."),
-        "variance-missed": Cause("Some of the variance of a rough surface is too fine for the grid."),
+        "roughness-unresolved": Cause(
+            "The grid does not resolve a rough surface.",
+            concerns=(*_EVERY_FILM, "film.max_pressure", "field.max_strength", "discharge.breakdown_voltage"),
+        ),
+        "variance-missed": Cause(
+            "Some of the variance of a rough surface is too fine for the grid.",
+            concerns=(*_EVERY_FILM, "film.max_pressure", "field.max_strength", "discharge.breakdown_voltage"),
+        ),
         "seed-repeated": Cause("Rough surfaces have the same seed and depend on each other."),
         # Film
-        "not-converged": Cause("The iteration of the film did not converge.", "severe"),
-        "surfaces-touch": Cause("The surfaces of the computed film would touch in places."),
-        "asperities-touch": Cause("Asperities touch, carry a part of the load and conduct."),
-        "load-share-unresolved": Cause("The load share of asperities changes with the grid."),
-        "oil-not-conserved": Cause("The film makes or loses above 0.1 % of the oil that flows through it."),
-        "thinner-than-atom": Cause("The film is thinner than an atom in places."),
-        "error-out-of-reach": Cause("The error of the film that is asked for is probably out of reach."),
-        "refine-not-reached": Cause("The error of the film that was asked for was not reached."),
-        "error-unknown": Cause("The discretisation error of a rough contact's film is unknown."),
-        "coarser-grid-unsolved": Cause("The discretisation error is unknown and probably large.", "severe"),
-        "grid-too-coarse": Cause("The estimated discretisation error of the film is large."),
-        "grid-far-too-coarse": Cause("The discretisation error of the film is above 10 %.", "severe"),
-        "local-plastic-deformation": Cause("The local pressure deforms bearing steel permanently."),
-        "outlet-too-short": Cause("The film does not cavitate within the domain."),
-        "inlet-too-short": Cause("Some of the inlet pressure builds up upstream of the domain."),
-        "inlet-far-too-short": Cause("Above 20 % of the inlet pressure builds up upstream.", "severe"),
-        "domain-too-small": Cause("The domain is too small for the contact."),
-        "domain-far-too-small": Cause("The domain of a point contact is far too small.", "severe"),
-        "oil-layer-thick": Cause("The layer of oil is thicker than what the contact takes.", "note"),
-        "meniscus-at-edge": Cause("The meniscus is at the edge of the domain or of the Hertz zone."),
-        "film-ratio-missed": Cause("No layer of oil was found that gives the ratio of films asked for."),
-        "layer-table-short": Cause("The layer of oil over y does not reach the sides of the contact."),
+        "not-converged": Cause("The iteration of the film did not converge.", "severe", concerns=_ALL),
+        "surfaces-touch": Cause(
+            "The surfaces of the computed film would touch in places.",
+            concerns=(*_OF_BEARINGS, "film.minimum_thickness", "discharge.breakdown_voltage"),
+        ),
+        "asperities-touch": Cause(
+            "Asperities touch, carry a part of the load and conduct.",
+            concerns=(
+                *_OF_BEARINGS,
+                "film.minimum_thickness",
+                "field.capacitance",
+                "field.max_strength",
+                "discharge.breakdown_voltage",
+            ),
+        ),
+        "load-share-unresolved": Cause(
+            "The load share of asperities changes with the grid.", concerns=("asperities.load_share",)
+        ),
+        "oil-not-conserved": Cause(
+            "The film makes or loses above 0.1 % of the oil that flows through it.", concerns=_EVERY_FILM
+        ),
+        "thinner-than-atom": Cause(
+            "The film is thinner than an atom in places.",
+            concerns=(
+                *_OF_BEARINGS,
+                "film.minimum_thickness",
+                "field.max_strength",
+                "discharge.breakdown_voltage",
+            ),
+        ),
+        "error-out-of-reach": Cause(
+            "The error of the film that is asked for is probably out of reach.", concerns=_EVERY_FILM
+        ),
+        "refine-not-reached": Cause(
+            "The error of the film that was asked for was not reached.", concerns=_EVERY_FILM
+        ),
+        "error-unknown": Cause(
+            "The discretisation error of a rough contact's film is unknown.",
+            concerns=(*_OF_BEARINGS, "film.minimum_thickness"),
+        ),
+        "coarser-grid-unsolved": Cause(
+            "The discretisation error is unknown and probably large.",
+            "severe",
+            concerns=(
+                *_EVERY_FILM,
+                "film.max_pressure",
+                "field.max_strength",
+                "field.capacitance",
+                "discharge.breakdown_voltage",
+            ),
+        ),
+        "grid-too-coarse": Cause(
+            "The estimated discretisation error of the film is large.", concerns=_EVERY_FILM
+        ),
+        "grid-far-too-coarse": Cause(
+            "The discretisation error of the film is above 10 %.", "severe", concerns=_ALL
+        ),
+        "local-plastic-deformation": Cause(
+            "The local pressure deforms bearing steel permanently.",
+            concerns=(*_OF_BEARINGS, "film.max_pressure"),
+        ),
+        "outlet-too-short": Cause("The film does not cavitate within the domain.", concerns=_OF_BEARINGS),
+        "inlet-too-short": Cause(
+            "Some of the inlet pressure builds up upstream of the domain.", concerns=_EVERY_FILM
+        ),
+        "inlet-far-too-short": Cause(
+            "Above 20 % of the inlet pressure builds up upstream.", "severe", concerns=_ALL
+        ),
+        "domain-too-small": Cause("The domain is too small for the contact.", concerns=_EVERY_FILM),
+        "domain-far-too-small": Cause(
+            "The domain of a point contact is far too small.", "severe", concerns=_ALL
+        ),
+        "oil-layer-thick": Cause(
+            "The layer of oil is thicker than what the contact takes.", "note", concerns=_EVERY_FILM
+        ),
+        "meniscus-at-edge": Cause(
+            "The meniscus is at the edge of the domain or of the Hertz zone.", concerns=_EVERY_FILM
+        ),
+        "film-ratio-missed": Cause(
+            "No layer of oil was found that gives the ratio of films asked for.", concerns=_EVERY_FILM
+        ),
+        "layer-table-short": Cause(
+            "The layer of oil over y does not reach the sides of the contact.", concerns=_EVERY_FILM
+        ),
         "flooded-film-wrong": Cause("The flooded film beside a starved one is wrong or not known."),
         "shear-constant-unused": Cause("Constants of another law of shear are given.", "note"),
-        "newtonian-traction": Cause("The law between stress and shear rate has no limit at high pressure."),
-        "film-temperature-range": Cause("The film is hotter or colder than the laws of the oil are known."),
-        "film-very-hot": Cause("The film is hotter than oils stand."),
+        "newtonian-traction": Cause(
+            "The law between stress and shear rate has no limit at high pressure.",
+            concerns=("film.traction_coefficient", "film.max_temperature_rise", "film.power_loss"),
+        ),
+        "film-temperature-range": Cause(
+            "The film is hotter or colder than the laws of the oil are known.",
+            concerns=(*_EVERY_FILM, "film.max_temperature_rise"),
+        ),
+        "film-very-hot": Cause(
+            "The film is hotter than oils stand.", concerns=(*_EVERY_FILM, "film.max_temperature_rise")
+        ),
         "isothermal-unsolved": Cause("The isothermal film beside that with heat or shear did not converge."),
-        "heat-unresolved": Cause("The grid does not resolve the heat in the film."),
-        "slow-body": Cause("A surface moves too slowly for the model of its temperature."),
+        "heat-unresolved": Cause(
+            "The grid does not resolve the heat in the film.",
+            concerns=(*_EVERY_FILM, "film.max_temperature_rise"),
+        ),
+        "slow-body": Cause(
+            "A surface moves too slowly for the model of its temperature.",
+            concerns=(*_EVERY_FILM, "film.max_temperature_rise"),
+        ),
         # Electric field and discharge
-        "field-grid-too-coarse": Cause("The grid of the field is coarser than that of the film."),
-        "field-unresolved": Cause("The estimated error of the maximum field is above 2 %, or unknown."),
-        "field-range-too-narrow": Cause("The maximum field is at an edge of the field range."),
-        "field-above-insulators": Cause("The maximum field is higher than any insulator withstands."),
-        "breakdown-expected": Cause("The margin is below 1: breakdown is expected."),
-        "strength-above-liquids": Cause("No liquid has a dielectric strength as high as the given one."),
-        "tunnelling": Cause("The film is so thin that electrons tunnel through it."),
-        "strength-table-exceeded": Cause("The film pressure exceeds the range of discharge.strength_table."),
-        "roughness-factor-rough": Cause("The film is too thin for a roughness factor of its capacitance."),
-        "coating-in-series": Cause("Field and discharge are those of the film, without its coating.", "note"),
+        "field-grid-too-coarse": Cause(
+            "The grid of the field is coarser than that of the film.",
+            concerns=(*_BREAKDOWN, "field.max_strength", "field.capacitance"),
+        ),
+        "field-unresolved": Cause(
+            "The estimated error of the maximum field is above 2 %, or unknown.",
+            concerns=(*_BREAKDOWN, "field.max_strength"),
+        ),
+        "field-range-too-narrow": Cause(
+            "The maximum field is at an edge of the field range.",
+            concerns=(*_BREAKDOWN, "field.max_strength"),
+        ),
+        "field-above-insulators": Cause(
+            "The maximum field is higher than any insulator withstands.",
+            concerns=("field.max_strength", "bearing.shaft_voltage", "bearing.margin"),
+        ),
+        "breakdown-expected": Cause(
+            "The margin is below 1: breakdown is expected.",
+            concerns=("discharge.breakdown_voltage", "bearing.margin"),
+        ),
+        "strength-above-liquids": Cause(
+            "No liquid has a dielectric strength as high as the given one.", concerns=_BREAKDOWN
+        ),
+        "tunnelling": Cause(
+            "The film is so thin that electrons tunnel through it.",
+            concerns=(*_BREAKDOWN, "field.max_strength"),
+        ),
+        "strength-table-exceeded": Cause(
+            "The film pressure exceeds the range of discharge.strength_table.", concerns=_BREAKDOWN
+        ),
+        "roughness-factor-rough": Cause(
+            "The film is too thin for a roughness factor of its capacitance.",
+            concerns=(*_CAPACITANCE, "field.capacitance"),
+        ),
+        "coating-in-series": Cause(
+            "Field and discharge are those of the film, without its coating.",
+            "note",
+            concerns=(
+                "field.max_strength",
+                "discharge.breakdown_voltage",
+                "bearing.first_break",
+                "end.breakdown_voltage",
+            ),
+        ),
         # Transient contacts
         "stationary-differs": Cause("The moving roughness differs from the stationary one."),
         "stationary-not-converged": Cause("The film with stationary roughness did not converge."),
@@ -324,39 +480,94 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "steps-too-long": Cause("The time steps of a motion do not resolve the waves that pass the oil."),
         "steps-halved": Cause("Some time steps had to be halved.", "note"),
         # Bearings
-        "formula-contacts": Cause("The contacts of the bearing are computed by formulas."),
-        "atlas-contacts": Cause("Contacts have the films of the atlas.", "note"),
-        "atlas-left": Cause("The atlas has no film of a contact, which is computed by formula."),
+        "formula-contacts": Cause(
+            "The contacts of the bearing are computed by formulas.", concerns=(*_OF_BEARINGS, *_CAPACITANCE)
+        ),
+        "atlas-contacts": Cause(
+            "Contacts have the films of the atlas.", "note", concerns=(*_OF_BEARINGS, *_CAPACITANCE)
+        ),
+        "atlas-left": Cause(
+            "The atlas has no film of a contact, which is computed by formula.",
+            concerns=(*_OF_BEARINGS, *_CAPACITANCE),
+        ),
         "atlas-left-light": Cause("A light contact beyond the atlas is computed by formula.", "note"),
-        "isothermal-film": Cause("The films are isothermal and fully flooded.", "note"),
-        "temperature-unused": Cause("The films use a given viscosity at any temperature.", "note"),
-        "viscosity-of-base": Cause("The viscosity is that of a lubricant of the library at any temperature."),
-        "temperature-low": Cause("The viscosity is extrapolated to below 0 °C."),
+        "isothermal-film": Cause(
+            "The films are isothermal and fully flooded.",
+            "note",
+            concerns=(*_OF_BEARINGS, "discharge.breakdown_voltage", "bearing.regime"),
+        ),
+        "temperature-unused": Cause(
+            "The films use a given viscosity at any temperature.", "note", concerns=_EVERY_FILM
+        ),
+        "viscosity-of-base": Cause(
+            "The viscosity is that of a lubricant of the library at any temperature.", concerns=_EVERY_FILM
+        ),
+        "temperature-low": Cause("The viscosity is extrapolated to below 0 °C.", concerns=_EVERY_FILM),
         "speed-high": Cause("The speed is above that of ordinary bearings of this size."),
         "load-low": Cause("The load is tiny for a bearing of this size."),
         "temperature-extreme": Cause("Bearing steel or oil do not stand this temperature."),
-        "viscosity-high": Cause("The oil is so viscous that it hardly flows."),
+        "viscosity-high": Cause("The oil is so viscous that it hardly flows.", concerns=_EVERY_FILM),
         "clearance-class": Cause("The clearance is that of a class, before the bearing is mounted."),
         "clearance-negative": Cause("Fits and temperatures preload the bearing.", "note"),
         "fit-loose": Cause("A ring that is fitted tight is loose at the temperatures of operation."),
-        "viscosity-grade": Cause("The viscosity is the middle of a grade, 10 % either way.", "note"),
-        "clearance-taken-up": Cause("The films are not small compared with the clearance."),
-        "shoulder-reached": Cause("A contact ellipse extends beyond the shoulder of its groove."),
-        "touching": Cause("The lambda ratio is below 1: contacts touch, and discharge as they open."),
-        "partial-film": Cause("The lambda ratio is below 3: surfaces may touch, and discharge then."),
-        "smooth-film": Cause("The films are smooth, with the film factor of the case.", "note"),
-        "supply-rule": Cause("A rule for the rolling friction gives the supply of oil to the films."),
-        "film-factor-low": Cause("The film factor is so low that films differ from it by its exponent."),
-        "supply-low": Cause("The supply of oil leaves less than half of the flooded film."),
-        "film-decays": Cause("The film halves soon if no oil returns to its track.", "note"),
-        "shaft-leaks": Cause("The oil discharges the shaft within a period of the inverter."),
-        "coating-assumed": Cause("Thickness or permittivity of a coating are assumed.", "note"),
-        "coating-breakdown": Cause("The shaft voltage is above the breakdown voltage of the coating."),
-        "current-density-high": Cause(
-            "The apparent current density is above the lowest of the published limits."
+        "viscosity-grade": Cause(
+            "The viscosity is the middle of a grade, 10 % either way.", "note", concerns=_EVERY_FILM
         ),
-        "capacitance-bound": Cause("The capacitance of a bearing with ceramic elements is an upper bound."),
-        "weibull-voltage": Cause("Breakdown voltages are those at a probability of 63.2 %.", "note"),
+        "clearance-taken-up": Cause(
+            "The films are not small compared with the clearance.", concerns=_OF_BEARINGS
+        ),
+        "shoulder-reached": Cause(
+            "A contact ellipse extends beyond the shoulder of its groove.", concerns=(*_FIRST, *_CAPACITANCE)
+        ),
+        "touching": Cause(
+            "The lambda ratio is below 1: contacts touch, and discharge as they open.",
+            concerns=(*_EVERY_FILM, *_CAPACITANCE, "bearing.regime"),
+        ),
+        "partial-film": Cause(
+            "The lambda ratio is below 3: surfaces may touch, and discharge then.",
+            concerns=(*_EVERY_FILM, "bearing.regime"),
+        ),
+        "smooth-film": Cause(
+            "The films are smooth, with the film factor of the case.",
+            "note",
+            concerns=(*_OF_BEARINGS, "discharge.breakdown_voltage"),
+        ),
+        "supply-rule": Cause(
+            "A rule for the rolling friction gives the supply of oil to the films.", concerns=_EVERY_FILM
+        ),
+        "film-factor-low": Cause(
+            "The film factor is so low that films differ from it by its exponent.", concerns=_EVERY_FILM
+        ),
+        "supply-low": Cause(
+            "The supply of oil leaves less than half of the flooded film.", concerns=_EVERY_FILM
+        ),
+        "film-decays": Cause(
+            "The film halves soon if no oil returns to its track.", "note", concerns=_EVERY_FILM
+        ),
+        "shaft-leaks": Cause(
+            "The oil discharges the shaft within a period of the inverter.",
+            concerns=("bearing.shaft_voltage", "bearing.margin"),
+        ),
+        "coating-assumed": Cause(
+            "Thickness or permittivity of a coating are assumed.",
+            "note",
+            concerns=(*_PEAK, "bearing.shaft_voltage"),
+        ),
+        "coating-breakdown": Cause(
+            "The shaft voltage is above the breakdown voltage of the coating.",
+            concerns=(*_PEAK, "bearing.shaft_voltage"),
+        ),
+        "current-density-high": Cause(
+            "The apparent current density is above the lowest of the published limits.",
+            concerns=("end.current_density",),
+        ),
+        "capacitance-bound": Cause(
+            "The capacitance of a bearing with ceramic elements is an upper bound.",
+            concerns=(*_CAPACITANCE, "field.capacitance", "bearing.shaft_voltage"),
+        ),
+        "weibull-voltage": Cause(
+            "Breakdown voltages are those at a probability of 63.2 %.", "note", concerns=_BREAKDOWN
+        ),
         "speed-left-out": Cause("The figures over speed leave out a speed that cannot be computed."),
         # Sweeps
         "points-with-warnings": Cause("Solved points of a sweep have warnings."),
@@ -367,7 +578,9 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "rows-not-usable": Cause("Rows of a Sobol design use films that must not be used."),
         "intervals-wide": Cause("The confidence intervals of sensitivity indices are wide."),
         # Measurements beside a case
-        "formula-films": Cause("The films beside a measurement are those of a formula."),
+        "formula-films": Cause(
+            "The films beside a measurement are those of a formula.", concerns=_EVERY_FILM
+        ),
         "columns-ignored": Cause("Columns of a measurement are not known and were ignored.", "note"),
         "rows-without-factor": Cause("Rows of a measurement have no film factor."),
         "scatter-only": Cause("The interval of a film factor is from the scatter of the rows only."),
@@ -375,21 +588,61 @@ CODES: Mapping[str, Cause] = MappingProxyType(
         "factor-varies": Cause("The film factor changes with the speed."),
         "range-left-out": Cause("The uncertainty of a film factor leaves out the range of an input."),
         # Measured waveforms
-        "units-assumed": Cause("A file of a waveform states no units; seconds and volts were taken.", "note"),
-        "samples-missing": Cause("Samples may be missing in a file of a waveform."),
-        "waveform-clipped": Cause("The range of the oscilloscope was probably exceeded."),
-        "waveform-coarse": Cause("A measured waveform has few different voltages."),
-        "edges-unresolved": Cause("A waveform has edges with fewer than three samples."),
-        "record-repeated": Cause("A measured waveform is repeated, with a jump from its end to its start."),
-        "circuit-undamped": Cause("An oscillation of the circuit of a drive is hardly damped."),
-        "capacitances-estimated": Cause("Capacitances of a machine follow from its geometry.", "note"),
-        "edges-faster-than-oil": Cause("The edges of a drive are faster than its oil conducts.", "note"),
-        "both-ends-discharge": Cause("Both bearings of a drive discharge at the same edges.", "note"),
-        "threshold-constant": Cause("Films of a drive break down at the same voltage each time."),
-        "arc-burns-on": Cause("After breakdowns, films of a drive conduct for much of the time."),
-        "few-discharges": Cause("A drive discharged too seldom in the simulated time for a certain rate."),
+        "units-assumed": Cause(
+            "A file of a waveform states no units; seconds and volts were taken.",
+            "note",
+            concerns=("source.peak",),
+        ),
+        "samples-missing": Cause(
+            "Samples may be missing in a file of a waveform.", concerns=("source.peak",)
+        ),
+        "waveform-clipped": Cause(
+            "The range of the oscilloscope was probably exceeded.", concerns=("source.peak",)
+        ),
+        "waveform-coarse": Cause(
+            "A measured waveform has few different voltages.", concerns=("source.peak",)
+        ),
+        "edges-unresolved": Cause(
+            "A waveform has edges with fewer than three samples.", concerns=("source.peak",)
+        ),
+        "record-repeated": Cause(
+            "A measured waveform is repeated, with a jump from its end to its start.",
+            concerns=("source.peak",),
+        ),
+        "circuit-undamped": Cause(
+            "An oscillation of the circuit of a drive is hardly damped.", concerns=_PEAK
+        ),
+        "capacitances-estimated": Cause(
+            "Capacitances of a machine follow from its geometry.",
+            "note",
+            concerns=("circuit.winding_rotor_capacitance", "end.voltage_at_peak"),
+        ),
+        "edges-faster-than-oil": Cause(
+            "The edges of a drive are faster than its oil conducts.",
+            "note",
+            concerns=("end.voltage_at_peak", "end.events_per_second"),
+        ),
+        "both-ends-discharge": Cause(
+            "Both bearings of a drive discharge at the same edges.",
+            "note",
+            concerns=("end.events_per_second",),
+        ),
+        "threshold-constant": Cause(
+            "Films of a drive break down at the same voltage each time.",
+            concerns=("end.breakdown_voltage", "end.events_per_second"),
+        ),
+        "arc-burns-on": Cause(
+            "After breakdowns, films of a drive conduct for much of the time.",
+            concerns=("end.events_per_second",),
+        ),
+        "few-discharges": Cause(
+            "A drive discharged too seldom in the simulated time for a certain rate.",
+            concerns=("end.events_per_second",),
+        ),
         # Files of other versions
-        "not-usable": Cause("Another version of the program says not to use the numbers.", "severe"),
+        "not-usable": Cause(
+            "Another version of the program says not to use the numbers.", "severe", concerns=_ALL
+        ),
         "unclassified": Cause("Another version of the program gave this warning."),
     }
 )

@@ -750,6 +750,22 @@ _SHOWN: Keys = {
     "velocity_parameter": Quantity(
         "dimensionless velocity parameter Λ of the film equation", "", "dimensionless velocity parameter Λ"
     ),
+    "breakdown_by_formula.breakdown_voltage": Quantity(
+        "breakdown voltage of the minimum film of a formula", "V", "breakdown voltage by formula", bound="≤"
+    ),
+    "breakdown_by_formula.margin": Quantity(
+        "breakdown_voltage / applied voltage",
+        "",
+        "margin (breakdown / applied voltage)",
+        digits=".3g",
+        bound="≤",
+    ),
+    "lambda_by_formula.rq": Quantity(
+        "combined Rq before deformation", "m", "combined Rq", shown="nm", digits=".3g"
+    ),
+    "lambda_by_formula.lambda_ratio": Quantity(
+        "central film of a formula / combined Rq", "", "lambda ratio by formula", digits=".2g"
+    ),
     "grid.film": Quantity("nodes of the film before it is solved", "", "grid of the film"),
     "inputs.grid.side": Quantity(
         "half-width of the domain in semi-axes a", "", "half-width of the domain across"
@@ -761,9 +777,13 @@ _CONDITIONS: Keys = {
     "inputs.contact.load_per_length": Quantity("load per length", "N/m", "load per length", shown="MN/m"),
     "inputs.contact.entrainment_speed": Quantity("mean speed of the surfaces", "m/s", "entrainment speed"),
     "inputs.contact.slide_to_roll_ratio": Quantity("slide-to-roll ratio", "", "slide-to-roll ratio"),
-    "inputs.contact.radius_x": Quantity("reduced radius", "m", "reduced radius along entrainment"),
-    "inputs.contact.radius_y": Quantity("reduced radius", "m", "reduced radius across entrainment"),
-    "inputs.contact.reduced_radius": Quantity("reduced radius", "m", "reduced radius"),
+    "inputs.contact.radius_x": Quantity(
+        "reduced radius", "m", "reduced radius along entrainment", shown="prefixed"
+    ),
+    "inputs.contact.radius_y": Quantity(
+        "reduced radius", "m", "reduced radius across entrainment", shown="prefixed"
+    ),
+    "inputs.contact.reduced_radius": Quantity("reduced radius", "m", "reduced radius", shown="prefixed"),
     "inputs.contact.reduced_modulus": Quantity("reduced modulus E'", "Pa", "reduced elastic modulus E'"),
 }
 # Everything that outputs of a contact show, by its geometry.

@@ -29,8 +29,8 @@ class Quantity:
     symbol : str
         Symbol in labels, in LaTeX; empty if there is none.
     shown : str
-        Unit in which the value is shown, such as "µm"; if it is empty, the unit with the prefix that suits
-        the value.
+        Unit in which the value is shown, such as "nm"; if it is empty, the usual one of its SI unit, or if
+        there is none, or for "prefixed", the SI unit with the prefix that suits the value.
     digits : str
         Format of the shown number.
     bound : str

@@ -86,7 +86,7 @@ class Row:
     @property
     def text(self) -> str:
         """Bound, value, unit and note as one string."""
-        if self.note.startswith((",", ";")):
+        if self.note.startswith((",", ";", ":")):
             return self.amount + self.note
         return " ".join(filter(None, [self.amount, self.note.strip()]))
 
@@ -227,9 +227,8 @@ def row_of(
 
 def shown_unit(about: Quantity, value: float) -> str:
     """Unit in which a value of a quantity is shown: its own, the usual one, or one that suits the value."""
-    if about.shown or about.unit in USUAL:
-        return about.shown or USUAL[about.unit]
-    return suited(value, about.unit)[1]
+    unit = about.shown or USUAL.get(about.unit, "prefixed")
+    return suited(value, about.unit)[1] if unit == "prefixed" else unit
 
 
 def value_at(table: Summary, key: str) -> Any:

@@ -201,10 +201,7 @@ CHECK_CARDS = (
     "groups.moes_l",
     "breakdown_by_formula.breakdown_voltage",
 )
-CONTACT_CARDS = (
-    "film.minimum_thickness",
-    "film.central_thickness",
-    "film.mean_thickness",
+_FURTHER_CARDS = (
     "film.max_pressure",
     "field.max_strength",
     "field.capacitance_per_length",
@@ -214,6 +211,9 @@ CONTACT_CARDS = (
     "film.traction_coefficient",
     "film.power_loss",
 )
+CONTACT_CARDS = ("film.minimum_thickness", "film.central_thickness", *_FURTHER_CARDS)
+# A spot may be in the middle of a contact whose surfaces touch, so that the mean film says more.
+TOUCHING_CARDS = ("film.minimum_thickness", "film.mean_thickness", *_FURTHER_CARDS)
 SPOT_CARDS = (
     "asperities.behaviour",
     "asperities.load_share",
@@ -227,4 +227,31 @@ SPOT_CARDS = (
     "asperities.breakdown_50",
     "asperities.breakdown_voltage",
     "asperities.breakdown_probability",
+)
+
+# Quantities that the page of a bearing shows large.
+BEARING_CARDS = (
+    "bearing.capacitance",
+    "bearing.first_break",
+    "bearing.shaft_voltage",
+    "bearing.margin",
+    "bearing.lambda_ratio",
+    "margin.critical_speed",
+    "bearing.regime",
+)
+
+# Quantities that the page of a drive shows large, simulated or not.
+DRIVE_CARDS = (
+    "end.events_per_second",
+    "end.voltage_at_peak",
+    "end.peak_voltage",
+    "end.breakdown_voltage",
+    "end.voltage_mean",
+    "end.energy_mean",
+    "end.power",
+    "end.current_density",
+    "end.capacitance",
+    "end.voltage_ratio",
+    "source.peak",
+    "circuit.winding_rotor_capacitance",
 )

@@ -20,7 +20,8 @@ from ehlectric.cases.bearings.ways import HOW, QUICK
 from ehlectric.cases.case import Case
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.rows import Row
+from ehlectric.quantities.contact_results import CONTACT_BOOK
+from ehlectric.quantities.rows import Row, row_of
 from ehlectric.quantities.units import rpm
 from ehlectric.sweep.inputs import Sweep
 
@@ -143,10 +144,10 @@ def _lambda_by_formula(contact: PreparedContact) -> dict[str, str | float] | Non
 
 def _lambda_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
     ratio = estimate["lambda_ratio"]
-    yield Row("combined Rq", estimate["rq"], "nm", ", in the Hertz zone, undeformed", digits=".3g")
+    yield _row("lambda_by_formula.rq", estimate["rq"], ", in the Hertz zone, undeformed")
     likely = "are likely to touch" if ratio < 1.0 else "may touch" if ratio < 3.0 else "hardly touch"
     note = f", central film ({estimate['formula']}) / combined Rq: the surfaces {likely}"
-    yield Row("lambda ratio by formula", ratio, note=note, digits=".2g")
+    yield _row("lambda_by_formula.lambda_ratio", ratio, note)
 
 
 def _breakdown_by_formula(
@@ -179,11 +180,16 @@ def _breakdown_by_formula(
 
 
 def _breakdown_rows(estimate: Mapping[str, Any]) -> Iterator[Row]:
-    note = f", by formula: {estimate['formula']}"
-    yield Row("breakdown voltage", estimate["breakdown_voltage"], "V", note, bound="≤")
+    about = f", by formula: {estimate['formula']}, up to 40 % off; isothermal, fully flooded film"
+    yield _row("breakdown_by_formula.breakdown_voltage", estimate["breakdown_voltage"], about)
     if estimate["margin"] is not None:
-        note = "by formula: up to 40 % off"
-        yield Row("margin (breakdown / applied)", estimate["margin"], note=note, bound="≤")
+        yield _row("breakdown_by_formula.margin", estimate["margin"], "by formula: up to 40 % off")
+
+
+def _row(key: str, value: float, note: str) -> Row:
+    """Row of a number by formula, whose film is that of smooth surfaces; breakdown is an upper bound then."""
+    about = CONTACT_BOOK["point"][key]
+    return row_of(key, about, value, note, bound=about.bound)
 
 
 @check.register

@@ -312,8 +312,23 @@ def _oil_error(summary: Summary) -> Any:
     return f"< {100.0 * _LEAST_ERROR:g}", "%"
 
 
-def _resistance(summary: Summary) -> str:
-    return ", ridges along the whole length" if _geometry(summary) == "line" else ""
+def _resistance(summary: Summary) -> Any:
+    """Resistance of the spots; that it is not known where an input for it is missing."""
+    if not _touches(summary):
+        return None
+    found = summary["asperities"]["resistance"]
+    return "not known" if found is None else found
+
+
+def _resistance_note(summary: Summary) -> str:
+    electric, line = summary["inputs"]["electric"], _geometry(summary) == "line"
+    if summary["asperities"]["resistance"] is None:
+        missing = (
+            "resistivity of the bodies" if electric.get("resistivity") is None else "length of the contact"
+        )
+        return f": give the {missing}"
+    layer = "with their tribofilm" if electric.get("tribofilm_resistance") else "of metal"
+    return f", {layer}" + (", ridges along the whole length" if line else "")
 
 
 def _rough_columns(summary: Summary) -> Any:
@@ -349,7 +364,7 @@ def _breakdown_note(summary: Summary) -> str:
     condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
     if _touches(summary):
         return ", in the boundary film; metal may conduct there at any voltage"
-    return ", ".join(filter(None, [f", at {condition}", bound_words(summary)]))
+    return "; ".join(filter(None, [f", at {condition}", bound_words(summary)]))
 
 
 def _breakdown_error(summary: Summary) -> Any:
@@ -473,7 +488,7 @@ _WORDS = Words(
         "asperities.mean_film": lambda _: ", in the Hertz zone",
         "asperities.rq_deformed": lambda _: ", in the Hertz zone",
         "asperities.boundary_friction": lambda _: ", of the asperities where they slide",
-        "asperities.resistance": _resistance,
+        "asperities.resistance": _resistance_note,
         "asperities.corner_frequency": lambda _: ", above it the film takes more current than the spots",
         "asperities.breakdown_voltage": lambda _: ", at a probability of 63.2 %",
         "asperities.breakdown_probability": lambda _: ", at the applied voltage",
@@ -520,6 +535,7 @@ _WORDS = Words(
         "asperities.load_share": _load_share,
         "asperities.spots": lambda s: str(s["asperities"]["spots"]) if _touches(s) else None,
         "asperities.mass_error": _oil_error,
+        "asperities.resistance": _resistance,
         "field.columns": _rough_columns,
         "discharge.zone_position": _zone_place,
         "discharge.capacitance_by_outlet": _by_outlet,

@@ -104,19 +104,19 @@ def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
         "regime": ("", totals["regime"]),
         "critical-speed": ("", "…"),
     }
-    note = quick.number("capacitance").note
+    note = quick.number("bearing.capacitance").note
     assert note.startswith(amount(totals["capacitance_air"], "F"))
     assert amount(totals["capacitance_oil"], "F") in note
-    assert "upper bound: isothermal" in quick.number("first-break").note
+    assert "upper bound: isothermal" in quick.number("bearing.first_break").note
 
 
 @pytest.mark.slow
 def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
-    assert "capacitive" not in quick.number("regime").note
+    assert "capacitive" not in quick.number("bearing.regime").note
     speed = rpm(summary["margin"]["capacitive_speed"])
     # Real films are thinner than these, and touch up to higher speeds.
-    assert whole.number("regime").note.endswith(f"from ≥ {float(f'{speed:.3g}'):g} rpm")
-    found = whole.number("critical-speed")
+    assert whole.number("bearing.regime").note.endswith(f"from ≥ {float(f'{speed:.3g}'):g} rpm")
+    found = whole.number("margin.critical_speed")
     critical = rpm(summary["margin"]["critical_speed"])
     assert (found.known, found.bound) == (True, "≥")
     assert float(found.text.removesuffix(" rpm")) == pytest.approx(critical, rel=5e-3)
@@ -143,32 +143,32 @@ def test_with_ranges_the_verdict_at_once_is_not_green():
     quick, whole = quick_answer(table), whole_quick_answer(table)
     assert quick.level == "yellow"
     assert "follows" in quick.text
-    assert "follows" in quick.number("margin").note
+    assert "follows" in quick.number("bearing.margin").note
     # The narrow range changes nothing: the example is green without it.
     assert (whole.level, "follows" in whole.text) == ("green", False)
-    assert "within the stated ranges" in whole.number("margin").note
+    assert "within the stated ranges" in whole.number("bearing.margin").note
 
 
 def test_silicon_nitride_has_an_upper_bound_and_no_voltages():
     quick = quick_answer(inputs(element_material="silicon-nitride"))
     assert quick.level == "grey"
-    capacitance, shaft = quick.number("capacitance"), quick.number("shaft-voltage")
+    capacitance, shaft = quick.number("bearing.capacitance"), quick.number("bearing.shaft_voltage")
     assert (capacitance.bound, capacitance.note.startswith("upper bound")) == ("≤", True)
     assert "capacitance-bound" in [told.code for told in capacitance.told]
     assert (shaft.known, shaft.text) == (False, "none")
-    assert not quick.number("margin").known
+    assert not quick.number("bearing.margin").known
 
 
 def test_touching_surfaces_have_no_voltage_and_no_green():
     quick = quick_answer(inputs(inner_speed="60 rpm"))
     assert quick.level == "red"
-    first = quick.number("first-break")
+    first = quick.number("bearing.first_break")
     assert not first.known
     codes = [told.code for told in first.told]
     assert "touching" in codes
     assert "isothermal-film" not in codes, "there is no voltage that it would bound"
-    assert "touching" in [told.code for told in quick.number("capacitance").told]
-    assert "touching" in [told.code for told in quick.number("lambda").told]
+    assert "touching" in [told.code for told in quick.number("bearing.capacitance").told]
+    assert "touching" in [told.code for told in quick.number("bearing.lambda_ratio").told]
 
 
 def test_every_code_of_a_warning_has_a_place():
@@ -306,7 +306,7 @@ def test_the_words_of_a_margin_below_one_are_those_of_the_level():
     ):
         assert (answer.level, word in answer.judged.lead) == (level, True)
         assert word in answer.judged.meaning
-        (told,) = (one for one in answer.number("margin").told if one.code == "breakdown-expected")
+        (told,) = (one for one in answer.number("bearing.margin").told if one.code == "breakdown-expected")
         assert word in told.meaning
         names = [str(trace.get("name")) for trace in answer.figures["breakdown"].plot["data"]]
         assert [name for name in names if name in ("breakdown likely", "breakdown expected")] == [
@@ -334,7 +334,7 @@ def test_the_effects_have_the_value_that_belongs_to_each_margin(whole, quick, su
 def test_a_coating_has_its_own_name_for_the_voltage_on_the_shaft():
     coated = inputs(coating=COATING)
     quick = quick_answer(coated)
-    first = quick.number("first-break")
+    first = quick.number("bearing.first_break")
     assert "shaft" in first.label.lower()
     assert first.text == amount(quick.numbers["shaft_first_break"], "V")
     assert amount(quick.numbers["first_break"], "V") in first.note

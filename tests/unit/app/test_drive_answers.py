@@ -43,10 +43,16 @@ def number(text):
 def test_the_first_answer_has_the_numbers_of_check():
     answer, meaning = quick(), check(case_of(DRIVE))
     about = meaning.summary["drive_end"]
-    assert number(answer.number("at-peak").text) == pytest.approx(about["voltage_at_peak"], rel=5e-3)
-    assert number(answer.number("first-break").text) == pytest.approx(about["breakdown_voltage"], rel=5e-3)
-    assert number(answer.number("capacitance").text) == pytest.approx(1e12 * about["capacitance"], rel=5e-3)
-    assert answer.number("first-break").bound == "≤"
+    assert number(answer.number("end.voltage_at_peak").text) == pytest.approx(
+        about["voltage_at_peak"], rel=5e-3
+    )
+    assert number(answer.number("end.breakdown_voltage").text) == pytest.approx(
+        about["breakdown_voltage"], rel=5e-3
+    )
+    assert number(answer.number("end.capacitance").text) == pytest.approx(
+        1e12 * about["capacitance"], rel=5e-3
+    )
+    assert answer.number("end.breakdown_voltage").bound == "≤"
     assert [(line.name, line.text) for line in answer.lines] == [(row.name, row.text) for row in meaning.rows]
     assert [one.code for one in answer.warnings if one.code] == [one.code for one in meaning.warnings]
     assert (answer.simulated, answer.figures, answer.remedies) == (False, {}, None)
@@ -55,7 +61,7 @@ def test_the_first_answer_has_the_numbers_of_check():
 def test_both_ends_are_told_apart():
     other = {**DRIVE.value("drive_end"), "bearing": {**DRIVE.value("drive_end.bearing"), "base": "6206"}}
     answer = quick(non_drive_end=other)
-    note = answer.number("capacitance").note
+    note = answer.number("end.capacitance").note
     assert "drive end; non-drive end: " in note
     found = check(case_of(DRIVE.changed({"non_drive_end": other}))).summary
     assert number(note.rpartition(": ")[2]) == pytest.approx(
@@ -133,7 +139,7 @@ def test_behind_an_inductance_the_divider_gives_no_verdict():
     assert found == "grey"
     assert "ring together" in text
     # The capacitances share a slow edge as they do without the inductance.
-    assert quick(**changes).number("divider").text == quick().number("divider").text
+    assert quick(**changes).number("end.voltage_ratio").text == quick().number("end.voltage_ratio").text
 
 
 def test_films_that_have_to_be_solved_are_told_at_their_key():
@@ -170,9 +176,11 @@ def test_a_simulation_has_the_numbers_of_the_command(simulated, tmp_path):
     assert page == json.loads(json.dumps(summary))
     assert (out / "events.csv").read_bytes() == (tmp_path / "out" / "events.csv").read_bytes()
     one = summary["drive_end"]
-    assert number(answer.number("discharges").text) == pytest.approx(one["events_per_second"], rel=5e-3)
-    assert number(answer.number("peak").text) == pytest.approx(one["peak_voltage"], rel=5e-3)
-    assert number(answer.number("energy").text) == pytest.approx(1e9 * one["energy_mean"], rel=5e-3)
+    assert number(answer.number("end.events_per_second").text) == pytest.approx(
+        one["events_per_second"], rel=5e-3
+    )
+    assert number(answer.number("end.peak_voltage").text) == pytest.approx(one["peak_voltage"], rel=5e-3)
+    assert number(answer.number("end.energy_mean").text) == pytest.approx(1e9 * one["energy_mean"], rel=5e-3)
     assert answer.judged.level == "red"
     assert f"{number_text(one['events_per_second'])} a second" in answer.judged.numbers
     assert "is an assumption" in answer.judged.assumptions
@@ -237,7 +245,7 @@ def test_without_discharges_there_are_no_distributions(tmp_path):
     assert "None in 2 ms" in answer.judged.numbers
     assert answer.judged.bound == "upper bound"
     assert list(answer.figures) == ["voltages", "histogram", "spectrum"]
-    assert not answer.number("energy").known
+    assert not answer.number("end.energy_mean").known
 
 
 def test_a_choke_is_simulated(tmp_path):
@@ -246,7 +254,7 @@ def test_a_choke_is_simulated(tmp_path):
     choked = SHORT.changed({**changes, "remedies": None})
     answer = simulate(dict(choked.table), tmp_path, tmp_path / "out", lambda *_: None)
     # Such a choke is done within a microsecond, so that the films have nearly the voltage without it.
-    assert number(answer.number("peak").text) > 3.0
+    assert number(answer.number("end.peak_voltage").text) > 3.0
 
 
 def test_warnings_have_a_place():
@@ -270,7 +278,9 @@ def test_estimated_capacitances_are_told_beside_them():
         "liner_permittivity": 3.5,
     }
     answer = quick(circuit={"machine": geometry})
-    assert "capacitances-estimated" in [one.code for one in answer.number("machine").told]
+    assert "capacitances-estimated" in [
+        one.code for one in answer.number("circuit.winding_rotor_capacitance").told
+    ]
 
 
 def test_texts_of_numbers():

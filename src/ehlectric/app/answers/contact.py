@@ -8,36 +8,8 @@ from typing import Any
 
 from ehlectric.app.answers.figure import Shown
 from ehlectric.app.answers.line import Line
+from ehlectric.app.answers.number import Number
 from ehlectric.app.answers.told import Told
-
-
-@dataclass(frozen=True)
-class Number:
-    """Number that an answer shows large.
-
-    Attributes
-    ----------
-    key : str
-        Name for tests, such as "hertz-pressure".
-    label : str
-        Name of the quantity.
-    text, unit : str
-        The number as it is shown, and its unit.
-    note : str
-        What a reader must know beside it, such as the formula.
-    bound : str
-        "≤" where the number is an upper bound.
-    warnings : tuple of Told
-        Warnings that concern it.
-    """
-
-    key: str
-    label: str
-    text: str
-    unit: str = ""
-    note: str = ""
-    bound: str = ""
-    warnings: tuple[Told, ...] = ()
 
 
 @dataclass(frozen=True)

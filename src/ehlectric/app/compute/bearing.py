@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers.bearing import BearingAnswer, Difference, Figure, Table
+from ehlectric.app.answers.told import within
 from ehlectric.app.compute.bearing_effects import effects_table
 from ehlectric.app.compute.bearing_numbers import contacts_table, differences, shown_numbers
 from ehlectric.app.compute.bearing_verdict import judged, quick_verdict
@@ -34,6 +35,7 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import HOW, quick_way
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.sheets import BEARING_CARDS
 from ehlectric.runs.by_kind import run_bearing
 from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress
@@ -164,7 +166,7 @@ def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, 
         bound = capacitance_is_bound(result.solution)
         over = OverSpeed.of(points, own, level=verdict.level)
         figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
-    told = told_of(warnings, verdict.level)
+    told = within(told_of(warnings, verdict.level), BEARING_CARDS)
     return BearingAnswer(
         title=result.case.title,
         contacts=result.case.contacts,

@@ -20,6 +20,8 @@ from ehlectric.tables.bearing import total_rows
 FIRST = "First breakdown voltage"
 FIRST_ON_SHAFT = "Shaft voltage of the first breakdown"
 
+_CAPACITANCE, _LAMBDA, _REGIME = "bearing.capacitance", "bearing.lambda_ratio", "bearing.regime"
+
 # Words of the state of lubrication.
 STATES = {
     "conducting": "surfaces touch",
@@ -80,11 +82,11 @@ def _capacitance(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
     bound = "≤" if _has(told, "capacitance-bound") else ""
     note = f"upper bound; {note}" if bound else note
     text = amount(totals["capacitance"], "F")
-    return Number("capacitance", "Capacitance", text, bound, note, told=beside(told, "capacitance"))
+    return Number("bearing.capacitance", "Capacitance", text, bound, note, told=beside(told, _CAPACITANCE))
 
 
 def _first_break(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
-    totals, name = summary["bearing"], "first-break"
+    totals, name = summary["bearing"], "bearing.first_break"
     # With a coating, the films have only a part of the voltage on the shaft.
     coated = totals["coating_capacitance"] is not None
     label = FIRST_ON_SHAFT if coated else FIRST
@@ -110,7 +112,7 @@ def _bound_words(told: tuple[Told, ...]) -> str:
 
 
 def _shaft_voltage(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
-    value, name, label = summary["bearing"]["shaft_voltage"], "shaft-voltage", "Shaft voltage"
+    value, name, label = summary["bearing"]["shaft_voltage"], "bearing.shaft_voltage", "Shaft voltage"
     near = beside(told, name)
     if value is None:
         return Number(name, label, "none", note=_no_shaft(summary, told), known=False, told=near)
@@ -122,7 +124,7 @@ def _shaft_voltage(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number
 
 
 def _margin(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
-    totals, name, label = summary["bearing"], "margin", "Margin"
+    totals, name, label = summary["bearing"], "bearing.margin", "Margin"
     value, near = totals["margin"], beside(told, name)
     if value is None:
         why = _no_voltage(summary) if totals["shaft_first_break"] is None else _no_shaft(summary, told)
@@ -148,7 +150,14 @@ def _lambda(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
     film = f"minimum film {bound} {least}" if bound else f"minimum film {least}"
     note = f"{STATES[totals['lubrication']]}; {film}"
     text = f"{totals['lambda_ratio']:.3g}"
-    return Number("lambda", "Lambda ratio, minimum", text, bound, note, told=beside(told, "lambda"))
+    return Number(
+        "bearing.lambda_ratio",
+        "Lambda ratio, minimum",
+        text,
+        bound,
+        note,
+        told=beside(told, _LAMBDA),
+    )
 
 
 def _regime(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
@@ -163,11 +172,11 @@ def _regime(summary: Mapping[str, Any], told: tuple[Told, ...]) -> Number:
         bound = "≥ " if film_is_bound(summary) else ""
         seldom = f"shorted at most {100.0 * CAPACITIVE:g} % of the time"
         note += f"; capacitive ({seldom}) from {bound}{rpm_text(speed)} rpm"
-    return Number("regime", "Regime", totals["regime"], note=note, told=beside(told, "regime"))
+    return Number("bearing.regime", "Regime", totals["regime"], note=note, told=beside(told, _REGIME))
 
 
 def _critical_speed(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> Number:
-    name, label = "critical-speed", "Critical speed"
+    name, label = "margin.critical_speed", "Critical speed"
     if summary["bearing"]["margin"] is None:
         return Number(name, label, "none", note="there is no margin", known=False)
     if not whole:

@@ -3,31 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers.contact import ContactCheck, ContactView, Number
-from ehlectric.app.answers.contact_told import CONTACT_PLACES
+from ehlectric.app.answers.contact import ContactCheck, ContactView
 from ehlectric.app.answers.figure import Shown
-from ehlectric.app.answers.told import Told, beside
+from ehlectric.app.compute.cards import cards, with_warnings
 from ehlectric.app.compute.cases import case_of
-from ehlectric.app.compute.heat import bound_of, heat_numbers
 from ehlectric.app.compute.lines import lines_of
-from ehlectric.app.compute.numbers import number_of
-from ehlectric.app.compute.touching import spot_numbers
 from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.cuts import point_cuts
 from ehlectric.app.figures.lengths import Lengths
 from ehlectric.app.figures.line import line_figures
 from ehlectric.app.figures.point import point_figures, reach_of
-from ehlectric.app.figures.touching import spot_position, touches
+from ehlectric.app.figures.touching import spot_position
 from ehlectric.cases.case import Case
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
 from ehlectric.discharge.verdict import STRENGTH_UNKNOWN, doubts_of, lead_of, level_of, ratio_text
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.sheets import CHECK_CARDS, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
 from ehlectric.runs.by_kind import run_contact
 from ehlectric.runs.meaning import check
 from ehlectric.runs.results import load
@@ -42,7 +38,7 @@ _QUICK_ERROR = 1e-3
 _FORMULA = 0.4
 
 # Formula whose films an answer shows large, by geometry: the one of the breakdown voltage by formula.
-_SHOWN_FORMULA = {"line": ("pan_hamrock", "Pan-Hamrock"), "point": ("chittenden", "Chittenden et al.")}
+_SHOWN_FORMULA = {"line": "pan_hamrock", "point": "chittenden"}
 
 
 def contact_case(table: Mapping[str, Any], folder: str) -> Case:
@@ -87,16 +83,17 @@ def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
     case = contact_case(table, folder)
     meaning = check(case)
     level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
-    numbers = _check_numbers(meaning.summary)
-    keys = {number.key for number in numbers}
+    formula = _SHOWN_FORMULA[case.contact.geometry]
+    keys = [key.replace("*", formula) for key in CHECK_CARDS]
+    numbers, others = with_warnings(cards(meaning.rows, keys), told_of(meaning.warnings))
     return ContactCheck(
         title=meaning.title,
         geometry=case.contact.geometry,
         level=level,
         text=text,
-        numbers=_with_warnings(numbers, meaning.warnings),
+        numbers=numbers,
         rows=lines_of(meaning.rows),
-        warnings=_others(meaning.warnings, keys),
+        warnings=others,
         summary=meaning.summary,
         quick=_is_quick(case),
         moving=case.motion is not None,
@@ -107,34 +104,6 @@ def _is_quick(case: Case) -> bool:
     plain, grid = not case.roughness and case.motion is None and case.film is None, case.grid
     quick = grid.nodes_along <= _QUICK and (grid.target is None or grid.target >= _QUICK_ERROR)
     return plain and quick and case.contact.geometry == "line"
-
-
-def _check_numbers(summary: Mapping[str, Any]) -> list[Number]:
-    hertz, groups = summary["hertz"], summary["groups"]
-    geometry = summary["inputs"]["contact"]["geometry"]
-    formula, name = _SHOWN_FORMULA[geometry]
-    film = summary["film_formulas"][formula]
-    note = f"by formula: {name}, up to 40 % off"
-    found = [number_of("hertz-pressure", "Hertz pressure", hertz["max_pressure"], "Pa")]
-    if geometry == "line":
-        found.append(number_of("half-width", "Half-width b", hertz["half_width"], "m", least=1.0))
-    else:
-        for key, label in (("semi_axis_x", "Semi-axis b, along"), ("semi_axis_y", "Semi-axis a, across")):
-            found.append(number_of(key.replace("_", "-"), label, hertz[key], "m", least=1.0))
-    found += [
-        number_of("minimum-film", "Minimum film", film["minimum_thickness"], "m", note),
-        number_of("central-film", "Central film", film["central_thickness"], "m", note),
-        Number("moes-m", "Load parameter M", f"{groups['moes_m']:.4g}"),
-        Number("moes-l", "Material parameter L", f"{groups['moes_l']:.4g}"),
-    ]
-    estimate = summary.get("breakdown_by_formula")
-    if estimate is not None:
-        by = f"by formula: {estimate['formula']}, up to 40 % off; {_BOUND}"
-        breakdown = number_of(
-            "breakdown-voltage", "Breakdown voltage", estimate["breakdown_voltage"], "V", by
-        )
-        found.append(replace(breakdown, bound="≤"))
-    return found
 
 
 _NO_STRENGTH = "No verdict: give a dielectric strength (group Voltage and breakdown) for a breakdown voltage."
@@ -242,9 +211,11 @@ def _stored(folder: str) -> Result | PointResult:
 def view_of(result: Result | PointResult) -> ContactView:
     """Answer of a solved contact."""
     level, text = _verdict(result)
-    numbers = _result_numbers(result) if result.converged else []
-    spots = spot_numbers(result)
-    keys = {number.key for number in (*numbers, *spots)}
+    rows, touching = result_rows(result), result.spots is not None
+    large = TOUCHING_CARDS if touching else CONTACT_CARDS
+    shown = cards(rows, large) if result.converged else []
+    found, others = with_warnings([*shown, *cards(rows, SPOT_CARDS)], told_of(result.warnings))
+    numbers, spots = found[: len(shown)], found[len(shown) :]
     whole = result if isinstance(result, PointResult) and result.converged else None
     return ContactView(
         title=result.case.title,
@@ -252,10 +223,10 @@ def view_of(result: Result | PointResult) -> ContactView:
         converged=result.converged,
         level=level,
         text=text,
-        numbers=_with_warnings(numbers, result.warnings),
-        spots=_with_warnings(spots, result.warnings),
-        rows=lines_of(result_rows(result)),
-        warnings=_others(result.warnings, keys),
+        numbers=numbers,
+        spots=spots,
+        rows=lines_of(rows),
+        warnings=others,
         figures=point_figures(result) if isinstance(result, PointResult) else line_figures(result),
         cuts=() if whole is None else point_cuts(whole, *spot_position(whole)),
         reach=None if whole is None else reach_of(whole),
@@ -270,90 +241,3 @@ def _verdict(result: Result | PointResult) -> tuple[str, str]:
     if verdict is None:
         return "grey", _NO_STRENGTH
     return verdict.level, verdict.text
-
-
-def _result_numbers(result: Result | PointResult) -> list[Number]:
-    film, field, discharge = result.film, result.field, result.discharge
-    touching = touches(result)
-    at = f"at {_voltage(result)}, {_IN_SPOTS}" if touching else f"at {_voltage(result)}"
-    found = [
-        *(_touching_films(result) if touching else _films(result)),
-        number_of("max-pressure", "Maximum pressure", film.max_pressure, "Pa"),
-        number_of("max-field", "Maximum field", field.max_strength, "V/m", at),
-    ]
-    over = f"{_OVER}, with the boundary film as an insulator" if touching else _OVER
-    if isinstance(result, PointResult):
-        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e12:.4g}", "pF", over)
-    else:
-        capacitance = Number("capacitance", "Capacitance", f"{field.capacitance * 1e9:.4g}", "nF/m", over)
-    found.append(capacitance)
-    if discharge is not None and discharge.breakdown_voltage is not None:
-        breakdown = number_of("breakdown-voltage", "Breakdown voltage", discharge.breakdown_voltage, "V")
-        if touching:
-            breakdown = replace(
-                breakdown, bound="≤", note=f"{_IN_SPOTS}; metal may conduct there at any voltage"
-            )
-        elif _is_flooded(result):
-            breakdown = replace(breakdown, bound="≤", note=bound_of(result))
-        found.append(breakdown)
-    return [*found, *heat_numbers(result)]
-
-
-def _films(result: Result | PointResult) -> list[Number]:
-    """Minimum and central film with their error, beside those of a formula."""
-    film = result.film
-    error = result.film_error
-    known = "discretisation error unknown" if error is None else f"discretisation error {100 * error:.2g} %"
-    key, name = _SHOWN_FORMULA[result.conditions.geometry]
-    formula = result.formulas()[key]
-    least, central = (
-        f"{name}: {100.0 * (getattr(formula, of) / getattr(film, of) - 1.0):+.0f} %"
-        for of in ("minimum_thickness", "central_thickness")
-    )
-    return [
-        number_of(
-            "minimum-film", "Minimum film", film.minimum_thickness, "m", f"{known}; formula of {least}"
-        ),
-        number_of("central-film", "Central film", film.central_thickness, "m", f"formula of {central}"),
-    ]
-
-
-def _touching_films(result: Result | PointResult) -> list[Number]:
-    """Films of surfaces that touch: the boundary film, and the mean film, as a spot may be in the middle."""
-    film = result.film
-    mean = "in the dry contact, spots and gaps between them"
-    return [
-        number_of(
-            "minimum-film", "Minimum film", film.minimum_thickness, "m", "surfaces touch: boundary film"
-        ),
-        number_of("central-film", "Mean film", film.mean_thickness, "m", mean),
-    ]
-
-
-def _voltage(result: Result | PointResult) -> str:
-    return f"{abs(result.case.electric.voltage):.4g} V"
-
-
-def _is_flooded(result: Result | PointResult) -> bool:
-    """Whether the film is that of isothermal, fully flooded oil, an upper bound."""
-    return result.conditions.film_factor == 1.0 and result.film.starvation is None
-
-
-_BOUND = "isothermal, fully flooded film"
-
-
-_OVER = "over the field range"
-
-# Note on numbers of the thinnest film where the surfaces touch.
-_IN_SPOTS = "in the boundary film, where the surfaces touch"
-
-
-def _with_warnings(numbers: Iterable[Number], warnings: Iterable[ResultWarning]) -> tuple[Number, ...]:
-    """Numbers with the warnings that concern them."""
-    told = told_of(warnings, places=CONTACT_PLACES)
-    return tuple(replace(number, warnings=beside(told, number.key)) for number in numbers)
-
-
-def _others(warnings: Iterable[ResultWarning], keys: set[str]) -> tuple[Told, ...]:
-    """Warnings that concern none of the shown numbers."""
-    return tuple(one for one in told_of(warnings, places=CONTACT_PLACES) if not keys & set(one.beside))

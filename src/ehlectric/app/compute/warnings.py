@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
-from ehlectric.app.answers.told import PLACES, SEVERITIES, Told
+from ehlectric.app.answers.told import SEVERITIES, Told
 from ehlectric.errors import CODES, ResultWarning
 
 _LIKELY = "The margin is below 1: breakdown is likely."
 
 
-def told_of(
-    warnings: Iterable[ResultWarning],
-    level: str = "",
-    *,
-    places: Mapping[str, tuple[str, ...]] = PLACES,
-) -> tuple[Told, ...]:
-    """Warnings of a result with the numbers that they concern by ``places``, the severe ones first.
+def told_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[Told, ...]:
+    """Warnings of a result with the keys of the quantities that they concern, the severe ones first.
 
     Beside a verdict of the level "yellow", a margin below 1 means that breakdown is likely, as the verdict
     says.
@@ -27,7 +22,7 @@ def told_of(
             one.code,
             one.severity,
             one.text,
-            places[one.code],
+            CODES[one.code].concerns,
             meanings.get(one.code, CODES[one.code].meaning),
         )
         for one in dict.fromkeys(warnings)

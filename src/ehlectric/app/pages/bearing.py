@@ -26,7 +26,7 @@ from ehlectric.app.work import Work
 from ehlectric.errors import InputError
 
 # Numbers of the short answer.
-_SHORT = ("capacitance", "margin")
+_SHORT = ("bearing.capacitance", "bearing.margin")
 
 _WORDS = Words(
     solve="Solve the contacts",

@@ -18,8 +18,8 @@ from ehlectric.app.pages.bearing_parts import (
     effects_html,
 )
 from ehlectric.app.pages.parts import lines_html
+from ehlectric.quantities.sheets import BEARING_CARDS
 
-_NUMBERS = ("capacitance", "first-break", "shaft-voltage", "margin", "lambda", "critical-speed", "regime")
 _AT_ONCE, _OVER_SPEED = ("load", "film"), ("breakdown", "capacitance")
 
 
@@ -31,7 +31,7 @@ class AnswerView:
             self._verdict = VerdictBox()
             self._changes = ui.html("", sanitize=False).props('data-testid="differences"')
             with ui.element("div").classes("numbers").props('data-testid="numbers" aria-live="polite"'):
-                self._numbers = {name: NumberBox(name) for name in _NUMBERS}
+                self._numbers = {name: NumberBox(name) for name in BEARING_CARDS}
             self._effects = ui.html("", sanitize=False).classes("effects").props('data-testid="effects"')
             self._warnings = WarningList()
             self._none = ui.label().classes("notice").props('data-testid="no-figures"')
@@ -55,7 +55,7 @@ class AnswerView:
         """Say that what was to follow is not computed, as after a wrong input."""
         if self._pending is None:
             return
-        margin, speed = (self._pending.number(name) for name in ("margin", "critical-speed"))
+        margin, speed = (self._pending.number(name) for name in ("bearing.margin", "margin.critical_speed"))
         if speed.text == PENDING:
             speed = replace(speed, text="none", note="not computed", known=False)
         note = margin.note.removeprefix(f"{RANGE_FOLLOWS}; ")

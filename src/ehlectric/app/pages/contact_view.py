@@ -9,8 +9,9 @@ from typing import Any
 from nicegui import ui
 
 from ehlectric.app.answers.calls import CONTACT_CUTS
-from ehlectric.app.answers.contact import ContactView, Number, Reach
+from ehlectric.app.answers.contact import ContactView, Reach
 from ehlectric.app.answers.figure import Shown
+from ehlectric.app.answers.number import Number
 from ehlectric.app.pages.parts import figure, heading, light, lines_html, number, warnings
 from ehlectric.app.session import Session
 from ehlectric.errors import InputError, LostError
@@ -28,7 +29,7 @@ def number_cards(numbers: Iterable[Number], prefix: str = "") -> None:
     with ui.element("div").classes("numbers"):
         for one in numbers:
             with ui.element("div").props(f'data-testid="number-{prefix}{one.key}"'):
-                number(one.label, one.text, one.unit, bound=one.bound, warnings=one.warnings, note=one.note)
+                number(one.label, one.text, one.unit, bound=one.bound, warnings=one.told, note=one.note)
 
 
 class FigureBox:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers.drive import DriveAnswer
-from ehlectric.app.answers.told import DRIVE_PLACES
+from ehlectric.app.answers.told import within
 from ehlectric.app.compute.cases import drive_of
 from ehlectric.app.compute.drives.numbers import (
     ends_table,
@@ -15,7 +15,6 @@ from ehlectric.app.compute.drives.numbers import (
     prepared_numbers,
     remedies_table,
     simulated_numbers,
-    within,
 )
 from ehlectric.app.compute.drives.verdict import judged_after, judged_before
 from ehlectric.app.compute.lines import lines_of
@@ -61,7 +60,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     ready = prepare(quick, workers=1)
     summary = checked_summary(ready)
     found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
-    told = merged(told_of(found, places=DRIVE_PLACES))
+    told = merged(told_of(found))
     shown = prepared_numbers(summary, told)
     films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}
     how = "; ".join(f"Contacts {HOW[way]}: films may be {error} off" for way, error in sorted(films))
@@ -74,7 +73,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         shown=shown,
         ends=ends_table(summary),
         lines=lines_of(prepared_rows(summary)),
-        warnings=within(told, shown),
+        warnings=within(told, {one.name for one in shown}),
     )
 
 
@@ -113,7 +112,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     # A core is left for the pages.
     outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
     summary = outcome.summary
-    told = merged(told_of(outcome.warnings, places=DRIVE_PLACES))
+    told = merged(told_of(outcome.warnings))
     shown = simulated_numbers(summary, told)
     progress(0, 0, "drawing")
     return DriveAnswer(
@@ -124,7 +123,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
         shown=shown,
         ends=ends_table(summary),
         lines=lines_of(drive_rows(summary)),
-        warnings=within(told, shown),
+        warnings=within(told, {one.name for one in shown}),
         remedies=remedies_table(summary),
         figures=drive_figures(outcome.result) if summary["converged"] else {},
         seconds=summary["seconds"],

@@ -29,10 +29,10 @@ def prepared_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tupl
     """
     return _told(
         [
-            _of_ends(summary, "at-peak", "Bearing voltage at the peak", "voltage_at_peak", "V"),
+            _of_ends(summary, "Bearing voltage at the peak", "voltage_at_peak", "V"),
             _breakdown(summary),
-            _of_ends(summary, "capacitance", "Bearing capacitance", "capacitance", "F"),
-            _of_ends(summary, "divider", "Capacitive divider", "voltage_ratio", "%"),
+            _of_ends(summary, "Bearing capacitance", "capacitance", "F"),
+            _of_ends(summary, "Capacitive divider", "voltage_ratio", "%"),
             _source(summary),
             *_machine(summary),
         ],
@@ -51,16 +51,14 @@ def simulated_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tup
         Warnings.
     """
     found = [
-        _of_ends(summary, "discharges", "Discharges per second", "events_per_second", "1/s", _bounds),
-        _of_ends(summary, "peak", "Largest bearing voltage", "peak_voltage", "V"),
+        _of_ends(summary, "Discharges per second", "events_per_second", "1/s", _bounds),
+        _of_ends(summary, "Largest bearing voltage", "peak_voltage", "V"),
         _breakdown(summary),
-        _of_ends(summary, "mean-voltage", "Mean voltage of a discharge", "voltage_mean", "V"),
-        _of_ends(summary, "energy", "Mean energy of a discharge", "energy_mean", "J"),
-        _of_ends(summary, "power", "Power of the discharges", "power", "W"),
-        _of_ends(
-            summary, "current-density", "Current density over the Hertz areas", "current_density", "A/mm²"
-        ),
-        _of_ends(summary, "capacitance", "Bearing capacitance", "capacitance", "F"),
+        _of_ends(summary, "Mean voltage of a discharge", "voltage_mean", "V"),
+        _of_ends(summary, "Mean energy of a discharge", "energy_mean", "J"),
+        _of_ends(summary, "Power of the discharges", "power", "W"),
+        _of_ends(summary, "Current density over the Hertz areas", "current_density", "A/mm²"),
+        _of_ends(summary, "Bearing capacitance", "capacitance", "F"),
         _source(summary),
     ]
     if not summary["converged"]:
@@ -76,12 +74,6 @@ def merged(told: Iterable[Told]) -> tuple[Told, ...]:
         before = found.get(one.code)
         found[one.code] = one if before is None else replace(before, text=f"{before.text}. {one.text}")
     return tuple(found.values())
-
-
-def within(told: Iterable[Told], numbers: Iterable[Number]) -> tuple[Told, ...]:
-    """Warnings of which each names the numbers that there are alone; the others stand in a list."""
-    names = {one.name for one in numbers}
-    return tuple(replace(one, beside=tuple(name for name in one.beside if name in names)) for one in told)
 
 
 def ends_table(summary: Mapping[str, Any]) -> Table:
@@ -104,11 +96,9 @@ def remedies_table(summary: Mapping[str, Any]) -> Table | None:
     return Table("Worse bearing of each", ("", *heads), tuple(rows))
 
 
-def _of_ends(
-    summary: Mapping[str, Any], name: str, label: str, key: str, unit: str, note: Any = None
-) -> Number:
+def _of_ends(summary: Mapping[str, Any], label: str, key: str, unit: str, note: Any = None) -> Number:
     """Number of both bearings: that of the drive end, and the other one as its note where it differs."""
-    values = [summary[end][key] for end in ENDS]
+    values, name = [summary[end][key] for end in ENDS], f"end.{key}"
     texts = [text_of(value, unit) for value in values]
     notes = [note(summary[end]) if note is not None else "" for end in ENDS]
     first, second = NAMES_OF_ENDS.values()
@@ -126,7 +116,7 @@ def _bounds(end: Mapping[str, Any]) -> str:
 
 
 def _breakdown(summary: Mapping[str, Any]) -> Number:
-    found = _of_ends(summary, "first-break", "Breakdown voltage", "breakdown_voltage", "V")
+    found = _of_ends(summary, "Breakdown voltage", "breakdown_voltage", "V")
     if all(summary[end]["breakdown_voltage"] is None for end in ENDS):
         return replace(found, note="ceramic elements insulate")
     shapes = {summary[end]["weibull_shape"] for end in ENDS} - {None}
@@ -137,7 +127,7 @@ def _breakdown(summary: Mapping[str, Any]) -> Number:
 def _source(summary: Mapping[str, Any]) -> Number:
     edges = summary["source"]["edges_per_second"]
     note = "measured waveform" if edges is None else f"peak, {_short(edges)} edges per second"
-    return Number("source", "Common-mode voltage", amount(summary["source"]["peak"], "V"), note=note)
+    return Number("source.peak", "Common-mode voltage", amount(summary["source"]["peak"], "V"), note=note)
 
 
 def _machine(summary: Mapping[str, Any]) -> Iterator[Number]:
@@ -149,7 +139,7 @@ def _machine(summary: Mapping[str, Any]) -> Iterator[Number]:
     }
     others = [f"{words} {amount(circuit[key], 'F')}" for key, words in names.items() if key in circuit]
     text = amount(circuit["winding_rotor_capacitance"], "F")
-    yield Number("machine", "Winding to rotor", text, note="; ".join(others))
+    yield Number("circuit.winding_rotor_capacitance", "Winding to rotor", text, note="; ".join(others))
 
 
 def _told(numbers: Iterable[Number], told: tuple[Told, ...]) -> tuple[Number, ...]:

@@ -31,7 +31,7 @@ from ehlectric.errors import InputError
 _PATH = PATHS["drive"]
 
 # Numbers of the short answer.
-_SHORT = ("discharges", "at-peak", "first-break")
+_SHORT = ("end.events_per_second", "end.voltage_at_peak", "end.breakdown_voltage")
 
 _WORDS = Words(
     solve="Simulate",

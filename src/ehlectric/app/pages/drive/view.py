@@ -15,13 +15,9 @@ from ehlectric.app.pages.bearing_parts import (
     table_html,
 )
 from ehlectric.app.pages.parts import lines_html
+from ehlectric.quantities.sheets import DRIVE_CARDS
 
 # Numbers of either answer, in their order.
-_NUMBERS = (
-    *("discharges", "at-peak", "peak", "first-break", "mean-voltage", "energy", "power"),
-    "current-density",
-    *("capacitance", "divider", "source", "machine"),
-)
 _FIGURES = (
     *("voltages", "remedies", "histogram", "spectrum"),
     *("discharge-voltage", "discharge-energy", "discharge-charge", "discharge-current"),
@@ -36,7 +32,7 @@ class DriveView:
         with ui.element("div").classes("answer-body").props('data-testid="answer"') as self._body:
             self._verdict = VerdictBox()
             with ui.element("div").classes("numbers").props('data-testid="numbers" aria-live="polite"'):
-                self._numbers = {name: NumberBox(name) for name in _NUMBERS}
+                self._numbers = {name: NumberBox(name) for name in DRIVE_CARDS}
             self._remedies = ui.html("", sanitize=False).props('data-testid="remedies-table"')
             self._warnings = WarningList()
             with ui.element("div").classes("figures"):
