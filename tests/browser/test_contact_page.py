@@ -42,7 +42,9 @@ def shown(page, name):
 
 def solve(page):
     """Solve the present inputs, once they have been checked: then the page knows how long it takes."""
-    page.locator("[data-testid=by-formula]:not(.old) [data-testid=number-formula-minimum-film]").wait_for()
+    page.locator(
+        "[data-testid=by-formula]:not(.old) [data-testid='number-formula-film_formulas.pan_hamrock.minimum_thickness']"
+    ).wait_for()
     page.get_by_test_id("solve").click()
     wait_until_solved(page)
 
@@ -66,16 +68,16 @@ def test_a_line_contact_is_drawn_with_the_numbers_of_the_command(open_page, app_
     summary = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)
     assert summary["film"]["target_error"] == 0.001
     film = 1e6 * summary["film"]["minimum_thickness"]
-    assert shown(page, "minimum-film") == pytest.approx(film, rel=5e-4)
-    before = page.get_by_test_id("number-minimum-film").inner_text()
+    assert shown(page, "film.minimum_thickness") == pytest.approx(film, rel=5e-4)
+    before = page.get_by_test_id("number-film.minimum_thickness").inner_text()
     type_into(page, "contact.entrainment_speed", "2 m/s")
     page.wait_for_function(
-        "before => document.querySelector('[data-testid=number-minimum-film]').innerText !== before",
+        """before => document.querySelector('[data-testid="number-film.minimum_thickness"]').innerText !== before""",
         arg=before,
     )
     wait_until_solved(page)
     film = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)["film"]
-    assert shown(page, "minimum-film") == pytest.approx(1e6 * film["minimum_thickness"], rel=5e-4)
+    assert shown(page, "film.minimum_thickness") == pytest.approx(1e6 * film["minimum_thickness"], rel=5e-4)
 
 
 @pytest.mark.slow
@@ -85,7 +87,7 @@ def test_a_point_contact_is_solved_and_cut_where_a_slider_says(open_page, app_se
     solve(page)
     summary = summary_by_command("run", downloaded(page, "download-toml", tmp_path), tmp_path)
     film = 1e6 * summary["film"]["minimum_thickness"]
-    assert shown(page, "minimum-film") == pytest.approx(film, rel=5e-4)
+    assert shown(page, "film.minimum_thickness") == pytest.approx(film, rel=5e-4)
     for name in ("film-map", "pressure-map", "field-map"):
         assert is_drawn(page, name)
     slider = page.get_by_test_id("slider-cut-x")
@@ -104,11 +106,11 @@ def test_changing_between_line_and_point_asks_the_command_for_each(open_page, ap
         page.get_by_test_id("geometry").get_by_text(name).click()
         page.get_by_test_id(f"field-contact-{load}").wait_for()
         page.locator(
-            "[data-testid=by-formula]:not(.old) [data-testid=number-formula-minimum-film]"
+            "[data-testid=by-formula]:not(.old) [data-testid='number-formula-film_formulas.pan_hamrock.minimum_thickness']"
         ).wait_for()
         path = downloaded(page, "download-toml", tmp_path)
         checked = json.loads(command("check", path, "--json", folder=tmp_path)[0])
-        assert shown(page, "formula-hertz-pressure") == pytest.approx(
+        assert shown(page, "formula-hertz.max_pressure") == pytest.approx(
             1e-9 * checked["hertz"]["max_pressure"], rel=5e-4
         )
 
@@ -132,9 +134,9 @@ def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed
     table = example("rough_contact", roughness=[rough], grid__nodes=401)
     table["contact"] |= {"load_per_length": "1.57 MN/m", "entrainment_speed": "0.05 m/s"}
     page = open_page(app_server, address_of("/contact", table))
-    page.get_by_test_id("number-formula-minimum-film").wait_for()
-    assert_touching(page, tmp_path, nanometres=1.0)
-    assert "give the resistivity" in page.get_by_test_id("number-spots-spot-resistance").inner_text()
+    page.get_by_test_id("number-formula-film_formulas.pan_hamrock.minimum_thickness").wait_for()
+    assert_touching(page, tmp_path, micrometres=0.001)
+    assert "give the resistivity" in page.get_by_test_id("number-spots-asperities.resistance").inner_text()
     for group in ("contact", "voltage-and-breakdown"):
         box = page.get_by_test_id(f"group-{group}-more")
         if box.get_attribute("open") is None:
@@ -142,28 +144,31 @@ def test_surfaces_that_touch_are_marked_and_have_the_boundary_film_that_is_typed
     for key, typed in {"contact.boundary_film": "2", **_OF_SPOTS}.items():
         type_into(page, key, typed)
     page.get_by_test_id("solve-state").filter(has_text="earlier inputs").wait_for()
-    found = assert_touching(page, tmp_path, nanometres=2.0)["asperities"]
-    assert found["behaviour"] in page.get_by_test_id("number-spots-behaviour").inner_text()
-    assert shown(page, "spots-spots") == found["spots"]
-    assert shown(page, "spots-contact-area") == pytest.approx(1e6 * found["contact_area"], rel=0.05)
-    assert shown(page, "spots-friction") == pytest.approx(found["boundary_friction"], rel=0.05)
-    assert shown(page, "spots-breakdown-5") == pytest.approx(found["breakdown_5"], rel=0.05)
-    assert "Ω" in page.get_by_test_id("number-spots-spot-resistance").inner_text()
+    found = assert_touching(page, tmp_path, micrometres=0.002)["asperities"]
+    assert found["behaviour"] in page.get_by_test_id("number-spots-asperities.behaviour").inner_text()
+    assert shown(page, "spots-asperities.spots") == found["spots"]
+    assert shown(page, "spots-asperities.contact_area") == pytest.approx(
+        1e6 * found["contact_area"], rel=0.05
+    )
+    assert shown(page, "spots-asperities.boundary_friction") == pytest.approx(
+        found["boundary_friction"], rel=0.05
+    )
+    assert shown(page, "spots-asperities.breakdown_5") == pytest.approx(found["breakdown_5"], rel=0.05)
+    assert "Ω" in page.get_by_test_id("number-spots-asperities.resistance").inner_text()
     assert fits(page)
 
 
-def assert_touching(page, folder, *, nanometres):
+def assert_touching(page, folder, *, micrometres):
     """Solve, compare the films of surfaces that touch with those of the command, and return its summary."""
     solve(page)
-    assert shown(page, "minimum-film") == pytest.approx(nanometres, rel=1e-3)
-    assert "boundary film" in page.get_by_test_id("number-minimum-film").inner_text()
+    assert shown(page, "film.minimum_thickness") == pytest.approx(micrometres, rel=1e-3)
+    assert "boundary film" in page.get_by_test_id("number-film.minimum_thickness").inner_text()
     legend = page.get_by_test_id("figure-profiles").locator(".legendtext")
     legend.filter(has_text="surfaces touch").wait_for()
     legend.filter(has_text="pressure of asperities").wait_for()
     summary = summary_by_command("run", downloaded(page, "download-toml", folder), folder)
-    in_nanometres = "nm" in page.get_by_test_id("number-central-film").inner_text()
-    mean = (1e9 if in_nanometres else 1e6) * summary["film"]["mean_thickness"]
-    assert shown(page, "central-film") == pytest.approx(mean, rel=1e-3)
+    mean = 1e6 * summary["film"]["mean_thickness"]
+    assert shown(page, "film.mean_thickness") == pytest.approx(mean, rel=1e-3)
     return summary
 
 
@@ -336,7 +341,7 @@ def test_a_movie_is_computed_and_its_slider_goes_through_time(open_page, app_ser
 def test_a_movie_is_cancelled_with_its_process(own_server, open_page):
     server = own_server()
     page = open_page(server, address_of("/contact", example("moving_roughness")))
-    page.get_by_test_id("number-formula-minimum-film").wait_for()
+    page.get_by_test_id("number-formula-film_formulas.pan_hamrock.minimum_thickness").wait_for()
     before = set(server.started())
     page.get_by_test_id("solve-motion").click()
     motion = page.get_by_test_id("motion")

@@ -7,10 +7,8 @@ breaks down at a lower voltage.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from ehlectric.quantities.quantity import Bound, Keys
-from ehlectric.quantities.rows import Summary
+from ehlectric.quantities.rows import Summary, value_at
 
 
 def left_out(summary: Summary) -> tuple[str, ...]:
@@ -45,21 +43,14 @@ def bound_words(summary: Summary) -> str:
 def contact_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
     """Bounds of the numbers of a contact, by dotted key.
 
-    Where surfaces touch, field and breakdown voltage are those of the boundary film. The field is then given
-    by its thickness; the voltage is an upper bound, as metal may conduct at any voltage. The resistance of
-    spots that are ridges is an upper bound in any film.
+    Where surfaces touch, the maximum field is that of the boundary film, which its thickness gives. The
+    resistance of spots that are ridges is an upper bound in any film.
     """
-    touching = "asperities" in summary
-    always = {"asperities.resistance"} | ({"discharge.breakdown_voltage"} if touching else set())
-    never = {"field.max_strength"} if touching else set()
+    always = {"asperities.resistance"}
+    never = {"field.max_strength"} if value_at(summary, "asperities.spots") else set()
     ideal = bool(left_out(summary))
     return {
         key: about.bound
         for key, about in book.items()
         if about.bound and key not in never and (ideal or key in always)
     }
-
-
-def bounded(book: Keys, keys: Mapping[str, bool]) -> dict[str, Bound]:
-    """Bounds of the book of those keys that hold."""
-    return {key: book[key].bound for key, holds in keys.items() if holds}

@@ -568,7 +568,7 @@ _LINE_FIELD: Keys = {
         "width of the high-field zone",
     ),
     "capacitance_per_length": Quantity(
-        "capacitance of the field range", "F/m", "capacitance per length of the field range"
+        "capacitance of the field range", "F/m", "capacitance per length, field range"
     ),
 }
 _POINT_FIELD: Keys = {
@@ -589,7 +589,7 @@ _POINT_FIELD: Keys = {
     "capacitance": Quantity(
         "capacitance of the field range, from the field energy",
         "F",
-        "capacitance of the field range",
+        "capacitance, field range",
         "$C$",
     ),
     "capacitance_by_charge": Quantity("capacitance of the field range, from the charge of surface 2", "F"),

@@ -43,7 +43,8 @@ def case_rows(case: Case, summary: Summary) -> list[Row]:
     ``summary`` is that of ``contact.summary.case_summary``.
     """
     words = _WORDS | Words(
-        values={"grid.film": lambda _: _grid(case)}, notes={"inputs.grid.side": lambda _: "semi-axes a"}
+        values={"grid.film": lambda _: _grid(case), "field.voltage": lambda _: case.electric.voltage},
+        notes={"inputs.grid.side": lambda _: "semi-axes a"},
     )
     return list(sheet_rows(CHECK, CONTACT_BOOK[_geometry(summary)], summary, words))
 
@@ -51,7 +52,8 @@ def case_rows(case: Case, summary: Summary) -> list[Row]:
 def condition_rows(case: Case, conditions: Conditions | PointConditions) -> Iterator[Row]:
     """Rows of the operating conditions of a case, which decide film and field."""
     summary = case_summary(case, conditions)
-    return sheet_rows(CHECK[:1], CONTACT_BOOK[conditions.geometry], summary, _WORDS)
+    words = _WORDS | Words(values={"field.voltage": lambda _: case.electric.voltage})
+    return sheet_rows(CHECK[:1], CONTACT_BOOK[conditions.geometry], summary, words)
 
 
 def result_rows(result: Result | PointResult) -> list[Row]:
@@ -95,7 +97,7 @@ def _geometry(summary: Summary) -> str:
 
 
 def _touches(summary: Summary) -> bool:
-    return "asperities" in summary
+    return bool(value_at(summary, "asperities.spots"))
 
 
 # Of a film whose surfaces touch, not shown: what would be the breakdown of the boundary film, and errors of a
@@ -105,10 +107,13 @@ _OF_FLOATING = frozenset(
     for table, names in (
         ("field", ("max_strength_error", "max_dimensionless", "thin_gap_error")),
         ("discharge", ("zone_position", "zone_size", "breakdown_energy", "dielectric_strength", "margin")),
-        ("discharge", ("breakdown_field_error", "breakdown_range", "probability")),
+        ("discharge", ("breakdown_voltage", "breakdown_field_error", "breakdown_range", "probability")),
     )
     for name in names
 )
+
+# Not shown where the surfaces do not touch.
+_OF_SPOTS = frozenset(key for section in CONTACT for key in section.keys if key.startswith("asperities."))
 
 # Not shown where no film is left around the spots.
 _AROUND_SPOTS = frozenset(
@@ -119,7 +124,7 @@ _AROUND_SPOTS = frozenset(
 
 def _hidden(summary: Summary) -> frozenset[str]:
     if not _touches(summary):
-        return frozenset()
+        return _OF_SPOTS
     return _OF_FLOATING | (_AROUND_SPOTS if summary["asperities"]["film_5"] is None else frozenset())
 
 
@@ -140,12 +145,6 @@ def _grid(case: Case) -> str | tuple[str, str]:
     if case.contact.geometry == "line":
         return str(case.grid.nodes), "nodes"
     return f"{case.first_grid.nodes_along} x {case.first_grid.nodes_across}", "nodes"
-
-
-def _voltage(summary: Summary) -> float:
-    """Voltage across the film [V]; before a solution that of the case."""
-    field = summary.get("field")
-    return float(field["voltage"]) if field else float(summary["inputs"]["electric"]["voltage"])
 
 
 def _speeds(summary: Summary) -> str:
@@ -288,7 +287,9 @@ def _coarser_share(summary: Summary) -> str:
     before = found["load_share_coarser"]
     if before is None:
         return ", not known on a coarser grid"
-    return f", {share_text(before, found['load_share'])} % on half the nodes"
+    error = formatted(100.0 * abs(found["load_share"] - before), ".2g")
+    half = share_text(before, found["load_share"])
+    return f", ± {error} percentage points by the grid: {half} % on half the nodes"
 
 
 def _area_error(summary: Summary) -> str:
@@ -339,7 +340,8 @@ def _rough_columns(summary: Summary) -> Any:
 
 def _field_place(summary: Summary) -> str:
     wall = f", {summary['field']['max_strength_wall']}" if "roughness" in summary else ""
-    return f" at {_place(summary, 'field.max_strength_position')}{_in_spot(summary)}{wall}"
+    place = f" at {_place(summary, 'field.max_strength_position')}{_in_spot(summary)}{wall}"
+    return f"{place}, with {summary['field']['voltage']:.4g} V across the film"
 
 
 def _strength(summary: Summary) -> Any:
@@ -362,8 +364,6 @@ def _strength_note(summary: Summary) -> str:
 def _breakdown_note(summary: Summary) -> str:
     strength = summary["discharge"]["dielectric_strength"]
     condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
-    if _touches(summary):
-        return ", in the boundary film; metal may conduct there at any voltage"
     return "; ".join(filter(None, [f", at {condition}", bound_words(summary)]))
 
 
@@ -520,7 +520,6 @@ _WORDS = Words(
         "formula_error": lambda s: ", formulas are of smooth ones" if _touches(s) else "",
     },
     values={
-        "field.voltage": _voltage,
         "hertz.axis_ratio": _axis_ratio,
         "film.film_ratio": _known("film.film_ratio", only="oil_layer"),
         "film.flooded.minimum_thickness": _known("film.flooded.minimum_thickness", only="oil_layer"),
@@ -532,6 +531,7 @@ _WORDS = Words(
         "film.isothermal.minimum_thickness": _solved_heat("film.isothermal.minimum_thickness"),
         "film.isothermal.central_thickness": _solved_heat("film.isothermal.central_thickness"),
         "film.traction_coefficient": _solved_heat("film.traction_coefficient"),
+        "field.max_strength_error": _known("field.max_strength_error", only="residual"),
         "asperities.load_share": _load_share,
         "asperities.spots": lambda s: str(s["asperities"]["spots"]) if _touches(s) else None,
         "asperities.mass_error": _oil_error,

@@ -151,7 +151,7 @@ def test_contacts_are_compared_by_formula(tmp_path):
     alone = check_contact(case.table, str(tmp_path))
     both = side(case.table)
     assert (both.level, both.text) == (alone.level, alone.text)
-    broken = {row.name: row for row in both.results}["breakdown voltage"]
+    broken = {row.name: row for row in both.results}["breakdown voltage by formula"]
     assert broken.main
     assert (broken.group, broken.bound) == ("breakdown", "≤")
     assert broken.value == alone.summary["breakdown_by_formula"]["breakdown_voltage"]

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from ehlectric import Case
-from ehlectric.app.answers.contact_told import CONTACT_PLACES
+from ehlectric.app.compute.cards import concerned
 from ehlectric.app.compute.contact import (
     check_contact,
     contact_case,
@@ -62,11 +62,11 @@ def test_answer_at_once_is_that_of_the_check(name, quick, tmp_path):
     expected = check(Case.from_toml(EXAMPLES / f"{name}.toml"))
     assert answer.summary == expected.summary
     assert [(row.name, row.text) for row in answer.rows] == [(row.name, row.text) for row in expected.rows]
-    assert float(number(answer, "hertz-pressure").text) == pytest.approx(
+    assert float(number(answer, "hertz.max_pressure").text) == pytest.approx(
         expected.summary["hertz"]["max_pressure"] / 1e9, rel=1e-3
     )
     assert answer.quick == quick
-    assert "by formula" in number(answer, "minimum-film").note
+    assert any("(Pan-Hamrock)" in one.label or "(Chittenden" in one.label for one in answer.numbers)
 
 
 def test_verdict_by_formula_has_the_error_of_the_formula(tmp_path):
@@ -98,10 +98,10 @@ def test_solved_answer_is_that_of_the_command(name, tmp_path):
     film, field = outcome.summary["film"], outcome.summary["field"]
     capacitance = ("capacitance_per_length", "F/m") if name == "line_contact" else ("capacitance", "F")
     shown = {
-        "minimum-film": (film["minimum_thickness"], "m"),
-        "max-pressure": (film["max_pressure"], "Pa"),
-        "max-field": (field["max_strength"], "V/m"),
-        "capacitance": (field[capacitance[0]], capacitance[1]),
+        "film.minimum_thickness": (film["minimum_thickness"], "m"),
+        "film.max_pressure": (film["max_pressure"], "Pa"),
+        "field.max_strength": (field["max_strength"], "V/m"),
+        f"field.{capacitance[0]}": (field[capacitance[0]], capacitance[1]),
     }
     for key, (value, unit) in shown.items():
         one = number(view, key)
@@ -124,7 +124,7 @@ def test_answer_without_files_is_that_with_files(tmp_path):
 def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(tmp_path):
     strong = table_of("discharge", discharge={"dielectric_strength": "90 V/um"})
     view = solve_at_once(strong, str(tmp_path))
-    assert number(view, "breakdown-voltage").bound == "≤"
+    assert number(view, "discharge.breakdown_voltage").bound == "≤"
     solve_contact(strong, str(tmp_path), str(tmp_path / "result"), silent)
     verdict = load(tmp_path / "result").verdict
     assert (view.level, view.text) == (verdict.level, verdict.text)
@@ -135,7 +135,7 @@ def test_bound_of_a_solved_contact_is_told_and_its_level_is_that_of_the_command(
 
 def test_breakdown_voltage_by_formula_is_an_upper_bound(tmp_path):
     answer = check_contact(table_of("discharge"), str(tmp_path))
-    assert number(answer, "breakdown-voltage").bound == "≤"
+    assert number(answer, "breakdown_by_formula.breakdown_voltage").bound == "≤"
     assert "Upper bound" in answer.text
 
 
@@ -159,11 +159,7 @@ def test_contact_without_a_strength_is_told_to_give_one(tmp_path):
     view = solve_at_once(table_of("line_contact", grid={"nodes": 401}), str(tmp_path))
     assert "dielectric strength" in view.text
     # The examples have potentials of -1 V and 1 V.
-    assert "2 V" in number(view, "max-field").note
-
-
-def test_every_code_of_a_warning_has_a_place_on_the_contact_page():
-    assert set(CONTACT_PLACES) == set(CODES)
+    assert "2 V" in number(view, "field.max_strength").note
 
 
 def solved_coarsely(tmp_path):
@@ -178,18 +174,24 @@ def test_severe_warning_stands_beside_every_number_that_it_forbids(tmp_path):
     assert (view.level, "must not be used" in view.text) == ("grey", True)
     assert len(view.numbers) == 6
     for one in view.numbers:
-        assert "severe" in [told.severity for told in one.warnings], one.key
-    severe = {code for code, cause in CODES.items() if cause.severity == "severe"}
-    assert {CONTACT_PLACES[code] for code in severe} == {tuple(one.key for one in view.numbers)}
+        assert "severe" in [told.severity for told in one.told], one.key
+    severe = [set(cause.concerns) for cause in CODES.values() if cause.severity == "severe"]
+    shown = {one.key for one in view.numbers}
+    assert severe
+    assert all(shown <= keys for keys in severe)
 
 
 @pytest.mark.slow
-def test_places_of_warnings_are_numbers_of_a_contact(tmp_path):
-    shown = {one.key for one in solved_coarsely(tmp_path).numbers}
-    shown |= {one.key for one in check_contact(table_of("ball_contact"), str(tmp_path)).numbers}
-    shown |= {one.key for one in view_of(solve(touching_case("line"))).spots}
-    shown |= {one.key for one in view_of(solve(Case.from_dict(HOT_LINE))).numbers}
-    assert {name for names in CONTACT_PLACES.values() for name in names} <= shown
+def test_quantities_that_warnings_concern_are_numbers_of_a_contact(tmp_path):
+    numbers = [
+        *solved_coarsely(tmp_path).numbers,
+        *check_contact(table_of("ball_contact"), str(tmp_path)).numbers,
+        *view_of(solve(touching_case("line"))).spots,
+        *view_of(solve(Case.from_dict(HOT_LINE))).numbers,
+    ]
+    tables = ("hertz.", "film.", "field.", "asperities.", "discharge.")
+    named = {key for cause in CODES.values() for key in cause.concerns if key.startswith(tables)}
+    assert named <= {concerned(one.key) for one in numbers}
 
 
 @pytest.mark.slow
@@ -200,7 +202,7 @@ def test_contact_with_which_the_page_begins_has_no_warning(geometry, tmp_path):
     else:
         inputs = contact_start(geometry)
     view = solve_at_once(dict(inputs.table), str(tmp_path))
-    told = [*view.warnings, *(one for shown in view.numbers for one in shown.warnings)]
+    told = [*view.warnings, *(one for shown in view.numbers for one in shown.told)]
     assert [one.code for one in told if one.severity != "note"] == []
     assert view.level != "grey"
 
@@ -233,25 +235,25 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
     view, summary = view_of(result), result.summary()["asperities"]
     size, per = ("µm", 1e6) if geometry == "line" else ("µm²", 1e12)
     capacitance = ("nF/m", 1e9) if geometry == "line" else ("pF", 1e12)
-    assert spot(view, "behaviour").text == summary["behaviour"]
-    assert spot(view, "spots").text == str(summary["spots"])
+    assert spot(view, "asperities.behaviour").text == summary["behaviour"]
+    assert spot(view, "asperities.spots").text == str(summary["spots"])
     for key, name, unit, factor in (
-        ("contact-area", "contact_area", size, per),
-        ("friction", "boundary_friction", "", 1.0),
-        ("capacitance-outside", "capacitance_outside", *capacitance),
-        ("breakdown-1", "breakdown_1", "V", 1.0),
-        ("breakdown-5", "breakdown_5", "V", 1.0),
-        ("breakdown-50", "breakdown_50", "V", 1.0),
+        ("asperities.contact_area", "contact_area", size, per),
+        ("asperities.boundary_friction", "boundary_friction", "", 1.0),
+        ("asperities.capacitance_outside", "capacitance_outside", *capacitance),
+        ("asperities.breakdown_1", "breakdown_1", "V", 1.0),
+        ("asperities.breakdown_5", "breakdown_5", "V", 1.0),
+        ("asperities.breakdown_50", "breakdown_50", "V", 1.0),
     ):
         shown = spot(view, key)
         assert (shown.unit, float(shown.text)) == (unit, pytest.approx(factor * summary[name], rel=0.05)), key
     # The load share has the digits that the grid leaves, and its change beside it.
     share, before = summary["load_share"], summary["load_share_coarser"]
-    shown = spot(view, "load-share")
+    shown = spot(view, "asperities.load_share")
     assert float(shown.text) == pytest.approx(100.0 * share, abs=max(100.0 * abs(share - before), 0.1))
     assert f"{100.0 * abs(share - before):.2g} " in shown.note
     prefixes = {"Ω": 1.0, "mΩ": 1e-3, "µΩ": 1e-6, "kΩ": 1e3}
-    shown = spot(view, "spot-resistance")
+    shown = spot(view, "asperities.resistance")
     assert float(shown.text) * prefixes[shown.unit] == pytest.approx(summary["resistance"], rel=0.05)
     assert shown.bound == ("≤" if geometry == "line" else "")
 
@@ -260,7 +262,7 @@ def test_numbers_of_surfaces_that_touch_are_those_of_the_summary(geometry):
 def test_resistance_of_spots_says_what_it_needs():
     metal = {"resistivity": "2.2e-7 ohm m"}
     for given, told in (({}, "resistivity"), (metal, "length of the contact")):
-        shown = spot(view_of(solve(touching_case("line", electric=given))), "spot-resistance")
+        shown = spot(view_of(solve(touching_case("line", electric=given))), "asperities.resistance")
         assert (shown.text, told in shown.note) == ("not known", True)
 
 
@@ -269,9 +271,9 @@ def test_breakdown_around_spots_by_a_weibull_law():
     law = {"scale": "15 V/um", "shape": 8.0, "reference_area": "1e-8 m^2"}
     result = solve(touching_case("point", discharge={"weibull": law}, electric={"potential_2": "1 V"}))
     view, summary = view_of(result), result.summary()["asperities"]
-    shown = spot(view, "breakdown-outside")
+    shown = spot(view, "asperities.breakdown_voltage")
     assert float(shown.text) == pytest.approx(summary["breakdown_voltage"], rel=0.05)
-    shown = spot(view, "breakdown-probability")
+    shown = spot(view, "asperities.breakdown_probability")
     assert float(shown.text) == pytest.approx(100.0 * summary["breakdown_probability"], rel=0.05)
 
 
@@ -317,10 +319,10 @@ def test_length_of_a_line_contact_is_left_when_it_becomes_a_point():
 def test_warning_about_the_domain_stands_beside_the_films(tmp_path):
     table = table_of("ball_contact", grid={"nodes": 129, "inlet": -2.5, "side": 2.0})
     view = solve_at_once(table, str(tmp_path))
-    codes = {one.key: [told.code for told in one.warnings] for one in view.numbers}
+    codes = {one.key: [told.code for told in one.told] for one in view.numbers}
     (code,) = {code for found in codes.values() for code in found if code.startswith("domain-")}
-    assert code in codes["minimum-film"]
-    assert code in codes["central-film"]
+    assert code in codes["film.minimum_thickness"]
+    assert code in codes["film.central_thickness"]
     assert code not in [told.code for told in view.warnings]
 
 

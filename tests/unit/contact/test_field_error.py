@@ -54,8 +54,8 @@ def test_the_error_is_saved_and_is_unknown_in_files_without_it(result, tmp_path)
 def test_the_table_has_the_error_and_its_share_of_the_breakdown_voltage(result):
     rows = {row.name: row for row in result_rows(with_error(result, 0.031))}
     assert rows["error of the maximum field"].value == 0.031
-    assert rows["breakdown voltage, error by the field"].value == 0.031
-    assert "breakdown voltage, error by the field" not in {row.name for row in result_rows(result)}
+    assert rows["error of the breakdown voltage, field"].value == 0.031
+    assert "error of the breakdown voltage, field" not in {row.name for row in result_rows(result)}
 
 
 def test_an_error_above_two_percent_is_a_warning(result):

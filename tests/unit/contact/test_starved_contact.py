@@ -97,7 +97,7 @@ def test_result_is_saved_and_loaded(starved, tmp_path):
 def test_table_and_verdict(starved):
     names = [row.name for row in result_rows(starved)]
     assert "layer of oil before the contact" in names
-    assert "minimum film if flooded" in names
+    assert "minimum film thickness, flooded" in names
     assert "flooded" not in starved.verdict.text
 
 
@@ -149,7 +149,7 @@ def test_a_flooded_film_that_did_not_converge_has_no_part():
     assert film["film_ratio"] is None
     assert film["flooded"] == {"minimum_thickness": None, "central_thickness": None}
     rows = {row.name: row.value for row in result_rows(layer)}
-    assert rows["central film / flooded central film"] == "unknown"
+    assert rows["starved / flooded central film"] == "unknown"
 
 
 def test_the_whole_flooded_film_has_the_layer_that_passes(flooded):

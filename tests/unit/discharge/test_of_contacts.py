@@ -289,34 +289,34 @@ def test_summary_and_files(solved, kind, discharge, tmp_path):
 def test_rows_of_the_table(solved):
     line_rows = rows(result_rows(solved("line", ALL)))
     found = solved("line", ALL).discharge
-    breakdown, unit = line_rows["breakdown voltage"]
+    breakdown, unit = line_rows["discharge.breakdown_voltage"]
     assert (breakdown, unit[:2]) == (f"{found.breakdown_voltage:.4g}", "V,")
     assert "63.2 %" in unit
-    whole, unit = line_rows["capacitance of the whole film"]
+    whole, unit = line_rows["discharge.capacitance"]
     assert (whole, unit[:5]) == (f"{found.capacitance * 1e9:.4g}", "nF/m,")
-    assert line_rows["energy of a discharge"] == (f"{found.discharge_energy * 1e9:.4g}", "nJ")
-    diameter, unit = line_rows["diameter of the pit it melts"]
+    assert line_rows["discharge.discharge_energy"] == (f"{found.discharge_energy * 1e9:.4g}", "nJ")
+    diameter, unit = line_rows["discharge.pit_diameter"]
     assert (diameter, unit[:2]) == (f"{found.pit_diameter * 1e6:.4g}", "µm")
     assert "assumption" in unit
-    limits = line_rows["current density"][1]
+    limits = line_rows["discharge.current_density"][1]
     assert (limits[:5], limits[-13:]) == ("A/mm²", "0.1, 0.3, 0.8")
-    assert float(line_rows["charge relaxation time of the oil"][0]) == pytest.approx(
+    assert float(line_rows["discharge.relaxation_time"][0]) == pytest.approx(
         21.25, abs=0.06
     )  # 8.854 pF/m 2.4
     constant = rows(result_rows(solved("point", LAWS["constant"])))
-    assert constant["breakdown voltage"][1].endswith("15 V/µm")
-    assert constant["capacitance of the whole film"][1].startswith("pF, a domain twice as large would add")
-    assert constant["capacitance of the sides"][1] == "pF"
-    assert "charge relaxation time of the oil" not in constant
-    assert "energy of a discharge" not in constant
+    assert ", at 15 V/µm" in constant["discharge.breakdown_voltage"][1]
+    assert constant["discharge.capacitance"][1].startswith("pF, a domain twice as large would add")
+    assert constant["discharge.capacitance_sides"][1] == "pF"
+    assert "discharge.relaxation_time" not in constant
+    assert "discharge.discharge_energy" not in constant
     bare = rows(result_rows(solved("line", {})))
-    assert "breakdown voltage" not in bare
-    assert bare["dielectric strength"][0] == "not given"
+    assert "discharge.breakdown_voltage" not in bare
+    assert bare["discharge.dielectric_strength"][0] == "not given"
 
 
 def rows(table):
-    """Value, and unit with note, of each row of a table as a terminal shows them, by its name."""
-    return {row.name.strip(): (row.shown, row.unit + row.note) for row in table}
+    """Value, and unit with note, of each row of a table as a terminal shows them, by its key."""
+    return {row.key: (row.shown, row.unit + row.note) for row in table}
 
 
 def test_valleys_behind_a_rough_exit_are_filled_by_the_oil_that_leaves_it():

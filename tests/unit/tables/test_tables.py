@@ -9,6 +9,7 @@ import pytest
 from ehlectric.cases.case import Case
 from ehlectric.contact.resolve import resolve
 from ehlectric.contact.solver import solve
+from ehlectric.contact.summary import case_summary
 from ehlectric.motion.contact import TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
@@ -36,7 +37,7 @@ def line(*, contact=None, **tables):
 
 
 def rows_of_a_case(case):
-    return case_rows(case, resolve(case))
+    return case_rows(case, case_summary(case, resolve(case)))
 
 
 def texts(rows):
@@ -102,17 +103,17 @@ def test_a_radius_of_metres_is_seen():
 def test_speeds_of_both_surfaces_are_those_of_the_case():
     speeds = {"entrainment_speed": None, "speed_1": 3.0, "speed_2": 2.0}
     case = line(contact=speeds)
-    named = texts(condition_rows(resolve(case), 2.0, case.oil))
+    named = texts(condition_rows(case, resolve(case)))
     assert named["entrainment speed"] == "2.5 m/s"
     assert named["slide-to-roll ratio"] == "0.4, surfaces at 3 and 2 m/s"
-    rolling = texts(condition_rows(resolve(line()), 2.0, line().oil))
+    rolling = texts(condition_rows(line(), resolve(line())))
     assert rolling["slide-to-roll ratio"] == "0, pure rolling"
     assert "temperature of the oil" not in rolling
 
 
 def test_temperature_and_name_of_the_oil_stand_before_its_viscosity():
     case = line(contact={"temperature": 313.15}, lubricant={"base": "fva-3"})
-    named = texts(condition_rows(resolve(case), 2.0, case.oil))
+    named = texts(condition_rows(case, resolve(case)))
     assert named["temperature of the oil"] == "40 °C, fva-3"
     assert named["viscosity at ambient pressure"] == "84.54 mPa s"
 
@@ -137,7 +138,7 @@ def test_formulas_are_not_compared_with_a_boundary_film(geometry):
     result = solved(geometry)
     named = texts(result_rows(result))
     assert not any("vs. solved film" in text for text in named.values())
-    assert "surfaces touch" in named["difference from the solved film"]
+    assert "surfaces touch" in named["usual difference from a solved film"]
     assert "boundary film" in named["lambda ratio"]
     name = "pan_hamrock" if geometry == "line" else "chittenden"
     least = {"line": "minimum film (Pan-Hamrock)", "point": "minimum film (Chittenden et al.)"}[geometry]

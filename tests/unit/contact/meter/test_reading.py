@@ -203,8 +203,8 @@ def test_file_figure_and_table(results, kind, tmp_path):
     stored = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["meter"]
     assert stored == result.meter.summary()
     assert load(tmp_path / "result.nc").meter == result.meter
-    rows = {row.name: row for row in result_rows(result)}
-    assert rows["capacitance that the meter reads"].value == result.meter.capacitance
+    rows = {row.key: row for row in result_rows(result)}
+    assert rows["meter.capacitance"].value == result.meter.capacitance
     title = figure(result, "meter.png")
     assert "distance from the contact" in title.axes[0].get_xlabel()
 

@@ -120,15 +120,15 @@ def test_what_is_told(geometry):
     assert not {"grid-too-coarse", "grid-far-too-coarse", "field-above-insulators"} & set(codes)
     assert result.film_error is None
     assert result.summary()["film"]["discretisation_error"] is None
-    rows = {row.name: row for row in result_rows(result)}
-    assert rows["electrical behaviour"].value == result.asperities.electrical.behaviour
-    assert rows["minimum film thickness h_min"].text.endswith("in the boundary film")
-    assert "in the boundary film" in rows["maximum field"].text
-    assert "error of the maximum field" not in rows
-    assert "maximum field / parallel-plate field" not in rows
+    rows = {row.key: row for row in result_rows(result)}
+    assert rows["asperities.behaviour"].value == result.asperities.electrical.behaviour
+    assert rows["film.minimum_thickness"].text.endswith("in the boundary film")
+    assert "in the boundary film" in rows["field.max_strength"].text
+    assert "field.max_strength_error" not in rows
+    assert "field.max_dimensionless" not in rows
     spots = result.asperities.spots.number
     assert f"{spots} spots touch, {result.asperities.electrical.behaviour}" in repr(result)
-    assert "where surfaces touch" in rows["discretisation error of the film"].text
+    assert "where surfaces touch" in rows["film.discretisation_error"].text
 
 
 @pytest.mark.slow
@@ -201,9 +201,9 @@ def test_verdict_speaks_of_the_spots():
     # The heading of the traffic light says the same.
     lead = {"resistive": "The spots conduct", "mixed": "Discharges expected"}[found.electrical.behaviour]
     assert light_of(verdict.level, verdict.text).words == lead
-    rows = {row.name: row for row in result_rows(result)}
-    assert "breakdown voltage" not in rows
-    assert rows["breakdown voltage outside of the spots"].value == found.electrical.breakdown_5
+    rows = {row.key: row for row in result_rows(result)}
+    assert "discharge.breakdown_voltage" not in rows
+    assert rows["asperities.breakdown_5"].value == found.electrical.breakdown_5
     assert f"{found.electrical.breakdown_5:.2g} V" in finding(result, names.BREAKDOWN_FIGURE)
     assert "breakdown-expected" not in [warning.code for warning in result.warnings]
 
