@@ -34,6 +34,14 @@ def smooth():
     return address_of("/contact", example("rough_contact", roughness=None, grid__nodes=801))
 
 
+# Film by formula of the present inputs.
+_FORMULA = (
+    "[data-testid=by-formula]:not(.old) "
+    "[data-testid='number-formula-film_formulas.pan_hamrock.minimum_thickness']"
+)
+_FILM = "film.minimum_thickness"
+
+
 def shown(page, name):
     """First number that a card of the page shows; the name of its quantity has no digits."""
     text = page.get_by_test_id(f"number-{name}").inner_text()
@@ -42,9 +50,7 @@ def shown(page, name):
 
 def solve(page):
     """Solve the present inputs, once they have been checked: then the page knows how long it takes."""
-    page.locator(
-        "[data-testid=by-formula]:not(.old) [data-testid='number-formula-film_formulas.pan_hamrock.minimum_thickness']"
-    ).wait_for()
+    page.locator(_FORMULA).wait_for()
     page.get_by_test_id("solve").click()
     wait_until_solved(page)
 
@@ -72,7 +78,8 @@ def test_a_line_contact_is_drawn_with_the_numbers_of_the_command(open_page, app_
     before = page.get_by_test_id("number-film.minimum_thickness").inner_text()
     type_into(page, "contact.entrainment_speed", "2 m/s")
     page.wait_for_function(
-        """before => document.querySelector('[data-testid="number-film.minimum_thickness"]').innerText !== before""",
+        """before =>
+            document.querySelector('[data-testid="number-film.minimum_thickness"]').innerText !== before""",
         arg=before,
     )
     wait_until_solved(page)
@@ -105,9 +112,7 @@ def test_changing_between_line_and_point_asks_the_command_for_each(open_page, ap
     for name, load in (("Point contact", "load"), ("Line contact", "load_per_length")):
         page.get_by_test_id("geometry").get_by_text(name).click()
         page.get_by_test_id(f"field-contact-{load}").wait_for()
-        page.locator(
-            "[data-testid=by-formula]:not(.old) [data-testid='number-formula-film_formulas.pan_hamrock.minimum_thickness']"
-        ).wait_for()
+        page.locator(_FORMULA).wait_for()
         path = downloaded(page, "download-toml", tmp_path)
         checked = json.loads(command("check", path, "--json", folder=tmp_path)[0])
         assert shown(page, "formula-hertz.max_pressure") == pytest.approx(

@@ -784,7 +784,7 @@ _CONDITIONS: Keys = {
         "reduced radius", "m", "reduced radius across entrainment", shown="prefixed"
     ),
     "inputs.contact.reduced_radius": Quantity("reduced radius", "m", "reduced radius", shown="prefixed"),
-    "inputs.contact.reduced_modulus": Quantity("reduced modulus E'", "Pa", "reduced elastic modulus E'"),
+    "inputs.contact.reduced_modulus": Quantity("reduced modulus E'", "Pa", "reduced modulus"),
 }
 # Everything that outputs of a contact show, by its geometry.
 CONTACT_BOOK: dict[str, Keys] = {

@@ -78,7 +78,7 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "MJ/m³/K": ("J/m**3/K", 1e-6),
         "K": ("K", 1.0),
         "°C": ("K", 1.0),
-        "Nm": ("N*m", 1.0),
+        "N m": ("N*m", 1.0),
     }
     | {
         f"{prefix}{name}": (unit, 1.0 / size)

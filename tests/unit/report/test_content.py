@@ -57,8 +57,8 @@ def cells(report, section):
 def test_numbers_are_those_of_the_summary(report, folder):
     summary = json.loads((folder / "summary.json").read_text())
     found = cells(report, "Key numbers")
-    assert found["minimum film thickness h_min"][1] == f"{summary['film']['minimum_thickness'] * 1e6:.4g}"
-    assert found["maximum field"][1] == f"≥\xa0{summary['field']['max_strength'] / 1e6:.4g}"
+    assert found["minimum film thickness"][1] == f"{summary['film']['minimum_thickness'] * 1e6:.4g}"
+    assert found["maximum field strength"][1] == f"≥\xa0{summary['field']['max_strength'] / 1e6:.4g}"
     breakdown = found["breakdown voltage"]
     assert breakdown[1:3] == (f"≤\xa0{summary['discharge']['breakdown_voltage']:.4g}", "V")
 

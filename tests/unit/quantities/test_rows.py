@@ -16,7 +16,7 @@ KEYS = {"film.minimum_thickness": Quantity("smallest film", "m")}
 ENTRY = ("minimum film", "film.minimum_thickness")
 
 
-@each("unit", [unit for unit in UNITS if unit not in ("", "%")])
+@each("unit", [unit for unit in UNITS if unit not in ("", "%", "°C")])
 def test_units_are_those_of_case_files(unit):
     si, factor = UNITS[unit]
     assert to_si(f"1 {unit}", si) * factor == pytest.approx(1.0, rel=1e-14)
@@ -31,15 +31,15 @@ def test_a_number_is_kept_in_si_and_shown_in_its_unit():
 
 
 def test_a_number_in_an_unknown_unit_is_refused():
-    with pytest.raises(ValueError, match=r"^'mW' is no unit of a row"):
-        Row("power", 1.0, "mW")
+    with pytest.raises(ValueError, match=r"^'eV' is no unit of a row"):
+        Row("power", 1.0, "eV")
     assert Row("position", "1, 2", "x/b").shown == "1, 2"
 
 
 def test_rows_of_a_summary():
     summary = {"film": {"minimum_thickness": 2e-7}}
     assert list(rows_of(KEYS, summary, [(*ENTRY, "µm", ", of all")])) == [
-        Row("minimum film", 2e-7, "µm", ", of all")
+        Row("minimum film", 2e-7, "µm", ", of all", key=ENTRY[1])
     ]
     assert list(rows_of(KEYS, {"film": {"minimum_thickness": None}}, [(*ENTRY, "µm")])) == []
     assert list(rows_of(KEYS, {"film": None}, [(*ENTRY, "µm")])) == []
@@ -85,7 +85,7 @@ def test_a_terminal_shows_names_values_and_headings():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["contact", "discharge", "bearing", "motion", "sweep", "sensitivity"])
+@pytest.mark.parametrize("kind", ["contact", "bearing", "motion", "sweep", "sensitivity"])
 def test_rows_are_made_without_a_terminal(kind):
     code = f"import sys, ehlectric.tables.{kind}; print('rich' in sys.modules, 'typer' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
