@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import reprlib
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Literal, Self
@@ -689,3 +689,31 @@ class ResultWarning:
     def severity(self) -> Severity:
         """Severity of the code: "note", "warning", or "severe" if the numbers must not be used."""
         return CODES[self.code].severity
+
+
+# Keys of summary.json, and attributes of files, with the texts of warnings and their codes.
+TEXTS, CODES_OF_TEXTS = "warnings", "warning_codes"
+
+
+def texts_and_codes(warnings: Iterable[ResultWarning]) -> dict[str, list[str]]:
+    """Entries of a summary for warnings: their texts and their codes, lists of equal length.
+
+    >>> texts_and_codes([ResultWarning("regime", "rigid-piezoviscous regime")])
+    {'warnings': ['rigid-piezoviscous regime'], 'warning_codes': ['regime']}
+    """
+    listed = tuple(warnings)
+    return {TEXTS: [str(one) for one in listed], CODES_OF_TEXTS: [one.code for one in listed]}
+
+
+def warnings_of(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:
+    """Warnings of a summary; raises a ValueError where there are more or fewer codes than texts.
+
+    A later version may give codes that this one does not know: they become "not-usable" where the text says
+    "do not use", else "unclassified".
+    """
+    pairs = zip(table.get(CODES_OF_TEXTS, ()), table.get(TEXTS, ()), strict=True)
+    return tuple(ResultWarning(code if code in CODES else _foreign(text), text) for code, text in pairs)
+
+
+def _foreign(text: str) -> str:
+    return "not-usable" if "do not use" in text else "unclassified"

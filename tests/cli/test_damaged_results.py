@@ -6,16 +6,16 @@ from contextlib import closing
 
 import pytest
 
-from ehlectric.runtime.checks.seal import seal
+from ehlectric.runtime.checks.seal import seal_of
 from tests.helpers.each import each
 from tests.helpers.places import ROOT
 
-EARLIER = ROOT / "tests" / "data" / "earlier"
+RELEASE = ROOT / "tests" / "data" / "releases" / "1.0.0"
 
 
 @pytest.fixture
 def folder(tmp_path):
-    shutil.copytree(EARLIER, tmp_path / "out")
+    shutil.copytree(RELEASE / "line", tmp_path / "out")
     return tmp_path / "out"
 
 
@@ -29,20 +29,18 @@ def refused(done):
 
 
 def test_plot_of_a_damaged_header(ehlectric, folder):
-    """A byte of the header, without a seal as in files of earlier versions and with one."""
-    (folder / "sweep.sqlite").unlink()
+    """A byte of the header, without a seal and with one."""
     path = folder / "result.nc"
-    content = bytearray(path.read_bytes())
+    content = bytearray(path.read_bytes()[: -len(seal_of([b""]))])
     content[96:104] = b"\xff" * 8
     path.write_bytes(content)
     assert "is damaged: HDF5 cannot read it" in refused(ehlectric("plot", "out"))
-    shutil.copy(EARLIER / "result.nc", path)
-    seal(path)
+    shutil.copy(RELEASE / "line" / "result.nc", path)
     content = bytearray(path.read_bytes())
     content[-5000] ^= 1
     path.write_bytes(content)
     assert "its bytes are not those that were written" in refused(ehlectric("plot", "out"))
-    assert sorted(one.suffix for one in folder.iterdir()) == [".json", ".md", ".nc"]
+    assert sorted(one.suffix for one in folder.iterdir()) == [".json", ".nc"]
 
 
 @each(
@@ -54,7 +52,7 @@ def test_plot_of_a_damaged_header(ehlectric, folder):
     ],
 )
 def test_commands_on_an_edited_sweep(statement, names, typed, tmp_path):
-    shutil.copy(EARLIER / "sweep.sqlite", tmp_path)
+    shutil.copy(RELEASE / "sweep" / "sweep.sqlite", tmp_path)
     with closing(sqlite3.connect(tmp_path / "sweep.sqlite")) as file, file:
         file.execute(statement)
     for words in (("map", ".", "--x", "grid.nodes"), ("sensitivity", "."), ("plot", ".")):

@@ -8,8 +8,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from ehlectric import Case
-from ehlectric.errors import ResultWarning
-from ehlectric.runtime.stored_warnings import texts_and_codes
+from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.sweep.results import Point, Range, SweepResults
 
 SPEED, LOAD, POTENTIAL = "contact.entrainment_speed", "contact.load_per_length", "electric.potential_2"

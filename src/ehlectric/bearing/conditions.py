@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -16,6 +16,7 @@ from ehlectric.discharge.utilisation import dielectric_strength
 from ehlectric.formulas import hertz_line as hertz
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.units import to_si
+from ehlectric.runtime.stored import stored
 
 # Geometry of the bearing: BallBearing or RollerBearing.
 G_co = TypeVar("G_co", bound=Geometry, covariant=True)
@@ -80,12 +81,12 @@ class ContactFriction:
         Estimated error of ``max_temperature_rise`` [K]; None if unknown.
     """
 
-    load: float
-    rolling_coefficient: float
-    power_loss: float
-    inlet_temperature_rise: float
-    max_temperature_rise: float
-    temperature_rise_error: float | None
+    load: float = field(metadata=stored(rule="positive"))
+    rolling_coefficient: float = field(metadata=stored())
+    power_loss: float = field(metadata=stored())
+    inlet_temperature_rise: float = field(metadata=stored())
+    max_temperature_rise: float = field(metadata=stored())
+    temperature_rise_error: float | None = field(metadata=stored(rule="finite or NaN", unknown=True))
 
 
 @dataclass(frozen=True)

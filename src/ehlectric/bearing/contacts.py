@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Generic, TypeVar
 
@@ -24,6 +24,7 @@ from ehlectric.cases.grid import Solver
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
 
 # Number of one contact, or array with a number for each contact.
@@ -56,18 +57,18 @@ class ContactValues(Values, Generic[N]):
         Part of ``inside`` over the Hertz area [F]; NaN of a result that does not have it.
     """
 
-    max_pressure: N
-    semi_axis_x: N
-    semi_axis_y: N
-    minimum_thickness: N
-    central_thickness: N
-    inside: N
-    outside_oil: N
-    outside_air: N
-    plate: N
-    strength_per_volt: N
-    breakdown_voltage: N
-    hertz: N
+    max_pressure: N = field(metadata=stored("", "Pa", "not negative"))
+    semi_axis_x: N = field(metadata=stored("", "m", "not negative"))
+    semi_axis_y: N = field(metadata=stored("", "m", "not negative"))
+    minimum_thickness: N = field(metadata=stored("", "m", "not negative"))
+    central_thickness: N = field(metadata=stored("", "m", "not negative"))
+    inside: N = field(metadata=stored("", "F", "not negative"))
+    outside_oil: N = field(metadata=stored("", "F", "not negative"))
+    outside_air: N = field(metadata=stored("", "F", "not negative"))
+    plate: N = field(metadata=stored("", "F", "not negative"))
+    strength_per_volt: N = field(metadata=stored("", "1/m", "not negative"))
+    breakdown_voltage: N = field(metadata=stored("", "V", "positive or infinite"))
+    hertz: N = field(metadata=stored("", "F", "not negative or NaN"))
 
     def columns(self) -> tuple[N, ...]:
         """All quantities, in the order of the attributes."""
@@ -98,13 +99,13 @@ class ContactSolution(Values):
         Warnings about the film and the field.
     """
 
-    load: float
+    load: float = field(metadata=stored("", "N", "increasing"))
     values: ContactValues[float]
-    error: float | None
-    moes_m: float
-    moes_l: float
-    mismatch: float
-    converged: bool
+    error: float | None = field(metadata=stored("", "", "not negative or NaN", unknown=True))
+    moes_m: float = field(metadata=stored("", "", "not negative"))
+    moes_l: float = field(metadata=stored("", "", "not negative"))
+    mismatch: float = field(metadata=stored("", "", "finite or NaN"))
+    converged: bool = field(metadata=stored("", "", "0 or 1"))
     warnings: tuple[ResultWarning, ...]
 
 

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult, contact_units
 from ehlectric.bearing.solver import check_bearing, solve_bearing
-from ehlectric.bearing.storage.dataset import SCHEMA, solution_of
+from ehlectric.bearing.stored import SCHEMA, solution_of
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.runtime.checks.formats import check_format
-from ehlectric.runtime.checks.schema import refusing
+from ehlectric.runtime.checks.schema import check_format, refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-from ehlectric.runtime.netcdf import content_of, load_library, read_dataset
+from ehlectric.runtime.netcdf import content_of, load_library
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.tables import column_head, csv_of
@@ -38,34 +37,10 @@ def run(
 ) -> RunOutcome[BearingResult]:
     """Solve a whole bearing, and write summary.json, contacts.csv, impedance.csv and bearing.nc.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Bearing to solve.
-    folder : str or Path
-        Folder of the files; it is made if it does not exist.
-    progress : callable, optional
-        Called with the number of contacts done, the number of all contacts, and what is being done.
-    workers : int, optional
-        Number of processes; by default as many as there are cores.
-    others : sequence of str, optional
-        Names of other files in the folder that belong to its result, such as figures. Those of an earlier
-        result are removed when the bearing is solved.
-    further : mapping of str to bytes or callable, optional
-        Content of further files by their names, which are written together with the others.
+    Files of an earlier result in the folder are removed when the bearing is solved, also the ``others``, such
+    as figures. The outcome has a ``failure`` where a contact is not converged; its files are written all the
+    same.
 
-    Returns
-    -------
-    RunOutcome
-        With a ``failure`` where a contact is not converged; its files are written all the same.
-
-    Raises
-    ------
-    InputError
-        Where the bearing cannot be solved, the folder cannot be used, or another command writes into it.
-
-    Examples
-    --------
     >>> from tempfile import TemporaryDirectory
     >>> duty = {"radial_load": "1 kN", "inner_speed": "3000 rpm", "temperature": "70 degC"}
     >>> case = BearingCase.from_dict(
@@ -99,28 +74,9 @@ def save(
 ) -> list[Path]:
     """Save the result of a bearing: summary.json, contacts.csv, bearing.nc and impedance.csv, all or none.
 
-    The file impedance.csv is written only if the bearing has an impedance.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of ``solve_bearing``.
-    folder : str or Path
-        Folder of the files; it is made if it does not exist.
-    replaced : sequence of str
-        Names of further files of an earlier result there, which are removed.
-    further : mapping of str to bytes or callable, optional
-        Content of further files by their names, which are written together with the others.
-
-    Returns
-    -------
-    list of Path
-        Files written.
-
-    Raises
-    ------
-    InputError
-        If the folder cannot be written to, its disk is full, or another command writes into it.
+    The file impedance.csv is written only if the bearing has an impedance. Further files are written together
+    with these, and those of the names ``replaced`` are removed. Raises an InputError where the folder cannot
+    be used.
     """
     summary, impedance = result.summary(), impedance_of(result.solution)
     rows = summary["contacts"]
@@ -144,49 +100,10 @@ def save(
         return write_together(folder, contents, (*FILES, *replaced))
 
 
-def load(path: str | Path) -> BearingResult:
-    """Load the result of a bearing from its NetCDF file.
-
-    Parameters
-    ----------
-    path : str or Path
-        Path of a bearing.nc.
-
-    Returns
-    -------
-    BearingResult
-        Result, equal to the one that was saved.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or is not the result of a bearing.
-    """
-    path = Path(path)
-    return result_of(read_dataset(path), path)
-
-
 def result_of(dataset: xr.Dataset, path: Path) -> BearingResult:
-    """Result of a bearing from its dataset.
+    """Result of a bearing from the dataset of a bearing.nc, equal to the one that was saved.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Contents of a bearing.nc.
-    path : Path
-        The file, named in the error.
-
-    Returns
-    -------
-    BearingResult
-        Result, equal to the one that was saved.
-
-    Raises
-    ------
-    InputError
-        Where the dataset is not the result of a bearing.
-    DamagedError
-        Where its content is not as it was written.
+    Raises an InputError that names the file where it is something else, or was damaged.
     """
     check_format(dataset.attrs, SCHEMA, path, "the result of a bearing")
     with refusing(path):

@@ -11,7 +11,7 @@ from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
 from ehlectric.bearing.margin.verdict import bearing_verdict
 from ehlectric.bearing.shaft_voltage import shaft_voltage
 from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance_is_bound
-from ehlectric.bearing.storage.dataset import dataset_of
+from ehlectric.bearing.stored import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearings.case import BearingCase

@@ -16,6 +16,7 @@ from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.ring_contacts import RingContacts
 from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
 from ehlectric.version import __version__
 
@@ -41,9 +42,9 @@ class RingState(Values):
         Films, capacitances and voltages, shape (n,). Pressure, semi-axes and plate are 0 without load.
     """
 
-    load: Array
-    gap: Array
-    solved: Mask
+    load: Array = field(metadata=stored("", "N", "not negative"))
+    gap: Array = field(metadata=stored("", "m", "not negative"))
+    solved: Mask = field(metadata=stored("", "", "0 or 1"))
     values: ContactValues[Array]
 
     def capacitance(self, fill: float | str) -> Array:

@@ -36,8 +36,8 @@ from ehlectric.bearing.solution import (
 from ehlectric.bearing.supply.decay import half_time
 from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.discharge.leakage import conductivity_of
+from ehlectric.errors import texts_and_codes
 from ehlectric.runtime.files import plain
-from ehlectric.runtime.stored_warnings import texts_and_codes
 
 SCHEMA = "ehlectric.bearing/1"
 

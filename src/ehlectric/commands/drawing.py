@@ -70,14 +70,14 @@ def _load_and_draw(path: Path, folder: Path, formats: Sequence[str], style: str)
     from ehlectric.drive.result import DriveResult
     from ehlectric.motion.stored_run import MOTION, read_motion
     from ehlectric.runs.results import load
-    from ehlectric.runtime.stored_warnings import of_attributes
+    from ehlectric.runtime.stored import warnings_in
     from ehlectric.sweep.store import NAME, read_sweep
 
     if path.name == NAME:
         return _draw_sweep(read_sweep(path.parent), folder, path.parent, formats, style)
     if path.name == MOTION:
         dataset = read_motion(path)
-        warnings: Sequence[ResultWarning] = of_attributes(dataset.attrs)
+        warnings: Sequence[ResultWarning] = warnings_in(dataset.attrs)
         return _draw(dataset, folder, MOTION_FIGURE_FILES, warnings, formats, style)
     result = load(path)
     if isinstance(result, BearingResult):

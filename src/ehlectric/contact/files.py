@@ -2,38 +2,23 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.problems import scales_of
-from ehlectric.contact.results import RESULTS, PointResult, Result
-from ehlectric.contact.solution import Smooth
-from ehlectric.contact.storage.content import check
-from ehlectric.contact.storage.dataset import (
-    SCHEMA,
-    coarser_of,
-    field_parts,
-    film_columns,
-    film_parts,
-    roughness_of,
-    smooth_of,
-)
+from ehlectric.contact.results import RESULTS, PointResult, Result, film_columns
+from ehlectric.contact.stored import SCHEMA, parts_of, stored_case
 from ehlectric.errors import InputError
-from ehlectric.lubricant.own import SampledLaws, is_laws
-from ehlectric.runtime.checks.formats import check_format
-from ehlectric.runtime.checks.schema import case_of, refusing
-from ehlectric.runtime.checks.schema import json_of as attribute
+from ehlectric.runtime.checks.schema import check_format, refusing
 from ehlectric.runtime.files import Content, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in
-from ehlectric.runtime.netcdf import content_of, read_dataset
-from ehlectric.runtime.stored_warnings import of_attributes
+from ehlectric.runtime.netcdf import content_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,29 +40,10 @@ def save(
     replaced: Sequence[str] = (),
     further: Mapping[str, Content] | None = None,
 ) -> list[Path]:
-    """Write summary.json, result.nc and film.csv, all of them or none.
+    """Write summary.json, result.nc and film.csv, all of them or none, with the content of further files.
 
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of ``solve``.
-    folder : str or Path
-        Folder of the files; it is made if it does not exist.
-    replaced : sequence of str
-        Names of further files of an earlier result there, which are removed.
-    further : mapping of str to bytes or callable, optional
-        Content of further files by their names, which are written together with the others.
-
-    Returns
-    -------
-    list of Path
-        Files written.
-
-    Raises
-    ------
-    InputError
-        Where the folder cannot be written to, its disk is full, another command writes into it, or the
-        result has no case, which the files must hold.
+    Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
+    folder cannot be used, or the result has no case, which the files must hold.
     """
     if not isinstance(result.case, Case):
         raise InputError("result", got="one of solve_contact, which has no case;", takes="one of solve(case)")
@@ -99,88 +65,15 @@ def _write_film(result: Result | PointResult, file: BinaryIO) -> None:
     np.savetxt(file, values, delimiter=",", header=header, comments="", fmt="%.12g")
 
 
-def load(path: str | Path) -> Result | PointResult:
-    """Load the result of a contact from its NetCDF file.
-
-    Parameters
-    ----------
-    path : str or Path
-        A result.nc.
-
-    Returns
-    -------
-    Result or PointResult
-        Result, equal to the one that was saved.
-
-    Raises
-    ------
-    InputError
-        Where the file cannot be read or is not the result of a contact.
-    """
-    path = Path(path)
-    return result_of(read_dataset(path), path)
-
-
 def result_of(dataset: xr.Dataset, path: Path) -> Result | PointResult:
-    """Result of a contact from its dataset.
+    """Result of a contact from the dataset of a result.nc, equal to the one that was saved.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Contents of a result.nc.
-    path : Path
-        The file, named in the error.
-
-    Returns
-    -------
-    Result or PointResult
-        Result, equal to the one that was saved.
-
-    Raises
-    ------
-    InputError
-        Where the dataset is not the result of a contact, or of a later version.
-    DamagedError
-        Where its content is not as it was written.
+    Raises an InputError that names the file where it is something else, or was damaged.
     """
-    check_format(dataset.attrs, SCHEMA, path, "the result of a contact", unnamed=True)
-    if "case" not in dataset.attrs:
-        raise InputError(path, "is not a result of ehlectric")
+    check_format(dataset.attrs, SCHEMA, path, "the result of a contact")
     with refusing(path):
-        return _result_of(dataset)
-
-
-def _result_of(dataset: xr.Dataset) -> Result | PointResult:
-    case = case_of(dataset.attrs, Case.from_dict)
-    if "laws" in dataset.attrs:
-        case = case.with_laws(SampledLaws.restored(attribute(dataset.attrs, "laws", is_laws)))
-    kind = KINDS[case.contact.geometry]
-    layout = kind.layout
-    check(layout, dataset)
-    conditions = kind.resolve(case)
-    return RESULTS[case.contact.geometry](
-        case=case,
-        conditions=conditions,
-        film=kind.film(**film_parts(layout, dataset), scales=scales_of(case, conditions)),
-        field=kind.field(**field_parts(layout, dataset)),
-        **_provenance(dataset),
-    )
-
-
-def _provenance(dataset: xr.Dataset) -> dict[str, Any]:
-    """Parts of a result beside its case, film and field."""
-    attributes, smooth = dataset.attrs, smooth_of(dataset)
-    film_seconds, field_seconds = json.loads(attributes["seconds"])
-    return {
-        "roughness": roughness_of(dataset),
-        "rough": tuple(json.loads(attributes["rough"])),
-        "smooth": Smooth(**smooth) if smooth else None,
-        "coarser": coarser_of(dataset),
-        "warnings": of_attributes(attributes),
-        "film_solver": str(attributes["film_solver"]),
-        "field_solver": str(attributes["field_solver"]),
-        "film_seconds": film_seconds,
-        "field_seconds": field_seconds,
-        "version": str(attributes["version"]),
-        "date": str(attributes["date"]),
-    }
+        case = stored_case(dataset.attrs)
+        geometry = case.contact.geometry
+        conditions = KINDS[geometry].resolve(case)
+        parts = parts_of(dataset, geometry, scales_of(case, conditions))
+        return RESULTS[geometry](case=case, conditions=conditions, **parts)

@@ -19,7 +19,6 @@ from ehlectric.contact.result_warnings import line_result_warnings, point_result
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import ConditionsT, FieldT, FilmT, Solution
 from ehlectric.contact.statistics import RoughnessStatistics, line_roughness, point_roughness
-from ehlectric.contact.storage.layouts import LINE_LAYOUT, POINT_LAYOUT, Layout
 from ehlectric.errors import ResultWarning
 from ehlectric.field.line import Field, solve_field
 from ehlectric.field.point import PointField, solve_point_field
@@ -62,10 +61,6 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
         rough surfaces.
     result_warnings : callable
         Setup, film, field -> warnings about the solution.
-    film, field : type
-        Classes of the film and of the field, which a result file is read into.
-    layout : Layout
-        Names and dimensions of the arrays in a result file.
     formulas, regime : mapping and callable
         Published film-thickness formulas by name, and the function that names the lubrication regime.
     contact_keys, grid_keys, hertz_keys : tuple of str
@@ -88,9 +83,6 @@ class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
     case_warnings: Callable[[Case | Setup, ConditionsT], Iterator[ResultWarning]]
     surface_warnings: Callable[..., Iterator[ResultWarning]]
     result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
-    film: type[FilmT]
-    field: type[FieldT]
-    layout: Layout
     formulas: Mapping[str, Callable[[ContactT], Thickness]]
     regime: Callable[[ContactT], str]
     contact_keys: tuple[str, ...]
@@ -159,9 +151,6 @@ LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = K
     case_warnings=line_case_warnings,
     surface_warnings=profile_surface_warnings,
     result_warnings=line_result_warnings,
-    film=Film,
-    field=Field,
-    layout=LINE_LAYOUT,
     formulas=film_line.FORMULAS,
     regime=film_line.regime,
     contact_keys=(
@@ -190,9 +179,6 @@ POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProble
     case_warnings=point_case_warnings,
     surface_warnings=map_surface_warnings,
     result_warnings=point_result_warnings,
-    film=PointFilm,
-    field=PointField,
-    layout=POINT_LAYOUT,
     formulas=film_point.FORMULAS,
     regime=film_point.regime,
     contact_keys=(

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from ehlectric.arrays import Array
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.solution import ConditionsT, FieldT, FilmT, Solution
 from ehlectric.contact.statistics import RoughnessStatistics
-from ehlectric.contact.storage.dataset import dataset_of, film_columns
+from ehlectric.contact.stored import dataset_of
 from ehlectric.contact.summary import formulas_of, summary_of
 from ehlectric.field.line import Field
 from ehlectric.field.point import PointField
@@ -25,6 +28,14 @@ from ehlectric.runtime.display import headline
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+
+def film_columns(film: Film | PointFilm) -> dict[str, tuple[Array, str]]:
+    """Film node by node: columns of a table by name, each with its unit, empty for a dimensionless one."""
+    positions = np.meshgrid(*film.axes, indexing="ij")
+    columns = {name: (values.ravel(), "m") for name, values in zip("xy", positions, strict=False)}
+    columns |= {"pressure": (film.pressure.ravel(), "Pa"), "thickness": (film.thickness.ravel(), "m")}
+    return columns | {"density": (film.density.ravel(), "")}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -43,7 +54,7 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
 
     def to_xarray(self) -> xr.Dataset:
         """Dataset of all arrays with their units; case, summary and solver history are attributes."""
-        return dataset_of(self, KINDS[self.conditions.geometry].layout, summary_of(self))
+        return dataset_of(self, summary_of(self))
 
     def to_dataframe(self) -> pd.DataFrame:
         """Film node by node as a table of pandas, the same as film.csv.

@@ -25,6 +25,7 @@ from ehlectric.field.point import PointField
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
 from ehlectric.runtime.display import Shown
+from ehlectric.runtime.stored import stored
 from ehlectric.runtime.values import Values
 
 ConditionsT = TypeVar("ConditionsT", bound=Conditions | PointConditions)
@@ -44,9 +45,17 @@ class Smooth(Values):
         Field strength at mid-film, at the columns of the field [V/m].
     """
 
-    pressure: Array
-    thickness: Array
-    middle_strength: Array
+    pressure: Array = dataclasses.field(
+        metadata=stored("nodes", "Pa", "not negative", "pressure of smooth surfaces")
+    )
+    thickness: Array = dataclasses.field(
+        metadata=stored("nodes", "m", "positive", "film thickness of smooth surfaces")
+    )
+    middle_strength: Array = dataclasses.field(
+        metadata=stored(
+            "columns", "V/m", "not negative", "electric field strength at mid-film of smooth surfaces"
+        )
+    )
 
     @property
     def minimum_thickness(self) -> float:

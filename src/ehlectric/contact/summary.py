@@ -12,10 +12,10 @@ from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.setup import Setup
 from ehlectric.contact.solution import Solution
 from ehlectric.discharge.leakage import conductivity_of
+from ehlectric.errors import texts_and_codes
 from ehlectric.film.accuracy.starved import Starvation
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.runtime.files import plain
-from ehlectric.runtime.stored_warnings import texts_and_codes
 
 SCHEMA = "ehlectric.summary/1"
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
@@ -17,12 +18,16 @@ from ehlectric.bearing.meter.reading import shaft_path
 from ehlectric.bearing.result import BearingResult
 from ehlectric.cases.drives.breakdown import Breakdown
 from ehlectric.errors import InputError
+from ehlectric.runtime.stored import stored
 
 # Contacts in series between both rings, which a touching element closes.
 _IN_SERIES = 2.0
 
 # Share of time with metallic contact below which it is left out: a second in a week.
 _NEVER = 1e-6
+
+# Values at each position of the elements, in a file.
+_at_positions = partial(stored, "position", count="position_count")
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,18 +65,24 @@ class BearingElement:
         known, or nothing touches.
     """
 
-    capacitance: Array
-    conductance: float
-    breakdown: Array
-    shape: float
-    step: float
+    capacitance: Array = field(
+        metadata=stored("position", "F", "positive", name="position_capacitance", count="position_count")
+    )
+    conductance: float = field(metadata=stored("", "S", "not negative"))
+    breakdown: Array = field(
+        metadata=stored(
+            "position", "V", "positive or infinite", name="position_breakdown", count="position_count"
+        )
+    )
+    shape: float = field(metadata=stored("", "", "positive or infinite"))
+    step: float = field(metadata=stored("", "s", "positive"))
     path: Path
-    touching: float
-    touch_resistance: float
-    hertz_area: float
-    largest_area: float
-    transit: float
-    real_area: float = 0.0
+    touching: float = field(metadata=stored("", "", "not negative"))
+    touch_resistance: float = field(metadata=stored("", "ohm", "positive or infinite"))
+    hertz_area: float = field(metadata=stored("", "m**2", "not negative"))
+    largest_area: float = field(metadata=stored("", "m**2", "not negative"))
+    transit: float = field(metadata=stored("", "s", "positive"))
+    real_area: float = field(default=0.0, metadata=stored("", "m**2", "not negative"))
 
     @property
     def mean_capacitance(self) -> float:

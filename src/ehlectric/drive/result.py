@@ -14,7 +14,7 @@ from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.discharge.verdict import Verdict
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from ehlectric.drive.solution import DriveSolution
-from ehlectric.drive.storage.dataset import dataset_of
+from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import drive_warnings

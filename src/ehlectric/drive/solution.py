@@ -9,6 +9,7 @@ from ehlectric.cases.drives.case import DriveCase
 from ehlectric.drive.bearings import BearingElement
 from ehlectric.drive.discharges.record import PEAK, Record
 from ehlectric.errors import ResultWarning
+from ehlectric.runtime.stored import stored
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +39,9 @@ class DriveSolution:
     case: DriveCase
     elements: tuple[BearingElement, BearingElement]
     record: Record
-    divider: tuple[float, float]
-    highest_source: float
-    converged: bool = True
+    divider: tuple[float, float] = field(metadata=stored("bearing", "", "not negative"))
+    highest_source: float = field(metadata=stored("", "V", "not negative"))
+    converged: bool = field(default=True, metadata=stored("", None, "0 or 1", dtype="i1"))
     told: tuple[ResultWarning, ...] = ()
     bearings: tuple[BearingResult, ...] = field(default=(), compare=False)
 

@@ -275,6 +275,4 @@ def with_error(problem: ProblemT, solve: Callable[[ProblemT], FieldT]) -> FieldT
 
 def _with(field: FieldT, error: float, degree: int) -> FieldT:
     """Field with its error and its sufficient degree."""
-    known = {"strength_error": error, "sufficient_degree": degree}
-    checked: FieldT = replace(field, **known)  # type: ignore[type-var]
-    return checked
+    return replace(field, strength_error=error, sufficient_degree=degree)

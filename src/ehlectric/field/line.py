@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.constants import epsilon_0
@@ -21,63 +21,25 @@ from ehlectric.field.poisson import (
 from ehlectric.field.strength import GapField
 from ehlectric.field.zones import HIGH_FIELD, interval_above, line_zone_areas, part_widths
 from ehlectric.runtime.parallel.threads import one_blas_thread
+from ehlectric.runtime.stored import stored
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Field(GapField):
     """Electric potential and field strength in the gap of a line contact, in SI units.
 
-    The two walls are the surfaces of the contact; both are conductors of constant potential.
+    The class adds the attribute below to those of ``GapField``, whose columns have the shape (nx,).
 
     Attributes
     ----------
-    x, s : ndarray, shapes (nx,), (ns,)
-        Position along the gap [m]; height above the lower wall over the gap, from 0 to 1.
-    y, permittivity, potential : ndarray, shape (nx, ns)
-        Height [m], relative permittivity and potential [V].
-    field_x, field_y, strength : ndarray, shape (nx, ns)
-        Components of E = -grad V and its magnitude [V/m].
-    middle_strength : ndarray, shape (nx,)
-        abs(E) at s = 1/2 [V/m].
-    thin_gap_strength : ndarray, shape (nx,)
-        voltage/h(x) [V/m].
-    voltage : float
-        Magnitude of the potential difference of the walls [V].
-    capacitance, capacitance_by_charge : float
-        Capacitance per length of the contact [F/m], from the energy of the field and from the charge of wall
-        2. Free charge in the gap is left out. The two values agree, unless potentials are prescribed on
-        the end faces.
-    thin_gap_capacitance : float
-        Integral of eps0 eps/h over x [F/m].
-    capacitance_density : ndarray, shape (nx,)
-        Charge of wall 2 per area and voltage [F/m^2]. Its integral over x by the trapezoidal rule is
-        ``capacitance_by_charge``.
-    strength_error : float or None
-        Estimated relative error of the largest field strength; None if it is not known, which it is only for
-        a permittivity that is constant across the gap, without charge and without prescribed potentials of
-        the end faces.
-    sufficient_degree : int or None
-        Polynomial degree across the gap at which its part of that error is below 0.5 %; None if it is not
-        known.
+    y : ndarray, shape (nx, ns)
+        Height [m].
     """
 
-    x: Array
-    s: Array
-    y: Array
-    permittivity: Array
-    potential: Array
-    field_x: Array
-    field_y: Array
-    strength: Array
-    middle_strength: Array
-    thin_gap_strength: Array
-    voltage: float
-    capacitance: float
-    capacitance_by_charge: float
-    thin_gap_capacitance: float
-    capacitance_density: Array
-    strength_error: float | None = None
-    sufficient_degree: int | None = None
+    y: Array = field(metadata=stored("x_field s", "m", "increasing", "height"))
+    capacitance_density: Array = field(
+        metadata=stored("columns", "F/m^2", "finite", "capacitance per length and width")
+    )
 
     @property
     def axes(self) -> tuple[Array, ...]:

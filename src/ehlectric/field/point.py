@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.constants import epsilon_0
@@ -23,67 +23,32 @@ from ehlectric.field.zones import (
     zone_areas,
 )
 from ehlectric.runtime.parallel.threads import one_blas_thread
+from ehlectric.runtime.stored import number, stored
+
+# Long name of ``y`` in files of results.
+_POSITION = "position across entrainment, columns of the field"
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PointField(GapField):
     """Electric potential and field strength in the gap of a point contact, in SI units.
 
-    The two walls are the surfaces of the contact; both are conductors of constant potential.
+    The class adds the attributes below to those of ``GapField``, whose columns have the shape (nx, ny).
 
     Attributes
     ----------
-    x, y, s : ndarray, shapes (nx,), (ny,), (ns,)
-        Positions along the gap [m]; height above the lower wall over the gap, from 0 to 1.
-    z, permittivity, potential : ndarray, shape (nx, ny, ns)
-        Height [m], relative permittivity, potential [V].
-    field_x, field_y, field_z, strength : ndarray, shape (nx, ny, ns)
-        Components of E = -grad V and its magnitude [V/m].
-    middle_strength : ndarray, shape (nx, ny)
-        abs(E) at s = 1/2 [V/m].
-    thin_gap_strength : ndarray, shape (nx, ny)
-        voltage/h(x, y) [V/m].
-    voltage : float
-        Magnitude of the potential difference of the walls [V].
-    capacitance, capacitance_by_charge : float
-        Capacitance [F], from the energy of the field and from the charge of wall 2. Free charge in the gap is
-        left out. The two values agree, unless potentials are prescribed on side faces.
-    thin_gap_capacitance : float
-        Integral of eps0 eps/h over x and y [F].
-    capacitance_density : ndarray, shape (nx, ny)
-        Charge of wall 2 at a node, divided by the voltage and by the area of the node [F/m^2]. Its sum,
-        weighted with ``node_areas``, is ``capacitance_by_charge``.
+    y : ndarray, shape (ny,)
+        Positions across the gap [m].
+    z, field_z : ndarray, shape (nx, ny, ns)
+        Height [m], and component of E across the gap [V/m].
     iterations : int
         Number of conjugate-gradient iterations for the potential without free charge.
-    strength_error : float or None
-        Estimated relative error of the largest field strength; None if it is not known, which it is only for
-        a permittivity that is constant across the gap, without charge and without prescribed potentials of
-        the side faces.
-    sufficient_degree : int or None
-        Polynomial degree across the gap at which its part of that error is below 0.5 %; None if it is not
-        known.
     """
 
-    x: Array
-    y: Array
-    s: Array
-    z: Array
-    permittivity: Array
-    potential: Array
-    field_x: Array
-    field_y: Array
-    field_z: Array
-    strength: Array
-    middle_strength: Array
-    thin_gap_strength: Array
-    voltage: float
-    capacitance: float
-    capacitance_by_charge: float
-    thin_gap_capacitance: float
-    capacitance_density: Array
-    iterations: int
-    strength_error: float | None = None
-    sufficient_degree: int | None = None
+    y: Array = field(metadata=stored("y_field", "m", "increasing", _POSITION, name="y_field"))
+    z: Array = field(metadata=stored("columns s", "m", "increasing", "height"))
+    field_z: Array = field(metadata=stored("columns s", "V/m", "finite", "electric field along z"))
+    iterations: int = field(metadata=number())
 
     @property
     def axes(self) -> tuple[Array, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
@@ -17,6 +17,7 @@ from ehlectric.film.problem import FilmProblem
 from ehlectric.film.solution import FilmSolution, stationary_film
 from ehlectric.film.state import COLLAPSED, Progress
 from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.stored import number, stored
 
 # Points of the quadrature over the Hertz ellipse, along its radius and around its circumference.
 _RADII, _ANGLES = 64, 256
@@ -49,9 +50,9 @@ class PointFilm(FilmSolution):
         None for an instant of a transient film.
     """
 
-    y: Array
-    semi_axis_y: float
-    side_deficit: float | None = None
+    y: Array = field(metadata=stored("y", "m", "increasing", "position across entrainment"))
+    semi_axis_y: float = field(metadata=number())
+    side_deficit: float | None = field(default=None, metadata=number())
 
     @classmethod
     def of(

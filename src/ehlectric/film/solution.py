@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,16 @@ from ehlectric.film.problem import Scales
 from ehlectric.film.starved.reformed import oil_fraction
 from ehlectric.film.state import GridSolution, NewtonStep, State, Status, film_touches
 from ehlectric.film.thermal.result import HeatedFilm
+from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
+
+# Long names of nodal values in files of results.
+_DEFLECTION = "gap opened by the pressure, up to a rigid displacement"
+_DENSITY = "density / density at zero pressure"
+_CONTACT_PRESSURE = "part of the pressure that asperities carry"
+_CAVITATED = "pressure held at ambient"
+_FRACTION = "part of the gap that oil fills"
+_REYNOLDS_RESIDUAL = "residual of the Reynolds equation in units of p/p_h"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -87,26 +96,32 @@ class FilmSolution(Values):
         Temperature, shear stress, traction and power loss; None of an isothermal Newtonian film.
     """
 
-    x: Array
-    pressure: Array
-    thickness: Array
-    deflection: Array
-    density: Array
-    cavitated: Mask
+    x: Array = field(metadata=stored("x", "m", "increasing", "position along entrainment"))
+    pressure: Array = field(metadata=stored("nodes", "Pa", "not negative", "pressure"))
+    thickness: Array = field(metadata=stored("nodes", "m", "positive", "film thickness"))
+    deflection: Array = field(metadata=stored("nodes", "m", "finite", _DEFLECTION))
+    density: Array = field(metadata=stored("nodes", "1", "positive", _DENSITY))
+    cavitated: Mask = field(metadata=stored("nodes", "1", "0 or 1", _CAVITATED, dtype="i1"))
     scales: Scales
-    status: Status
-    load_residual: float
-    contact_pressure: Array | None = None
-    reynolds_residual: Array | None = None
-    residual: float | None = None
-    newton_iterations: int | None = None
+    status: Status = field(metadata=number(get_args(Status)))
+    load_residual: float = field(metadata=number("finite"))
+    contact_pressure: Array | None = field(
+        default=None, metadata=stored("nodes", "Pa", "finite", _CONTACT_PRESSURE, needed=False)
+    )
+    reynolds_residual: Array | None = field(
+        default=None, metadata=stored("nodes", "1", "finite", _REYNOLDS_RESIDUAL)
+    )
+    residual: float | None = field(default=None, metadata=number("not negative"))
+    newton_iterations: int | None = field(default=None, metadata=number("whole"))
     steps: tuple[NewtonStep, ...] = ()
-    discretisation_error: float | None = None
-    inlet_deficit: float | None = None
-    load_deficit: float | None = None
-    max_pressure_error: float | None = None
-    film_fraction: Array | None = None
-    mass_residual: float | None = None
+    discretisation_error: float | None = field(default=None, metadata=number())
+    inlet_deficit: float | None = field(default=None, metadata=number())
+    load_deficit: float | None = field(default=None, metadata=number())
+    max_pressure_error: float | None = field(default=None, metadata=number())
+    film_fraction: Array | None = field(
+        default=None, metadata=stored("nodes", "1", "not negative", _FRACTION, needed=False)
+    )
+    mass_residual: float | None = field(default=None, metadata=number())
     starvation: Starvation | None = None
     heated: HeatedFilm | None = None
 

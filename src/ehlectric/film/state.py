@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -13,6 +13,7 @@ from ehlectric.film.flow import Coefficients, Flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.runtime.stored import stored
 
 # A film that did not converge counts as collapsed where it is thinner than this fraction of its central
 # thickness.
@@ -38,9 +39,11 @@ class NewtonStep:
         Number of GMRES iterations for the linear system of the step.
     """
 
-    nodes: int
-    residual: float
-    krylov_iterations: int
+    nodes: int = field(metadata=stored("", "1", "not negative", "nodes of the grid of a Newton step"))
+    residual: float = field(metadata=stored("", "1", "not negative", "scaled residual before a Newton step"))
+    krylov_iterations: int = field(
+        metadata=stored("", "1", "not negative", "GMRES iterations of a Newton step")
+    )
 
 
 @dataclass(frozen=True)

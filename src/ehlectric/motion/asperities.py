@@ -15,13 +15,8 @@ from ehlectric.field.zones import line_zone_areas, point_zone_areas
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.state import State
 from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.stored import AREA_SHARE, COARSE_SHARE, LOAD_SHARE, SPOTS
 from ehlectric.motion.stored_run import MotionRun
-
-# Variables over the time steps that a file has from the first recorded instant on at whose steps surfaces
-# touch, by what the fields of ``Touch`` are, and the load share of the companion.
-LOAD_SHARE, AREA_SHARE, SPOTS = "asperity_load_share", "contact_area_share", "spots"
-COARSE_SHARE = "coarse_asperity_load_share"
-TOUCHING = (LOAD_SHARE, AREA_SHARE, SPOTS, COARSE_SHARE)
 
 
 @dataclass(frozen=True)

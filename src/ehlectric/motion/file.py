@@ -17,125 +17,80 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError
 from ehlectric.film.unsteady import History
-from ehlectric.motion.asperities import AREA_SHARE, COARSE_SHARE, LOAD_SHARE, SPOTS
 from ehlectric.motion.companion import KeyFilms
 from ehlectric.motion.contact import TransientContact
-from ehlectric.motion.layout import MENISCUS, add_touches, lay_out, lay_out_supplied, resized
 from ehlectric.motion.resume import COARSE, has_place, keep, kept, make_place
 from ehlectric.motion.solver import Snapshot, TransientSolver
+from ehlectric.motion.stored import SPOTS, Frame, Maps, TimeStep, add_touches, lay_out, resized
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.netcdf import changed, create, layout_in, opened, values_in
 from ehlectric.version import __version__
 
 
-@dataclass(frozen=True)
-class Row:
-    """Values of a time step, keyed by the names of the variables in the file, in SI units."""
-
-    values: Mapping[str, float]
-
-    @classmethod
-    def of(cls, solver: TransientSolver, history: History, coarse: KeyFilms) -> Row:
-        """Values of the last time step of a history, with the film thicknesses of the companion there."""
-        contact, instant = solver.contact, history.now
-        extremes, films = solver.extremes(instant), solver.key_films(instant)
-        touch = solver.touch(instant)
-        values: dict[str, float] = {
-            "time": instant.time * contact.schedule.time,
-            "minimum_thickness": extremes.minimum_thickness,
-            "lowest_thickness": films.lowest,
-            "central_thickness": films.central,
-            "coarse_lowest_thickness": coarse.lowest,
-            "coarse_central_thickness": coarse.central,
-            "max_pressure": extremes.max_pressure,
-            "thin_gap_strength": contact.case.electric.voltage / extremes.minimum_thickness,
-            "newton_iterations": history.effort.newton,
-            "krylov_iterations": history.effort.krylov,
-            "halvings": history.effort.halvings,
-            LOAD_SHARE: touch.load_share,
-            AREA_SHARE: touch.area_share,
-            SPOTS: touch.spots,
-            COARSE_SHARE: coarse.load_share,
-            MENISCUS: solver.meniscus(instant),
-        }
-        return cls(values | _place("minimum", extremes.minimum_position))
+def time_step(solver: TransientSolver, history: History, coarse: KeyFilms) -> TimeStep:
+    """Values of the last time step of a history, with the film thicknesses of the companion there."""
+    contact, instant = solver.contact, history.now
+    extremes, films, touch = solver.extremes(instant), solver.key_films(instant), solver.touch(instant)
+    x, *y = np.atleast_1d(extremes.minimum_position).tolist()
+    return TimeStep(
+        time=instant.time * contact.schedule.time,
+        minimum_thickness=extremes.minimum_thickness,
+        minimum_x=x,
+        minimum_y=y[0] if y else None,
+        lowest_thickness=films.lowest,
+        central_thickness=films.central,
+        coarse_lowest_thickness=coarse.lowest,
+        coarse_central_thickness=coarse.central,
+        max_pressure=extremes.max_pressure,
+        thin_gap_strength=contact.case.electric.voltage / extremes.minimum_thickness,
+        newton_iterations=history.effort.newton,
+        krylov_iterations=history.effort.krylov,
+        halvings=history.effort.halvings,
+        asperity_load_share=touch.load_share,
+        contact_area_share=touch.area_share,
+        spots=touch.spots,
+        coarse_asperity_load_share=coarse.load_share,
+        meniscus=None if contact.case.inlet is None else solver.meniscus(instant),
+    )
 
 
 @dataclass(frozen=True)
 class Record:
-    """A recorded instant with the time steps since the recorded instant before it.
+    """Recorded instant ``snapshot``, with the time steps since the recorded instant before it.
 
-    Attributes
-    ----------
-    step : int
-        Number of the time step.
-    rows : sequence of Row
-        Values of the time steps since the last recorded instant, in order, up to this step.
-    snapshot : Snapshot
-        Film, roughness and field.
-    history : History
-        Films of the last two time steps, from which the run can be resumed.
-    coarse : History or None
-        Films of the last two time steps of the companion; None if it did not converge.
-    seconds : float
-        Computing time since the last recorded instant [s].
+    ``rows`` are the values of these steps in order, up to ``step``. A run is resumed from ``history`` and
+    ``coarse``, the films of its last two steps and those of its companion, None where the companion did not
+    converge. ``seconds`` is the computing time since the recorded instant before.
     """
 
     step: int
-    rows: Sequence[Row]
+    rows: Sequence[TimeStep]
     snapshot: Snapshot
     history: History
     coarse: History | None
     seconds: float
 
 
-def _place(name: str, place: float | tuple[float, ...]) -> dict[str, float]:
-    """Position along each axis, by the name of its variable in the file."""
-    return {f"{name}_{axis}": at for axis, at in zip("xy", np.atleast_1d(place).tolist(), strict=False)}
-
-
 class MotionFile:
-    """File of a transient run, to be created or resumed.
-
-    Parameters
-    ----------
-    path : Path
-        Path of the file.
-    contact : TransientContact
-        Contact of the run.
-    """
+    """File of a transient run of a contact, to be created or resumed."""
 
     def __init__(self, path: Path, contact: TransientContact) -> None:
         self._path, self._contact = path, contact
         self._left: tuple[str, int] | None = None
 
-    def create(self, first: Record, attributes: Mapping[str, Any], stationary: Mapping[str, Array]) -> None:
-        """Create the file with its first recorded instant.
+    def create(self, first: Record, attributes: Mapping[str, Any], stationary: Maps | None) -> None:
+        """Create the file with the film before the motion, and the maps of stationary roughness.
 
-        Parameters
-        ----------
-        first : Record
-            Film before the motion.
-        attributes : mapping of str to str or float
-            Attributes of the file.
-        stationary : mapping of str to ndarray
-            Maps of film and field with stationary roughness, by names such as ``pressure``.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be written, as on a full disk.
+        These are None where the film of stationary roughness is not converged. Raises an InputError where the
+        file cannot be written, as on a full disk.
         """
-        positions = dict(zip(self._contact.kind.axes, first.snapshot.film.axes, strict=True))
+        kind = self._contact.kind
+        positions = dict(zip(kind.axes, first.snapshot.film.axes, strict=True))
 
         def begin(file: Any) -> None:
-            lay_out(file, positions, stationary, self._contact.kind)
-            if self._contact.case.inlet is not None:
-                starved = first.snapshot.film.film_fraction is not None
-                lay_out_supplied(file, tuple(positions), starved=starved)
+            lay_out(file, positions, stationary, (first.rows[0], self._frame(first)), kind)
             file.attrs["frames"] = file.attrs["complete"] = 0
             for key, value in attributes.items():
                 file.attrs[key] = value
@@ -146,10 +101,7 @@ class MotionFile:
     def append(self, record: Record) -> None:
         """Write a recorded instant and the time steps before it.
 
-        Raises
-        ------
-        InputError
-            If another run has written to the file, or the disk has not enough space.
+        Raises an InputError where another run has written to the file, or the disk has not enough space.
         """
         with changed(self._path) as draft:
             with values_in(draft) as file:
@@ -166,17 +118,16 @@ class MotionFile:
 
     def _put(self, file: Any, record: Record) -> None:
         """Write an instant into the file, open as ``h5py.File``, which has room for it."""
-        maps, numbers = self._maps(record.snapshot), _numbers(record)
-        rows, step, attributes = record.rows, record.step, file.attrs
+        frame_values, rows, step, attributes = self._frame(record), record.rows, record.step, file.attrs
         # A half-written instant of an earlier version may follow the complete ones, so the step determines
         # the place to write.
         recorded = file["frame_step"][: _number_in(attributes, "frames")]
         frame = int(np.searchsorted(recorded, step))
         over_steps, over_frames = resized(file, step + 1, frame + 1)
         for name, variable in over_steps.items():
-            variable[step + 1 - len(rows) :] = [row.values[name] for row in rows]
-        for name, value in (*maps.items(), *numbers.items()):
-            over_frames[name][frame] = value
+            variable[step + 1 - len(rows) :] = [getattr(row, name) for row in rows]
+        for name, variable in over_frames.items():
+            variable[frame] = getattr(frame_values, name)
         keep(file, record.history, frame)
         if record.coarse is not None:
             keep(file, record.coarse, frame, group=COARSE)
@@ -185,17 +136,25 @@ class MotionFile:
         attributes.modify("complete", int(step == self._contact.schedule.steps))
         self._left = _state(attributes)
 
-    def _maps(self, snapshot: Snapshot) -> dict[str, Array]:
-        film, field = snapshot.film, snapshot.field
-        content = {} if film.film_fraction is None else {"film_fraction": film.film_fraction}
-        return content | {
-            "pressure": film.pressure,
-            "thickness": film.thickness,
-            "strength": self._contact.kind.column_strength(film, field),
-            "roughness_1": snapshot.roughness[0],
-            "roughness_2": snapshot.roughness[1],
-            "cavitated": film.cavitated,
-        }
+    def _frame(self, record: Record) -> Frame:
+        film, field = record.snapshot.film, record.snapshot.field
+        x, *y = np.atleast_1d(field.max_strength_position).tolist()
+        return Frame(
+            pressure=film.pressure,
+            thickness=film.thickness,
+            strength=self._contact.kind.column_strength(film, field),
+            roughness_1=record.snapshot.roughness[0],
+            roughness_2=record.snapshot.roughness[1],
+            cavitated=film.cavitated,
+            film_fraction=film.film_fraction,
+            frame_time=record.snapshot.time,
+            frame_step=record.step,
+            max_strength=field.max_strength,
+            max_strength_x=x,
+            max_strength_y=y[0] if y else None,
+            capacitance=field.capacitance,
+            max_strength_error=math.nan if field.strength_error is None else field.strength_error,
+        )
 
     def whole(self) -> bool:
         """Whether the file exists and contains a complete run of the same case."""
@@ -206,16 +165,10 @@ class MotionFile:
             return False  # there is no file, or it is damaged or has no run
 
     def resumed(self) -> tuple[int, History, History | None] | None:
-        """Last recorded step of an unfinished run of the same case, and the films to resume it from.
+        """Last recorded step of an unfinished run of the same case, and films to resume run and companion.
 
-        The last films are those of the companion; None if the file does not have them.
-
-        None if the file does not exist, or does not contain such a run.
-
-        Raises
-        ------
-        DamagedError
-            Where the file is damaged: it may have a run of hours, which is not replaced without a word.
+        None if the file does not exist, or does not contain such a run. A damaged file raises a DamagedError:
+        it may have a run of hours, which is not replaced without a word.
         """
         if not self._path.is_file():
             return None
@@ -242,21 +195,9 @@ class MotionFile:
         return all(attributes[name] == value for name, value in expected.items())
 
 
-def _numbers(record: Record) -> dict[str, float]:
-    """Values of a recorded instant other than maps, by the names of their variables."""
-    field = record.snapshot.field
-    return {
-        "frame_time": record.snapshot.time,
-        "frame_step": record.step,
-        "max_strength": field.max_strength,
-        "capacitance": field.capacitance,
-        "max_strength_error": math.nan if field.strength_error is None else field.strength_error,
-    } | _place("max_strength", field.max_strength_position)
-
-
 def _touch(record: Record) -> bool:
     """Whether surfaces touched at a step of an instant, in the run or in its companion."""
-    return any(row.values[name] > 0.0 for row in record.rows for name in (SPOTS, COARSE_SHARE))
+    return any(row.spots > 0 or row.coarse_asperity_load_share > 0.0 for row in record.rows)
 
 
 def _has_room(file: Any, record: Record) -> bool:

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, warnings_of
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import summary_of
 from ehlectric.quantities.formats import amount
 from ehlectric.runtime.display import Shown, headline
-from ehlectric.runtime.stored_warnings import warnings_of
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -37,16 +37,9 @@ def has_place(file: Any, history: History, *, group: str = _FINE) -> bool:
 
 
 def make_place(file: Any, history: History, *, group: str = _FINE) -> None:
-    """Create the variables for the last two instants of a run where the file lacks them.
+    """Create the variables for the last two instants of a run where an ``h5netcdf.File`` lacks them.
 
-    Parameters
-    ----------
-    file : h5netcdf.File
-        File of the run, open for writing.
-    history : History
-        Last two instants.
-    group : str
-        Group of the file: that of the run, or ``COARSE`` for the films of its companion.
+    The group is that of the run, or ``COARSE`` for the films of its companion.
     """
     if group not in file.groups:
         _create(file, group, history.now.state.pressure.shape)
@@ -55,18 +48,9 @@ def make_place(file: Any, history: History, *, group: str = _FINE) -> None:
 
 
 def keep(file: Any, history: History, frame: int, *, group: str = _FINE) -> None:
-    """Write the last two instants of a run to the variables of ``make_place``.
+    """Write the last two instants of a run to the variables of ``make_place`` in an ``h5py.File``.
 
-    Parameters
-    ----------
-    file : h5py.File
-        File of the run, open for writing.
-    history : History
-        Last two instants.
-    frame : int
-        Number of the recorded instant, which determines the place.
-    group : str
-        Group of the file: that of the run, or ``COARSE`` for the films of its companion.
+    The number of the recorded instant determines the place.
     """
     values, variables, place = _values_of(history), file[group], frame % _PLACES
     if _TOUCHING in variables:
@@ -77,26 +61,9 @@ def keep(file: Any, history: History, frame: int, *, group: str = _FINE) -> None
 
 
 def kept(file: Any, frames: int, *, group: str = _FINE) -> History | None:
-    """Read the last two instants of a run.
+    """Last two instants of a run in a file, open as ``h5netcdf.File``, by its number of recorded instants.
 
-    Parameters
-    ----------
-    file : h5netcdf.File
-        File of the run, open for reading.
-    frames : int
-        Number of recorded instants.
-    group : str
-        Group of the file: that of the run, or ``COARSE`` for the films of its companion.
-
-    Returns
-    -------
-    History or None
-        Last two instants; None if no instant is recorded, or its place is not complete.
-
-    Raises
-    ------
-    KeyError
-        If the file has no such group, or not all its variables.
+    None if no instant is recorded, or its place is not complete. A missing variable raises a KeyError.
     """
     variables, place = file.groups[group].variables, (frames - 1) % _PLACES
     names = [*_OVER_MESH, *_NUMBERS, *([_TOUCHING] if _TOUCHING in variables else [])]

@@ -8,18 +8,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.contact.check import PreparedContact, check_case
 from ehlectric.contact.files import FILES, SUMMARY
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.contact.solver import solve
-from ehlectric.errors import ConvergenceError
+from ehlectric.errors import ConvergenceError, warnings_of
 from ehlectric.motion.companion import Companion
 from ehlectric.motion.contact import TransientContact
-from ehlectric.motion.content import SCHEMA
-from ehlectric.motion.file import MotionFile, Record, Row, described
+from ehlectric.motion.file import MotionFile, Record, described, time_step
 from ehlectric.motion.solver import TransientSolver
+from ehlectric.motion.stored import SCHEMA, Maps, TimeStep
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.motion.warnings import motion_warnings
@@ -28,7 +27,7 @@ from ehlectric.runtime.files import clear, now, plain, write_json
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from ehlectric.runtime.outcome import RunOutcome
 from ehlectric.runtime.progress import Progress, silent
-from ehlectric.runtime.stored_warnings import as_attributes, warnings_of
+from ehlectric.runtime.stored import warnings_as_attributes
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
@@ -139,11 +138,11 @@ def _solve(
     done, history, coarse = resumed
     coarse = companion.resumed(coarse, done)
     progress(done, contact.schedule.steps, "time steps")
-    started, rows = time.perf_counter(), list[Row]()
+    started, rows = time.perf_counter(), list[TimeStep]()
     recorded = set(contact.schedule.recorded.tolist())
     for step, latest in solver.run(history, done):
         coarse = companion.after(step, coarse)
-        rows.append(Row.of(solver, latest, companion.films(step, coarse)))
+        rows.append(time_step(solver, latest, companion.films(step, coarse)))
         if step in recorded:
             snapshot = solver.snapshot(latest.now)
             since, started = started, time.perf_counter()
@@ -172,19 +171,18 @@ def _begin(
         "rough": described(contact),
         "seconds": 0.0,
     }
-    attributes |= as_attributes(motion_warnings(contact, still))
-    rows = [Row.of(solver, history, companion.films(0, coarse))]
+    attributes |= warnings_as_attributes(motion_warnings(contact, still))
+    rows = [time_step(solver, history, companion.films(0, coarse))]
     record = Record(0, rows, first, history, coarse, time.perf_counter() - started)
     file.create(record, attributes | contact.schedule.moments(), _maps(contact, still))
 
 
-def _maps(contact: TransientContact, still: Result | PointResult) -> dict[str, Array]:
-    """Film and field of stationary roughness over its nodes; empty where the film is not converged."""
+def _maps(contact: TransientContact, still: Result | PointResult) -> Maps | None:
+    """Film and field of stationary roughness over its nodes; None where the film is not converged."""
     if not still.converged:
-        return {}
+        return None
     film = still.film
-    strength = contact.kind.column_strength(film, still.field)
-    return {"pressure": film.pressure, "thickness": film.thickness, "strength": strength}
+    return Maps(film.pressure, film.thickness, contact.kind.column_strength(film, still.field))
 
 
 def _numbers(still: Result | PointResult) -> dict[str, Any] | None:

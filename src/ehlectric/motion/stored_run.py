@@ -15,12 +15,11 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.bodies import surface_ratios
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError
-from ehlectric.motion.content import SCHEMA, solved_part
 from ehlectric.motion.field_history import FieldHistory, strength_between
 from ehlectric.motion.kinds import KINDS, AnyKind
 from ehlectric.motion.schedule import Schedule, schedule_of
-from ehlectric.runtime.checks.formats import check_format
-from ehlectric.runtime.checks.schema import refusing
+from ehlectric.motion.stored import SCHEMA, solved_part
+from ehlectric.runtime.checks.schema import check_format, refusing
 from ehlectric.runtime.netcdf import opened, read_dataset
 from ehlectric.runtime.redo import redo_file
 from ehlectric.runtime.values import Values
@@ -71,9 +70,7 @@ def read_motion(path: str | Path) -> xr.Dataset:
 
 def checked_motion(dataset: xr.Dataset, path: Path) -> xr.Dataset:
     """Check a dataset read from a file, and return its solved part, as ``read_motion`` does."""
-    check_format(dataset.attrs, SCHEMA, path, "a run with moving roughness", unnamed=True)
-    if "case" not in dataset.attrs or "frame_step" not in dataset:
-        raise InputError(path, "is no motion of ehlectric")
+    check_format(dataset.attrs, SCHEMA, path, "a run with moving roughness")
     with refusing(path):
         return solved_part(dataset)
 

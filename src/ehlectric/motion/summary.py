@@ -13,14 +13,13 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.contact.result_warnings import FIELD_ERROR, inaccurate_field, unknown_error
 from ehlectric.contact.starved.supply import oil_supply
 from ehlectric.discharge.utilisation import dielectric_strength
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.motion.accuracy import run_errors
 from ehlectric.motion.asperities import TouchHistory
-from ehlectric.motion.layout import MENISCUS
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.warnings import touch_warnings
 from ehlectric.runtime.files import plain
-from ehlectric.runtime.stored_warnings import of_attributes, texts_and_codes
+from ehlectric.runtime.stored import warnings_in
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,7 +69,7 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "version": str(attributes["version"]),
         "title": run.case.title,
         "converged": complete,
-        **texts_and_codes([*of_attributes(attributes), *_halved(run), *_unreliable(run)]),
+        **texts_and_codes([*warnings_in(attributes), *_halved(run), *_unreliable(run)]),
         "inputs": run.case.to_dict(),
         "motion": _course(run),
         "film": _film(run),
@@ -208,7 +207,7 @@ def _supplied(run: MotionRun) -> dict[str, Any]:
     if supply is None or supply.layer is None:
         return {}
     layer = run.conditions.thickness_scale * float(supply.layer(np.zeros(1))[0])
-    positions = run.values(MENISCUS)
+    positions = run.values("meniscus")
     known = positions[np.isfinite(positions)]
     return {
         "oil_layer": layer,

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from ehlectric.bearing import files as of_bearings
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.storage.dataset import SCHEMA as BEARING
+from ehlectric.bearing.stored import SCHEMA as BEARING
 from ehlectric.contact import files as of_contacts
 from ehlectric.contact.results import PointResult, Result
-from ehlectric.contact.storage.dataset import SCHEMA as CONTACT
+from ehlectric.contact.stored import SCHEMA as CONTACT
 from ehlectric.drive import files as of_drives
 from ehlectric.drive.result import DriveResult
-from ehlectric.drive.storage.dataset import SCHEMA as DRIVE
+from ehlectric.drive.stored import SCHEMA as DRIVE
 from ehlectric.errors import InputError, shown
-from ehlectric.motion.content import SCHEMA as MOVING
 from ehlectric.motion.result import MotionResult
-from ehlectric.motion.stored_run import MOTION, checked_motion
+from ehlectric.motion.stored import SCHEMA as MOVING
+from ehlectric.motion.stored_run import checked_motion
 from ehlectric.runs.folders import stored_result
-from ehlectric.runtime.checks.formats import format_of
+from ehlectric.runtime.checks.schema import format_of
 from ehlectric.runtime.netcdf import read_dataset
 from ehlectric.sweep.store import NAME as SWEEP
 
@@ -35,7 +35,7 @@ def _moving(dataset: xr.Dataset, path: Path) -> MotionResult:
     return MotionResult.of(checked_motion(dataset, path))
 
 
-# Results by the kinds that their files state. Files from before 1.0 state none; their names tell it.
+# Results by the kinds that their files state.
 _OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
     format_of(schema)[0]: result_of
     for schema, result_of in (
@@ -82,10 +82,9 @@ def load(path: str | Path) -> AnyResult:
         raise InputError(path.parent, "is the folder of a sweep", takes="a result; read_sweep reads a sweep")
     dataset = read_dataset(path)
     kind, _ = format_of(dataset.attrs.get("schema"))
-    if kind and kind not in _OF_KINDS:
+    if kind not in _OF_KINDS:
         raise InputError(path, "is not a result of ehlectric")
-    unnamed = _moving if path.name == MOTION else of_contacts.result_of
-    return _OF_KINDS.get(kind, unnamed)(dataset, path)
+    return _OF_KINDS[kind](dataset, path)
 
 
 def save(result: Result | PointResult | BearingResult | DriveResult, folder: str | Path) -> list[Path]:

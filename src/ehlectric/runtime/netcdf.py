@@ -37,25 +37,10 @@ _PATIENCE, _AGAIN = 30.0, 0.05
 
 
 def read_dataset(path: Path) -> xr.Dataset:
-    """Read a NetCDF file into memory.
+    """All variables and attributes of a NetCDF file, which may be growing.
 
-    Parameters
-    ----------
-    path : Path
-        File to read; it may be growing.
-
-    Returns
-    -------
-    xarray.Dataset
-        All variables and attributes.
-
-    Raises
-    ------
-    DamagedError
-        Where the file is damaged.
-    InputError
-        Where the file cannot be read, is no NetCDF file, stays open in another program, or has too large
-        values.
+    Raises a DamagedError where the file is damaged, and an InputError where it cannot be read, is no NetCDF
+    file, stays open in another program, or has too large values.
     """
     import xarray as xr
 
@@ -71,27 +56,16 @@ def read_dataset(path: Path) -> xr.Dataset:
 
 
 def load_library() -> None:
-    """Load the library of NetCDF files.
+    """Load the library of NetCDF files; raises an ImportError where it cannot be loaded.
 
     Whoever solves for long calls it before: afterwards there may be no memory for the library. An error of
     its own says so, which the packages above it replace by other words.
-
-    Raises
-    ------
-    ImportError
-        Where the library cannot be loaded.
     """
     import_module("h5py")
 
 
 def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
-    """Function that writes a dataset as a NetCDF file to an open file, with a seal.
-
-    Raises
-    ------
-    OSError
-        By the function, where the file cannot be written.
-    """
+    """Function that writes a dataset as a NetCDF file with a seal to an open file, or raises an OSError."""
     import xarray as xr
 
     load_library()
@@ -103,21 +77,10 @@ def content_of(dataset: xr.Dataset) -> Callable[[BinaryIO], None]:
 
 
 def create(path: Path, lay_out: Callable[[Any], None], fill: Callable[[Any], None] | None = None) -> None:
-    """Create a NetCDF file that will grow, whole or not at all.
+    """Create or replace a NetCDF file that will grow, whole or not at all; raises a WriteError.
 
-    Parameters
-    ----------
-    path : Path
-        File to write; an existing one is replaced.
-    lay_out : callable
-        Called with the ``h5netcdf.File``, in which it creates variables and attributes.
-    fill : callable, optional
-        Called afterwards with the same file as an ``h5py.File``, to whose variables it writes.
-
-    Raises
-    ------
-    WriteError
-        Where the file cannot be written, as on a full disk.
+    ``lay_out`` is called with the ``h5netcdf.File``, in which it creates variables and attributes, and then
+    ``fill`` with the same file as an ``h5py.File``, to whose variables it writes.
     """
     write(path, _created(lay_out, fill))
     with suppress(OSError):  # another program may have removed it
@@ -148,12 +111,8 @@ def _created(
 def opened(path: Path) -> Iterator[Any]:
     """Context with a file that is open for reading. It waits while another program writes to the file.
 
-    Raises
-    ------
-    DamagedError
-        Where a file to be read is damaged.
-    InputError
-        Where the file to be read cannot be opened or is no NetCDF file, or another program keeps it open.
+    Raises a DamagedError where the file is damaged, and an InputError where it cannot be opened, is no NetCDF
+    file, or another program keeps it open.
     """
     if redo_file(path).is_file() and path.is_file():
         with writing(path), _to_change(path):
@@ -172,12 +131,8 @@ def changed(path: Path) -> Iterator[Draft]:
     """Context with a draft of a file, whose changes are written all or not at all, also after a kill.
 
     It waits while another program has the file open. Interrupts are held back until the file is closed, so
-    that they leave no damaged file.
-
-    Raises
-    ------
-    InputError
-        Where another program keeps the file open, or the disk is full.
+    that they leave no damaged file. Raises an InputError where another program keeps the file open, or the
+    disk is full.
     """
     with _to_change(path) as target:
         was_sound = known_sound(path, os.fstat(target.fileno()))
@@ -213,13 +168,7 @@ def _to_change(path: Path) -> Iterator[FileIO]:
 
 @contextmanager
 def _patient(path: Path, attempt: Callable[[], F]) -> Iterator[F]:
-    """Context with a file that is opened once no other program holds it; interrupts wait for its end.
-
-    Raises
-    ------
-    InputError
-        Where another program keeps the file open.
-    """
+    """Context with a file that is opened once no other program holds it; interrupts wait for its end."""
     until = time.monotonic() + _PATIENCE
     while True:
         with held_back():

@@ -36,26 +36,11 @@ _FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 
 @contextmanager
 def regular(path: str | Path) -> Iterator[BufferedReader]:
-    """Context with a regular file that is open for reading.
+    """Context with a regular file that is open for reading in binary mode; a link is followed.
 
     A pipe, a device, a socket, a folder and a file of the kernel are refused before anything is read from
-    them. The check is made on the open file, so that the file cannot change in between.
-
-    Parameters
-    ----------
-    path : str or Path
-        File to read; a link is followed.
-
-    Yields
-    ------
-    file object
-        File open in binary mode.
-
-    Raises
-    ------
-    InputError
-        Where the path is no path, or the file does not exist, cannot be read or is no regular file. An
-        OSError within the context becomes an InputError too.
+    them, by an InputError. The check is made on the open file, so that the file cannot change in between. An
+    OSError within the context becomes an InputError too.
     """
     try:
         path = Path(path)
@@ -73,14 +58,7 @@ def regular(path: str | Path) -> Iterator[BufferedReader]:
 
 
 def refuse_kind(path: Path, status: os.stat_result) -> None:
-    """Refuse to read what is no regular file, or is a file that the kernel makes up.
-
-    Raises
-    ------
-    InputError
-        Where the status is that of a pipe, a device, a socket or a folder, or the path leads into /proc or
-        /sys.
-    """
+    """Refuse to read what is no regular file, or is a file that the kernel makes up, in /proc or /sys."""
     if not stat.S_ISREG(status.st_mode):
         why = (text for is_kind, text in _SPECIAL if is_kind(status.st_mode))
         raise InputError(path, f"cannot be read, {next(why, 'it is not a regular file')}")
@@ -89,38 +67,16 @@ def refuse_kind(path: Path, status: os.stat_result) -> None:
 
 
 def refuse_unreadable(path: Path) -> None:
-    """Refuse a file that does not exist, cannot be opened or is no regular file.
-
-    Raises
-    ------
-    InputError
-        Where ``path`` cannot be read.
-    """
+    """Refuse a file that does not exist, cannot be opened or is no regular file, by an InputError."""
     with regular(path):
         pass
 
 
 def read_bytes(path: str | Path, *, most: int, copies: float = 1.0) -> bytes:
-    """Content of a regular file of a bounded size.
+    """Content of a regular file of at most ``most`` bytes; a larger one is refused before it is read.
 
-    Parameters
-    ----------
-    path : str or Path
-        File to read; a link is followed.
-    most : int
-        Largest size of the file [bytes]. A larger file is refused before it is read.
-    copies : float
-        Ratio of the memory that its reader needs to the size of the file.
-
-    Returns
-    -------
-    bytes
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is no regular file, is larger than ``most``, or does not fit into memory.
+    ``copies`` is the ratio of the memory that its reader needs to the size of the file, which must fit.
+    Raises an InputError.
     """
     with regular(path) as file:
         size = os.fstat(file.fileno()).st_size
@@ -132,26 +88,9 @@ def read_bytes(path: str | Path, *, most: int, copies: float = 1.0) -> bytes:
 
 
 def blocks(path: str | Path, *, most: int, size: int = 8_000_000) -> Iterator[bytes]:
-    """Content of a regular file of a bounded size, block by block.
+    """Content of a regular file of at most ``most`` bytes, in blocks of a size; none of an empty file.
 
-    Parameters
-    ----------
-    path : str or Path
-        File to read; a link is followed.
-    most : int
-        Largest size of the file [bytes]. A larger file is refused before it is read.
-    size : int
-        Size of a block [bytes], of which the last one may have less.
-
-    Yields
-    ------
-    bytes
-        Blocks in the order of the file; none of an empty file.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is no regular file, is larger than ``most``, or grows while it is read.
+    A larger file is refused before it is read. Raises an InputError.
     """
     with regular(path) as file:
         left = os.fstat(file.fileno()).st_size
@@ -164,26 +103,9 @@ def blocks(path: str | Path, *, most: int, size: int = 8_000_000) -> Iterator[by
 
 
 def read_text(path: str | Path, *, most: int = MOST_TEXT) -> str:
-    """Text of a regular file in UTF-8 of a bounded size; a byte order mark is left out.
+    """Text of a regular file in UTF-8 of at most ``most`` bytes, without a byte order mark.
 
-    Line ends are line feeds, as Python reads a text file.
-
-    Parameters
-    ----------
-    path : str or Path
-        File to read; a link is followed.
-    most : int
-        Largest size of the file [bytes].
-
-    Returns
-    -------
-    str
-        Text of the file.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is no regular file, is larger than ``most``, or is not text in UTF-8.
+    Line ends are line feeds, as Python reads a text file. Raises an InputError.
     """
     try:
         text = read_bytes(path, most=most).decode("utf-8-sig")

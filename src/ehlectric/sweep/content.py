@@ -13,9 +13,8 @@ from typing import Any, get_args
 
 from ehlectric.cases.drives.swept import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import input_field, number_of
-from ehlectric.errors import InputError
+from ehlectric.errors import CODES_OF_TEXTS, TEXTS, InputError
 from ehlectric.runtime.checks.schema import UnfitError, case_of, is_list, is_number, is_table, is_text
-from ehlectric.runtime.stored_warnings import CODES_OF_TEXTS, TEXTS
 from ehlectric.sweep import design as sweep_design
 from ehlectric.sweep.points import Point, Range, Spacing, Status
 from ehlectric.sweep.results import SweepResults
@@ -305,5 +304,5 @@ def _is_summary(value: Any, levels: int = _DEEPEST) -> bool:
 def _has_warnings(summary: Mapping[str, Any]) -> bool:
     """Whether the warnings of a summary are texts, with as many codes, where it has any."""
     texts = summary.get(TEXTS, [])
-    codes = summary.get(CODES_OF_TEXTS, texts)
+    codes = summary.get(CODES_OF_TEXTS, [])
     return is_list(texts, is_text) and is_list(codes, is_text) and len(texts) == len(codes)

@@ -11,8 +11,7 @@ import numpy as np
 
 from ehlectric.arrays import Mask
 from ehlectric.cases.drives.swept import SweptCase
-from ehlectric.errors import ResultWarning
-from ehlectric.runtime.stored_warnings import warnings_of
+from ehlectric.errors import ResultWarning, warnings_of
 from ehlectric.runtime.values import Values
 
 # "solved": converged; "not converged": the summary must not be used; "failed": no summary; "open": not tried

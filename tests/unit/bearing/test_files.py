@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ehlectric import InputError
-from ehlectric.bearing.files import CONTACTS, FILES, IMPEDANCE, NETCDF, SUMMARY, load, save
+from ehlectric import InputError, load
+from ehlectric.bearing.files import CONTACTS, FILES, IMPEDANCE, NETCDF, SUMMARY, save
 from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solver import solve_bearing

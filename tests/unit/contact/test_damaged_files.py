@@ -13,9 +13,9 @@ from ehlectric.contact import files as of_contacts
 from ehlectric.drive import files as of_drives
 from ehlectric.errors import DamagedError
 from ehlectric.figures.results import draw_figures
-from ehlectric.motion.content import solved_part
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
+from ehlectric.motion.stored import solved_part
 from ehlectric.runtime.checks.schema import refusing
 from ehlectric.runtime.checks.seal import sealed
 from ehlectric.runtime.netcdf import read_dataset
@@ -178,8 +178,8 @@ def test_what_is_wrong_is_named(name, value, says, stored, tmp_path):
 
 
 @pytest.mark.slow
-def test_results_of_earlier_versions_have_no_seal(tmp_path):
-    dataset = read_dataset(Path(__file__).parents[2] / "data" / "earlier" / "result.nc")
+def test_results_that_another_program_has_written_have_no_seal(stored, tmp_path):
+    dataset = read_dataset(stored["contact"])
     dataset.to_netcdf(tmp_path / "result.nc", engine="h5netcdf")
     assert not sealed(tmp_path / "result.nc")
     assert load(tmp_path).film.x.size == 65

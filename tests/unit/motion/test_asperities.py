@@ -15,11 +15,11 @@ from ehlectric.film.flow import flow
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.state import State
 from ehlectric.motion.accuracy import run_errors
-from ehlectric.motion.asperities import TOUCHING, Toucher, TouchHistory
+from ehlectric.motion.asperities import Toucher, TouchHistory
 from ehlectric.motion.contact import TransientContact
-from ehlectric.motion.content import solved_part
 from ehlectric.motion.run import run, run_motion
 from ehlectric.motion.solver import TransientSolver
+from ehlectric.motion.stored import TOUCHING, solved_part
 from ehlectric.motion.stored_run import MotionRun, read_motion
 from ehlectric.motion.summary import summary_of
 from ehlectric.motion.warnings import touch_warnings

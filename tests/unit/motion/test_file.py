@@ -362,7 +362,7 @@ def test_what_cannot_be_read_is_said(tmp_path):
     with h5netcdf.File(tmp_path / "other.nc", "w") as file:
         file.dimensions = {"x": 3}
         file.create_variable("x", ("x",), "f8")
-    with pytest.raises(InputError, match=r"other\.nc: is no motion of ehlectric$"):
+    with pytest.raises(InputError, match=r"other\.nc: is not a run with moving roughness of ehlectric$"):
         read_motion(tmp_path / "other.nc")
 
 

@@ -81,14 +81,13 @@ def test_a_stored_sweep_has_its_numbers(folder):
             assert list(found[name]) == pytest.approx(list(values), rel=1e-5, abs=0.0, nan_ok=True), name
 
 
-@pytest.mark.parametrize("name", ["line", "motion"])
-def test_a_file_from_before_formats_had_names_is_read(name, tmp_path):
-    shutil.copytree(RELEASES / "1.0.0" / name, tmp_path / "out")
-    (path,) = (tmp_path / "out").glob("*.nc")
-    with h5netcdf.File(path, "a") as file:
+def test_a_file_without_a_format_is_refused(tmp_path):
+    shutil.copytree(RELEASES / "1.0.0" / "line", tmp_path / "out")
+    with h5netcdf.File(tmp_path / "out" / "result.nc", "a") as file:
         del file.attrs["schema"]
-    seal(path)
-    assert load(tmp_path / "out").summary() == load(RELEASES / "1.0.0" / name).summary()
+    seal(tmp_path / "out" / "result.nc")
+    with pytest.raises(InputError, match=r"result\.nc: is not a result of ehlectric$"):
+        load(tmp_path / "out")
 
 
 def test_a_renamed_run_with_moving_roughness_is_read(tmp_path):

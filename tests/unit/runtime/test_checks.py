@@ -17,15 +17,17 @@ from ehlectric.runtime.netcdf import changed, create, layout_in, read_dataset
 from tests.helpers.each import each
 from tests.helpers.places import ROOT
 
-EARLIER = ROOT / "tests" / "data" / "earlier" / "result.nc"
+# Content of a result without its seal.
+CONTENT = (ROOT / "tests" / "data" / "releases" / "1.0.0" / "line" / "result.nc").read_bytes()
+UNSEALED = CONTENT[: -len(seal_of([b""]))]
 
 
 @pytest.fixture
 def damaged(tmp_path):
-    """Writes the result of an earlier version, which has no seal, with other bytes at a place."""
+    """Writes a result without a seal, with other bytes at a place."""
 
     def put(at, content):
-        path, data = tmp_path / "result.nc", bytearray(EARLIER.read_bytes())
+        path, data = tmp_path / "result.nc", bytearray(UNSEALED)
         data[at : at + len(content)] = content
         path.write_bytes(data)
         return path
@@ -52,10 +54,11 @@ def test_a_seal_tells_every_changed_byte(tmp_path):
 
 
 def test_a_seal_is_no_obstacle_to_other_programs(tmp_path):
-    path = tmp_path / "result.nc"
-    path.write_bytes(EARLIER.read_bytes())
+    path, unsealed = tmp_path / "result.nc", tmp_path / "unsealed.nc"
+    path.write_bytes(UNSEALED)
+    unsealed.write_bytes(UNSEALED)
     seal(path)
-    with xr.open_dataset(path, engine="h5netcdf") as dataset, xr.open_dataset(EARLIER) as before:
+    with xr.open_dataset(path, engine="h5netcdf") as dataset, xr.open_dataset(unsealed) as before:
         assert dataset.load().identical(before.load())
     with h5netcdf.File(path, "a") as file:
         file.attrs["comment"] = "changed on purpose"
@@ -65,7 +68,7 @@ def test_a_seal_is_no_obstacle_to_other_programs(tmp_path):
 
 def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
     path = tmp_path / "result.nc"
-    path.write_bytes(EARLIER.read_bytes())
+    path.write_bytes(UNSEALED)
     started = []
     run = sound.subprocess.run
     monkeypatch.setattr(sound.subprocess, "run", lambda *a, **k: started.append(a) or run(*a, **k))
@@ -106,7 +109,7 @@ def test_a_file_that_this_process_has_written_is_sound_until_it_changes(tmp_path
 def test_a_file_that_keeps_hdf5_busy_for_ever(damaged, monkeypatch):
     """Zeros in the texts of attributes: HDF5 looks for the next one without end, and no signal ends it."""
     monkeypatch.setattr(sound, "_LIMIT", 1.0)
-    path = damaged(EARLIER.read_bytes().index(b"units of p/p_h") + 14, bytes(64))
+    path = damaged(UNSEALED.index(b"units of p/p_h") + 14, bytes(64))
     with pytest.raises(DamagedError, match=r"is damaged: HDF5 reads it without end; compute it again$"):
         read_dataset(path)
 
@@ -124,7 +127,7 @@ def test_a_file_that_is_held_open_by_others(damaged, monkeypatch):
         fcntl.flock(holder, fcntl.LOCK_EX)
         with pytest.raises(InputError, match=r"is held open by another program, which must close it$"):
             read_dataset(path)
-    assert read_dataset(path).sizes["x"] == 65
+    assert read_dataset(path).sizes["x"] == 101
 
 
 @pytest.mark.parametrize("in_thread", [False, True])

@@ -16,12 +16,11 @@ from ehlectric.app.compute.warnings import told_of
 from ehlectric.app.figures.motion import instants, least_films, movie, texts, units
 from ehlectric.app.figures.over_time import history
 from ehlectric.cases.case import Case
-from ehlectric.errors import InputError
+from ehlectric.errors import InputError, warnings_of
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.stored_run import MOTION, read_motion
 from ehlectric.runs.by_kind import run_motion
 from ehlectric.runtime.progress import Progress
-from ehlectric.runtime.stored_warnings import warnings_of
 from ehlectric.tables.motion import run_rows
 
 _PREFIX = "motion-"

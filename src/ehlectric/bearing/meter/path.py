@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.circuit import Circuit
 from ehlectric.cases.bearings.bearing import Bearing
+from ehlectric.runtime.stored import stored
 
 
 @dataclass(frozen=True)
@@ -37,10 +38,12 @@ class Path:
     (0.8, 230.0)
     """
 
-    coating: float = math.inf
-    parallel: float = 0.0
-    resistance: float = math.inf
-    coating_breakdown: float | None = None
+    coating: float = field(default=math.inf, metadata=stored("", "F", "positive or infinite"))
+    parallel: float = field(default=0.0, metadata=stored("", "F", "not negative"))
+    resistance: float = field(default=math.inf, metadata=stored("", "ohm", "positive or infinite"))
+    coating_breakdown: float | None = field(
+        default=None, metadata=stored("", "V", "finite or NaN", unknown=True)
+    )
 
     @property
     def coated(self) -> bool:

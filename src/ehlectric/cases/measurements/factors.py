@@ -10,10 +10,9 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.measurements.average import MeanFactor
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.files import Content, json_of, plain
-from ehlectric.runtime.stored_warnings import texts_and_codes
 from ehlectric.runtime.tables import column_head, csv_of
 from ehlectric.version import __version__
 

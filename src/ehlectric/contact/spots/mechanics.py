@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ehlectric.contact.spots.patches import Spots, weighted_percentiles
 from ehlectric.field.zones import line_zone_areas, point_zone_areas
 from ehlectric.film.line import Film
 from ehlectric.film.point import PointFilm
+from ehlectric.runtime.stored import number
 from ehlectric.surfaces.profiles import FLAT
 
 # Shares of the area around the spots up to which the film is as thin as its percentiles.
@@ -30,8 +31,8 @@ class Coarser:
         Part of the area of the dry smooth contact in which the surfaces touch.
     """
 
-    load_share: float
-    contact_area_share: float
+    load_share: float = field(metadata=number("not negative"))
+    contact_area_share: float = field(metadata=number("not negative"))
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.runtime.stored import stored
 
 # Columns of an event: begin and end [s], number of the film, voltage at breakdown [V], charge [C], energy
 # [J], largest current [A], and position of the elements.
@@ -44,7 +45,7 @@ class Record:
         Largest and root mean square voltage across each film [V].
     spectrum : ndarray, shape (lines,)
         Absolute mean of the shaft voltage, and amplitudes of its lines at whole multiples of one over the
-        duration [V]; empty where a file of an earlier version has none.
+        duration [V]; empty where a file of version 1.0.0 has none.
     touching : ndarray, shape (2,)
         Largest voltage across each film while its asperities touch [V].
     burning : ndarray, shape (2,)
@@ -54,18 +55,20 @@ class Record:
         stretch; straight between the rows.
     """
 
-    duration: float
+    duration: float = field(metadata=stored("", "s", "positive"))
     events: Array
-    counts: np.ndarray
-    sums: Array
-    largest: Array
-    edges: Array
-    histogram: Array
+    counts: np.ndarray = field(metadata=stored("bearing block", None, "whole", name="block_events"))
+    sums: Array = field(metadata=stored("bearing column", None, "not negative", name="event_sum"))
+    largest: Array = field(metadata=stored("bearing column", None, "not negative", name="event_largest"))
+    edges: Array = field(metadata=stored("edge", "V", "increasing", name="voltage_edge"))
+    histogram: Array = field(metadata=stored("bearing bin", "s", "not negative", name="time_at_voltage"))
     limits: Array
-    above: Array
-    peak: Array
-    rms: Array
-    spectrum: Array
-    touching: Array
-    burning: Array
+    above: Array = field(metadata=stored("bearing limit", "s", "not negative", name="time_above"))
+    peak: Array = field(metadata=stored("bearing", "V", "not negative", name="peak_voltage"))
+    rms: Array = field(metadata=stored("bearing", "V", "not negative", name="rms_voltage"))
+    spectrum: Array = field(
+        metadata=stored("line", "V", "not negative", name="line_amplitude", count="line_count", needed=False)
+    )
+    touching: Array = field(metadata=stored("bearing", "V", "not negative", name="touching_voltage"))
+    burning: Array = field(metadata=stored("bearing", "s", "not negative", name="burning_time"))
     trace: Array

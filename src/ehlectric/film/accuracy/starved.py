@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -23,6 +23,7 @@ from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.starved.course import Course, StarvedFilm, at_centre_line
 from ehlectric.film.starved.ratio import film_of_ratio, taken_layer
 from ehlectric.film.state import GridSolution, Progress, State
+from ehlectric.runtime.stored import number
 
 # Largest number of times that the grid of a point contact is refined, over the whole domain.
 _MOST_REFINED_POINT = 2
@@ -58,13 +59,13 @@ class Starvation:
         None if the film did not converge; a line contact has none at its sides.
     """
 
-    oil_layer: float | None
-    film_ratio: float | None
-    meniscus: float | None
-    flooded_minimum_thickness: float | None
-    flooded_central_thickness: float | None
-    flooded_inlet_deficit: float | None = None
-    flooded_side_deficit: float | None = None
+    oil_layer: float | None = field(metadata=number())
+    film_ratio: float | None = field(metadata=number())
+    meniscus: float | None = field(metadata=number())
+    flooded_minimum_thickness: float | None = field(metadata=number())
+    flooded_central_thickness: float | None = field(metadata=number())
+    flooded_inlet_deficit: float | None = field(default=None, metadata=number())
+    flooded_side_deficit: float | None = field(default=None, metadata=number())
 
 
 @dataclass(frozen=True)

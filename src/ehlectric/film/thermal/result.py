@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ehlectric.arrays import Array
+from ehlectric.runtime.stored import number, stored
 from ehlectric.runtime.values import Values
+
+_ACROSS = "from surface 1 to surface 2"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -47,20 +50,30 @@ class HeatedFilm(Values):
         Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
     """
 
-    rheology: str
-    shear_stress: Array
-    traction_coefficient: float | None
-    rolling_coefficient: float | None
-    power_loss: float | None
-    isothermal_minimum_thickness: float | None
-    isothermal_central_thickness: float | None
-    outer_iterations: int
-    zeta: Array | None = None
-    temperature: Array | None = None
-    mid_temperature: Array | None = None
-    max_temperature_rise: float | None = None
-    temperature_rise_error: float | None = None
-    energy_imbalance: float | None = None
+    rheology: str = field(metadata=number("text"))
+    shear_stress: Array = field(
+        metadata=stored("nodes", "Pa", "finite", "shear stress at mid-film along entrainment", needed=False)
+    )
+    traction_coefficient: float | None = field(metadata=number())
+    rolling_coefficient: float | None = field(metadata=number())
+    power_loss: float | None = field(metadata=number("not negative or null"))
+    isothermal_minimum_thickness: float | None = field(metadata=number("positive or null"))
+    isothermal_central_thickness: float | None = field(metadata=number("positive or null"))
+    outer_iterations: int = field(metadata=number("whole"))
+    zeta: Array | None = field(
+        default=None,
+        metadata=stored("zeta", "1", "increasing", f"fraction of the film, {_ACROSS}", needed=False),
+    )
+    temperature: Array | None = field(
+        default=None,
+        metadata=stored("zeta nodes", "K", "positive", f"temperature in the film, {_ACROSS}", needed=False),
+    )
+    mid_temperature: Array | None = field(
+        default=None, metadata=stored("nodes", "K", "positive", "temperature at mid-film", needed=False)
+    )
+    max_temperature_rise: float | None = field(default=None, metadata=number())
+    temperature_rise_error: float | None = field(default=None, metadata=number())
+    energy_imbalance: float | None = field(default=None, metadata=number())
 
     @property
     def thermal(self) -> bool:

@@ -1,8 +1,4 @@
-"""Rules for the content of stored results: variables with their dimensions, units and values, and texts.
-
-A kind of file has a table of rules, one for each variable. ``check_variables`` holds the variables against it
-before any of them is used.
-"""
+"""Rules for stored results: their format, variables with dimensions, units and values, texts and numbers."""
 
 from __future__ import annotations
 
@@ -11,7 +7,6 @@ import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -20,13 +15,15 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import DamagedError, InputError
-from ehlectric.runtime.stored_warnings import CODES_OF_TEXTS, TEXTS
 from ehlectric.runtime.values import is_number as is_python_number
 
 if TYPE_CHECKING:
     import xarray as xr
 
 C = TypeVar("C")
+
+# No version of a format has more digits.
+_DIGITS = 6
 
 # No quantity in SI units is larger, and no positive one smaller; squares of such numbers are finite.
 _LARGEST, _SMALLEST = 1e30, 1e-60
@@ -60,14 +57,36 @@ VALUES: Mapping[str, Callable[[Array], bool]] = MappingProxyType(
 )
 
 
+def format_of(schema: object) -> tuple[str, int]:
+    """Kind and version in a schema, as ``("ehlectric.drive.result", 1)``; ``("", 0)`` where it has none."""
+    kind, _, version = str(schema).rpartition("/")
+    known = version.isascii() and version.isdecimal() and len(version) <= _DIGITS
+    return (kind, int(version)) if known else ("", 0)
+
+
+def check_format(attributes: Mapping[Any, Any], schema: str, path: Path, what: str) -> None:
+    """Refuse a file of another kind, or of a later version than a schema, with an InputError.
+
+    >>> own, path = "ehlectric.drive.result/2", Path("a.nc")
+    >>> check_format({"schema": "ehlectric.drive.result/1"}, own, path, "the result of a drive")
+    >>> check_format({"schema": "ehlectric.drive.result/3"}, own, path, "the result of a drive")
+    Traceback (most recent call last):
+    ehlectric.errors.InputError: a.nc: is of a later version of ehlectric; expected version 2 or
+    earlier of ehlectric.drive.result, not 3
+    """
+    (own, version), (kind, stored) = format_of(schema), format_of(attributes.get("schema"))
+    if kind != own or not stored:
+        raise InputError(path, f"is not {what} of ehlectric")
+    if stored > version:
+        takes = f"version {version} or earlier of {own}, not {stored}"
+        raise InputError(path, "is of a later version of ehlectric", takes=takes)
+
+
 @contextmanager
 def refusing(path: Path) -> Iterator[None]:
     """Context in which the content of a file is used: what does not fit becomes a DamagedError of one line.
 
-    Raises
-    ------
-    DamagedError
-        Where an UnfitError is raised, or an error that only inconsistent content raises.
+    That is an UnfitError, and an error that only inconsistent content raises.
     """
     try:
         yield
@@ -83,18 +102,10 @@ def refusing(path: Path) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Rule:
-    """Rule that a variable of a file follows.
+    """Rule for a variable of a file: dimensions, values by a key of ``VALUES``, and unit.
 
-    Attributes
-    ----------
-    dims : tuple of str
-        Names of its dimensions, in order.
-    values : str
-        What its values must be, a key of ``VALUES``.
-    unit : str, optional
-        Its unit; not checked by default, nor where the file states none.
-    needed : bool
-        Whether the file must have it.
+    The unit is not checked where it is None, nor where the file states none. ``needed`` says whether the file
+    must have the variable.
     """
 
     dims: tuple[str, ...]
@@ -106,25 +117,10 @@ class Rule:
 def check_variables(
     dataset: xr.Dataset, rules: Mapping[str, Rule], least: Mapping[str, int] = MappingProxyType({})
 ) -> None:
-    """Check variables of a dataset against their rules.
+    """Check variables of a dataset against their rules by name; raises an UnfitError.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Content of a file.
-    rules : mapping of str to Rule
-        Rule of each variable by its name.
-    least : mapping of str to int
-        Smallest size of dimensions, by name; of others it is 1.
+    ``least`` has the smallest size of dimensions; of others it is 1.
 
-    Raises
-    ------
-    UnfitError
-        Where a variable is missing, or has other dimensions, another type, another unit, or values that it
-        cannot have.
-
-    Examples
-    --------
     >>> import xarray as xr
     >>> film = xr.Dataset({"thickness": ("x", [1e-7, -1e-7], {"units": "m"})})
     >>> check_variables(film, {"thickness": Rule(("x",), "finite", "m")})
@@ -157,13 +153,7 @@ def _check_variable(name: str, variable: Any, rule: Rule, least: Mapping[str, in
 
 
 def text_of(attributes: Mapping[Any, Any], name: str) -> str:
-    """Attribute that is a text.
-
-    Raises
-    ------
-    UnfitError
-        Where it is missing, or something else.
-    """
+    """Attribute that is a text; raises an UnfitError where it is missing, or something else."""
     if name not in attributes:
         raise UnfitError(f"{name} is missing")
     if not isinstance(attributes[name], str):
@@ -172,13 +162,7 @@ def text_of(attributes: Mapping[Any, Any], name: str) -> str:
 
 
 def number_of(attributes: Mapping[Any, Any], name: str, values: str = "not negative") -> float:
-    """Attribute that is a number, as the words in ``values`` say, a key of ``VALUES``.
-
-    Raises
-    ------
-    UnfitError
-        Where it is missing, is no number, or is another one.
-    """
+    """Attribute that is a number, as a key of ``VALUES`` says; raises an UnfitError where it is none."""
     if name not in attributes:
         raise UnfitError(f"{name} is missing")
     found = np.asarray(attributes[name])
@@ -190,22 +174,7 @@ def number_of(attributes: Mapping[Any, Any], name: str, values: str = "not negat
 
 
 def json_of(attributes: Mapping[Any, Any], name: str, right: Callable[[Any], bool]) -> Any:
-    """Value of an attribute that is JSON.
-
-    Parameters
-    ----------
-    attributes : mapping
-        Attributes of a file.
-    name : str
-        Name of the attribute.
-    right : callable
-        Whether the value is what it must be.
-
-    Raises
-    ------
-    UnfitError
-        Where the attribute is missing, or its text is no JSON or another value.
-    """
+    """Value of an attribute that is JSON; raises an UnfitError where it is not ``right``."""
     text = text_of(attributes, name)
     try:
         value = json.loads(text)
@@ -216,37 +185,10 @@ def json_of(attributes: Mapping[Any, Any], name: str, right: Callable[[Any], boo
     return value
 
 
-def check_warnings(attributes: Mapping[Any, Any]) -> None:
-    """Check the attributes that hold warnings: as many codes as texts, and no codes in earlier versions.
-
-    Raises
-    ------
-    UnfitError
-        Where one of them is missing or is no list of texts, or the numbers differ.
-    """
-    texts = json_of(attributes, TEXTS, partial(is_list, right=is_text))
-    if CODES_OF_TEXTS in attributes:
-        json_of(
-            attributes,
-            CODES_OF_TEXTS,
-            lambda codes: is_list(codes, is_text) and len(codes) == len(texts),
-        )
-
-
 def case_of(attributes: Mapping[Any, Any], read: Callable[[dict[str, Any]], C]) -> C:
-    """Case in the attribute ``case``, which is TOML.
+    """Case in the attribute ``case``, which is TOML, by the function that makes it of its nested tables.
 
-    Parameters
-    ----------
-    attributes : mapping
-        Attributes of a file.
-    read : callable
-        Function that makes the case of its nested tables.
-
-    Raises
-    ------
-    UnfitError
-        Where the attribute is missing, or its text is no TOML or no case.
+    Raises an UnfitError where the attribute is missing, or its text is no TOML or no case.
     """
     text = text_of(attributes, "case")
     try:

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from ehlectric.bearing.files import load, save
+from ehlectric import load
+from ehlectric.bearing.files import save
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.errors import InputError

@@ -6,13 +6,14 @@ import math
 import numpy as np
 import pytest
 
+from ehlectric import load
 from ehlectric.bearing.conditions import ContactFriction
-from ehlectric.bearing.files import NETCDF, load, save
+from ehlectric.bearing.files import NETCDF, save
 from ehlectric.bearing.friction.rolling import rolling_force, rolling_power_loss
 from ehlectric.bearing.kinds import kind_of
 from ehlectric.bearing.preparation import largest_load, prepare_bearing, with_film_factor
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.bearing.storage.dataset import dataset_of, solution_of
+from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.grid import Grid, Solver, point_grid
 from ehlectric.contact.kinds import KINDS
@@ -202,7 +203,7 @@ def test_a_given_film_factor_has_no_friction():
 
 
 def test_stored_friction(rollers, tmp_path):
-    """A file keeps it; one of an earlier version has none, and a damaged one is refused."""
+    """A file keeps it; one of films of another thickness has none, and a damaged one is refused."""
     result = solve_bearing(case(ROLLERS))
     save(result, tmp_path)
     assert load(tmp_path / NETCDF).solution.conditions.outer.friction == rollers.conditions.outer.friction
@@ -214,11 +215,11 @@ def test_stored_friction(rollers, tmp_path):
             solution_of(dataset.assign_attrs(broken))
     for name in [name for name in dataset.attrs if name.startswith("solved_")]:
         del dataset.attrs[name]
-    earlier = solution_of(dataset)
-    assert earlier.conditions.inner.friction is None
-    assert earlier.conditions.heat_factor == rollers.conditions.heat_factor
-    assert summary_of(earlier)["bearing"]["rolling_power_loss"] is None
-    assert not [name for name in dataset_of(earlier).attrs if name.startswith("solved_")]
+    without = solution_of(dataset)
+    assert without.conditions.inner.friction is None
+    assert without.conditions.heat_factor == rollers.conditions.heat_factor
+    assert summary_of(without)["bearing"]["rolling_power_loss"] is None
+    assert not [name for name in dataset_of(without).attrs if name.startswith("solved_")]
 
 
 def test_table_says_what_the_power_is_of(rollers):

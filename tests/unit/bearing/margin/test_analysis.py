@@ -6,7 +6,8 @@ import re
 
 import pytest
 
-from ehlectric.bearing.files import load, save
+from ehlectric import load
+from ehlectric.bearing.files import save
 from ehlectric.bearing.margin.analysis import MarginAnalysis
 from ehlectric.bearing.margin.critical_speed import SpeedRange, speed_range
 from ehlectric.bearing.margin.quick_margins import QuickMargins

@@ -6,13 +6,13 @@ import tomllib
 import numpy as np
 import pytest
 
-from ehlectric import run_sweep
+from ehlectric import load, run_sweep
 from ehlectric.app.compute.bearing import quick_answer
-from ehlectric.bearing.files import NETCDF, load, save
+from ehlectric.bearing.files import NETCDF, save
 from ehlectric.bearing.preparation import largest_load, prepare_bearing, resolve_bearing
 from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solver import check_bearing, solve_bearing
-from ehlectric.bearing.storage.dataset import dataset_of, solution_of
+from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.supply import solved_heat
 from ehlectric.contact.kinds import KINDS

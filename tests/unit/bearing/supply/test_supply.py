@@ -8,7 +8,7 @@ import pytest
 from ehlectric.bearing.measured.forward import OperatingPoint
 from ehlectric.bearing.preparation import prepare_bearing, resolve_bearing, with_film_factor
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.bearing.storage.dataset import dataset_of, solution_of
+from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
 from ehlectric.bearing.supply.decay import half_time, track_length
 from ehlectric.bearing.supply.warnings import film_note, supply_warnings, supply_words

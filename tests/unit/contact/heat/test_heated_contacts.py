@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric import Case, InputError, Laws, solve
+from ehlectric import Case, InputError, Laws, load, solve
 from ehlectric.app.compute.contact import view_of
 from ehlectric.contact.check import check_case
-from ehlectric.contact.files import load, save
+from ehlectric.contact.files import save
 from ehlectric.contact.heat.oil import hot_oil, oil_over_temperature
 from ehlectric.contact.heat.physics import physics_of
 from ehlectric.contact.heat.warnings import heat_warnings

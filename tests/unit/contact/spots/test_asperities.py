@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 
-from ehlectric import Case, solve
+from ehlectric import Case, load, solve
 from ehlectric.contact.check import check_case
-from ehlectric.contact.files import load, save
+from ehlectric.contact.files import save
 from ehlectric.contact.spots.asperities import asperities
 from ehlectric.contact.spots.mechanics import Coarser
 from ehlectric.contact.spots.warnings import about_share, share_text, spot_warnings

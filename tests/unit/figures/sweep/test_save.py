@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.tri import TriContourSet
 
 from ehlectric import InputError
-from ehlectric.errors import CODES, ResultWarning
+from ehlectric.errors import CODES, ResultWarning, texts_and_codes
 from ehlectric.figures.axes import levels_of, round_numbers
 from ehlectric.figures.style import style
 from ehlectric.figures.sweep.lines import value_lines
@@ -19,7 +19,6 @@ from ehlectric.figures.sweep.maps import value_map
 from ehlectric.figures.sweep.points import LESS_ACCURATE
 from ehlectric.figures.sweep.save import figure, save_maps
 from ehlectric.figures.sweep.sensitivity import distribution, parts, save_sensitivity, sensitivity_figure
-from ehlectric.runtime.stored_warnings import texts_and_codes
 from ehlectric.sweep.results import Range
 from ehlectric.sweep.sensitivity import sensitivity
 from tests.helpers.each import each

@@ -1,1 +1,0 @@
-"""Solution of a bearing as a dataset, which its NetCDF file holds, and back."""

@@ -1,1 +1,0 @@
-"""Results of contacts as xarray datasets, and their NetCDF files."""

@@ -1,1 +1,0 @@
-"""File of a solved drive: its content, and the result of it."""

@@ -1,0 +1,165 @@
+"""Stored form of a drive's result, drive.nc: its dataset in SI units, and the result of such a dataset."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.meter.path import Path
+from ehlectric.cases.drives.case import ENDS, DriveCase
+from ehlectric.drive.bearings import BearingElement
+from ehlectric.drive.discharges.record import COLUMNS, KEPT, Record
+from ehlectric.drive.solution import DriveSolution
+from ehlectric.errors import TEXTS, texts_and_codes
+from ehlectric.runtime.checks.schema import Rule, UnfitError, case_of, number_of, text_of
+from ehlectric.runtime.stored import Part, check_parts, stored, values_of, warnings_in_tables
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# Title, changes and solution of each remedy.
+Remedies = Sequence[tuple[str, dict[str, Any], DriveSolution]]
+
+# Name and version of the layout of drive.nc.
+SCHEMA = "ehlectric.drive.result/1"
+
+# The drive as it is comes first along the first dimension, and its remedies follow.
+_VARIANT, _END = "variant", "bearing"
+
+
+_event = partial(stored, "event", count="event_count")
+_sample = partial(stored, "sample", count="sample_count")
+
+
+@dataclass(frozen=True)
+class _Events:
+    """Columns of the events of a record, in their order."""
+
+    begin: Array = field(metadata=_event("s"))
+    end: Array = field(metadata=_event("s"))
+    bearing: Array = field(metadata=_event("", "0 or 1", dtype="i8"))
+    voltage: Array = field(metadata=_event("V"))
+    charge: Array = field(metadata=_event("C"))
+    energy: Array = field(metadata=_event("J", "not negative"))
+    peak_current: Array = field(metadata=_event("A", "not negative"))
+    position: Array = field(metadata=_event("", "whole", dtype="i8"))
+
+
+@dataclass(frozen=True)
+class _Samples:
+    """Columns of the trace of a record; the last two are the voltages across both films."""
+
+    time: Array = field(metadata=_sample("s"))
+    source: Array = field(metadata=_sample("V"))
+    voltage: Array = field(metadata=stored("sample bearing", "V", count="sample_count"))
+
+
+_SOLUTION, _RECORD = Part(DriveSolution, (_VARIANT,)), Part(Record, (_VARIANT,))
+_EVENTS, _SAMPLES = Part(_Events, (_VARIANT,), "event_"), Part(_Samples, (_VARIANT,), "sample_")
+_ELEMENT, _PATH = Part(BearingElement, (_VARIANT, _END), "element_"), Part(Path, (_VARIANT, _END), "path_")
+_PARTS = (_SOLUTION, _RECORD, _EVENTS, _SAMPLES, _ELEMENT, _PATH)
+
+
+def dataset_of(solution: DriveSolution, remedies: Remedies, seconds: float, version: str) -> xr.Dataset:
+    """Dataset of a result of a drive, SI units.
+
+    Its variables are over the drive and its remedies, both bearings, events, bins of the voltage, lines of
+    the spectrum and samples of the trace. Its attributes hold the case, so that ``parts_of`` returns equal
+    values.
+    """
+    import xarray as xr
+
+    solutions = [solution, *(found for _, _, found in remedies)]
+    records = [one.record for one in solutions]
+    elements = [one.elements for one in solutions]
+    traces = [one.trace for one in records]
+    return xr.Dataset(
+        {
+            **_SOLUTION.written(solutions),
+            **_RECORD.written(records),
+            **_EVENTS.written([_Events(*one.events.T) for one in records]),
+            **_SAMPLES.written([_Samples(one[:, 0], one[:, 1], one[:, 2:]) for one in traces]),
+            **_ELEMENT.written(elements),
+            **_PATH.written([[one.path for one in pair] for pair in elements]),
+        },
+        coords={_END: list(ENDS), "limit": ("limit", records[0].limits, {"units": "V"})},
+        attrs={
+            "schema": SCHEMA,
+            "version": version,
+            "case": solution.case.to_toml(),
+            "seconds": seconds,
+            TEXTS: json.dumps([texts_and_codes(one.told) for one in solutions]),
+        },
+    )
+
+
+def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
+    """Solution, remedies, computing time [s] and version of a dataset that ``dataset_of`` made.
+
+    Raises
+    ------
+    UnfitError
+        Where a variable or an attribute is missing, or is not as it was written.
+    """
+    attributes = dataset.attrs
+    case = case_of(attributes, DriveCase.from_dict)
+    cases = [case, *case.variants()]
+    check(dataset, len(cases))
+    values, told = values_of(dataset), warnings_in_tables(attributes)
+    if len(told) != len(cases):
+        raise UnfitError(f"{TEXTS} is not as it was written")
+    solutions = [_solution_of(values, k, case=own, told=told[k]) for k, own in enumerate(cases)]
+    remedies = tuple(
+        (one.title, dict(one.changes), found) for one, found in zip(case.remedies, solutions[1:], strict=True)
+    )
+    return solutions[0], remedies, number_of(attributes, "seconds"), text_of(attributes, "version")
+
+
+def _solution_of(values: Mapping[str, Array], k: int, **given: Any) -> DriveSolution:
+    events, samples = _Events(**_EVENTS.read(values, k)), _Samples(**_SAMPLES.read(values, k))
+    columns = [getattr(events, each.name) for each in fields(_Events)]
+    record = Record(
+        **_RECORD.read(values, k),
+        events=np.column_stack(columns).astype(float),
+        limits=values["limit"],
+        trace=np.column_stack([samples.time, samples.source, samples.voltage.reshape(-1, len(ENDS))]),
+    )
+    first, second = (
+        BearingElement(**_ELEMENT.read(values, k, b), path=Path(**_PATH.read(values, k, b)))
+        for b in range(len(ENDS))
+    )
+    found = _SOLUTION.read(values, k)
+    divider = tuple(found.pop("divider").tolist())
+    return DriveSolution(**found, **given, divider=divider, elements=(first, second), record=record)
+
+
+def check(dataset: xr.Dataset, variants: int) -> None:
+    """Check the variables of a drive.nc with a number of variants before any of them is used.
+
+    Raises
+    ------
+    UnfitError
+        Where a variable is missing, or is not as it was written.
+    """
+    check_parts(dataset, _PARTS, {"limit": Rule(("limit",), "increasing", "V")})
+    sizes = dataset.sizes
+    expected = {_VARIANT: variants, _END: len(ENDS), "column": COLUMNS, "edge": sizes["bin"] + 1}
+    for name, size in expected.items():
+        if sizes[name] != size:
+            raise UnfitError(f"it has {sizes[name]} values along {name}, not {size}")
+    if np.any(dataset["position_count"].values < 1):
+        raise UnfitError("position_count is not positive")
+    # The events one by one are among those that are counted.
+    counted = np.sum(dataset["block_events"].values, axis=-1)
+    values = values_of(dataset)
+    for k, total in enumerate(counted):
+        own = _EVENTS.read(values, k)["bearing"].astype(int)
+        numbers = np.bincount(own, minlength=len(ENDS))
+        if np.any(numbers > total) or (own.size < KEPT and np.any(numbers != total)):
+            raise UnfitError("event_bearing does not belong to block_events")

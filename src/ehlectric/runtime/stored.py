@@ -1,0 +1,291 @@
+"""Stored form of dataclasses: the metadata of a field say how a file holds its values.
+
+``stored`` is the metadata of an array, a variable of a NetCDF file, and ``number`` that of a number in an
+attribute. A ``Part`` of a file has the fields of one class: it writes them, checks them and reads them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property, partial
+from operator import attrgetter
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.errors import CODES_OF_TEXTS, TEXTS, ResultWarning, texts_and_codes, warnings_of
+from ehlectric.runtime.checks.schema import (
+    Rule,
+    UnfitError,
+    check_variables,
+    is_list,
+    is_number,
+    is_table,
+    is_text,
+    json_of,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# Keys of the metadata of a field.
+_ARRAY, _NUMBER = "stored", "stored number"
+
+_EMPTY: Mapping[str, Any] = MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class Stored:
+    """Variable of a file that holds the values of a field.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        Its dimensions; a ``Part`` may replace a name by several.
+    unit : str or None
+        Its unit; None where the file states none.
+    rule : str
+        What its values must be, a key of ``VALUES``. Those of "0 or 1" are read as booleans.
+    text : str
+        Its long name.
+    name : str
+        Its name in the file, by default that of the field with the prefix of the part.
+    needed : bool
+        Whether a file must have it.
+    dtype : str or None
+        Type of its values in the file, by default that of the field.
+    unknown : bool
+        Whether None in place of a number is stored as NaN.
+    count : str
+        Where the lengths of the arrays of several objects differ, they follow each other in one variable;
+        this variable has the lengths.
+    """
+
+    dims: tuple[str, ...]
+    unit: str | None = None
+    rule: str = "finite"
+    text: str = ""
+    name: str = ""
+    needed: bool = True
+    dtype: str | None = None
+    unknown: bool = False
+    count: str = ""
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Attributes of the variable: long name and unit."""
+        named = {"long_name": self.text} if self.text else {}
+        return named if self.unit is None else {**named, "units": self.unit}
+
+
+def stored(
+    dims: str = "", unit: str | None = None, rule: str = "finite", text: str = "", **options: Any
+) -> dict[str, Stored]:
+    """Metadata of a field whose values are a variable over the dimensions in a text; see ``Stored``."""
+    return {_ARRAY: Stored(tuple(dims.split()), unit, rule, text, **options)}
+
+
+def number(rule: str | tuple[str, ...] = "finite or null") -> dict[str, Any]:
+    """Metadata of a field that is a number or a text in an attribute.
+
+    The rule is a key of ``VALUES``, perhaps with " or null", or "text", or the texts that are possible.
+    """
+    return {_NUMBER: rule}
+
+
+@dataclass(frozen=True)
+class Part:
+    """Variables of a file that hold the fields of one class.
+
+    Attributes
+    ----------
+    kind : type
+        Dataclass whose fields have metadata of ``stored``.
+    over : tuple of str
+        Dimensions over which the file has many objects of the class; empty for one object.
+    prefix : str
+        First letters of the names of variables that have none of their own.
+    axes : mapping of str to tuple of str
+        Dimensions in place of a name in the metadata.
+    changed : mapping of str to dict
+        Options that differ from the metadata, by the name of the field.
+    """
+
+    kind: type[Any]
+    over: tuple[str, ...] = ()
+    prefix: str = ""
+    axes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    changed: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    @cached_property
+    def fields(self) -> dict[str, Stored]:
+        """Variable of each field by the name of the field."""
+        return {
+            each.name: self._placed(each.name, each.metadata[_ARRAY])
+            for each in fields(self.kind)
+            if _ARRAY in each.metadata
+        }
+
+    def _placed(self, name: str, entry: Stored) -> Stored:
+        entry = replace(entry, **self.changed.get(name, _EMPTY))
+        own = [axis for dim in entry.dims for axis in self.axes.get(dim, (dim,))]
+        dims = (*(() if entry.count else self.over), *own)
+        return replace(entry, name=entry.name or self.prefix + name, dims=dims)
+
+    @property
+    def rules(self) -> dict[str, Rule]:
+        """Rules for the variables by their names."""
+        found = {}
+        for entry in self.fields.values():
+            needed = entry.needed and not entry.count
+            found[entry.name] = Rule(entry.dims, entry.rule, entry.unit, needed=needed)
+            if entry.count:
+                found[entry.count] = Rule(self.over, "whole", needed=entry.needed)
+        return found
+
+    def written(self, objects: Any) -> dict[str, Any]:
+        """Variables of an object, or of nested lists of them, in the form that xarray expects.
+
+        A field that is None has no variable, and neither have values without a length.
+        """
+        found: dict[str, Any] = {}
+        for name, entry in self.fields.items():
+            values = _mapped(objects, attrgetter(name))
+            if values is None and not entry.unknown:
+                continue
+            if entry.count:
+                found[entry.count] = (self.over, np.array(_mapped(values, len)))
+                values = np.concatenate(list(_leaves(values)))
+                if not len(values):
+                    continue
+            kind = entry.dtype or ("f8" if entry.unknown else None)
+            found[entry.name] = (entry.dims, np.array(values, dtype=kind), entry.attributes)
+        return found
+
+    def read(self, values: Mapping[str, Array], *at: int) -> dict[str, Any]:
+        """Arguments of the class for the object at some place, without those that a file does not have."""
+        found: dict[str, Any] = {}
+        for name, entry in self.fields.items():
+            if entry.count:
+                found[name] = _part(values, entry, at)
+            elif entry.name in values:
+                found[name] = _value(entry, values[entry.name][at])
+        return found
+
+
+def values_of(dataset: xr.Dataset) -> dict[str, Array]:
+    """Values of all variables of a dataset by their names."""
+    return {str(name): np.asarray(variable.values) for name, variable in dataset.variables.items()}
+
+
+def check_parts(
+    dataset: xr.Dataset,
+    parts: Sequence[Part],
+    further: Mapping[str, Rule] = MappingProxyType({}),
+    least: Mapping[str, int] = MappingProxyType({}),
+) -> None:
+    """Check the variables of the parts of a file, and further ones; raises an UnfitError.
+
+    ``least`` has the smallest size of dimensions; of others it is 1.
+    """
+    rules = {name: rule for part in parts for name, rule in part.rules.items()}
+    check_variables(dataset, {**rules, **further}, least)
+    for entry in (entry for part in parts for entry in part.fields.values() if entry.count):
+        total = int(np.sum(dataset[entry.count].values)) if entry.count in dataset else 0
+        if total != dataset.sizes.get(entry.dims[0], 0):
+            raise UnfitError(f"{entry.count} is not the number of values along {entry.dims[0]}")
+        if total and entry.name not in dataset:
+            raise UnfitError(f"{entry.name} is missing")
+
+
+def numbers_of(thing: Any) -> str:
+    """Numbers of an object as the JSON text of an attribute."""
+    return json.dumps({name: getattr(thing, name) for name in _rules_of_numbers(type(thing))})
+
+
+def read_numbers(kind: type[Any], attributes: Mapping[Any, Any], name: str) -> dict[str, Any]:
+    """Numbers of an object of a class in an attribute of a file; raises an UnfitError.
+
+    A number that may be null may also be missing.
+    """
+    rules = _rules_of_numbers(kind)
+    checks: dict[str, Callable[[Any], bool]] = {key: partial(_fits, rule=rule) for key, rule in rules.items()}
+    optional = {key: check for key, check in checks.items() if check(None)}
+    needed = {key: check for key, check in checks.items() if key not in optional}
+    found: dict[str, Any] = json_of(attributes, name, partial(is_table, columns=needed, others=optional))
+    return found
+
+
+def warnings_as_attributes(warnings: Iterable[ResultWarning]) -> dict[str, str]:
+    """Attributes of a NetCDF file for warnings: texts and codes, each as JSON."""
+    return {name: json.dumps(values) for name, values in texts_and_codes(warnings).items()}
+
+
+def warnings_in(attributes: Mapping[Any, Any]) -> tuple[ResultWarning, ...]:
+    """Warnings in the attributes of a NetCDF file; raises an UnfitError where they are no warnings."""
+    texts = partial(is_list, right=is_text)
+    return _warnings({name: json_of(attributes, name, texts) for name in (TEXTS, CODES_OF_TEXTS)})
+
+
+def warnings_in_tables(attributes: Mapping[Any, Any], depth: int = 1) -> Any:
+    """Lists of warnings, nested to some depth, in one attribute of a file; raises an UnfitError."""
+    texts = partial(is_list, right=is_text)
+    right: Callable[[Any], bool] = partial(is_table, columns={TEXTS: texts, CODES_OF_TEXTS: texts})
+    for _ in range(depth):
+        right = partial(is_list, right=right)
+    return _mapped(json_of(attributes, TEXTS, right), _warnings)
+
+
+def _warnings(table: Mapping[str, Any]) -> tuple[ResultWarning, ...]:
+    if len(table[TEXTS]) != len(table[CODES_OF_TEXTS]):
+        raise UnfitError(f"{CODES_OF_TEXTS} is not as it was written")
+    return warnings_of(table)
+
+
+def _rules_of_numbers(kind: type[Any]) -> dict[str, str | tuple[str, ...]]:
+    return {each.name: each.metadata[_NUMBER] for each in fields(kind) if _NUMBER in each.metadata}
+
+
+def _fits(value: Any, rule: str | tuple[str, ...]) -> bool:
+    """Whether a value of JSON is as the rule of ``number`` says."""
+    if isinstance(rule, tuple) or rule == "text":
+        return isinstance(value, str) and (rule == "text" or value in rule)
+    if value is None:
+        return rule.endswith(" or null")
+    return is_number(value, rule.removesuffix(" or null"))
+
+
+def _mapped(things: Any, function: Callable[[Any], Any]) -> Any:
+    """Nested lists with the result of a function in place of each item."""
+    if isinstance(things, list | tuple):
+        return [_mapped(thing, function) for thing in things]
+    return function(things)
+
+
+def _leaves(things: Any) -> Iterator[Any]:
+    if isinstance(things, list | tuple):
+        for thing in things:
+            yield from _leaves(thing)
+    else:
+        yield things
+
+
+def _value(entry: Stored, value: Any) -> Any:
+    """Value of a field from that of its variable: numbers of Python, masks of booleans."""
+    value = value.astype(bool) if entry.rule == "0 or 1" else value
+    value = value.item() if value.ndim == 0 else value
+    return None if entry.unknown and np.ndim(value) == 0 and np.isnan(value) else value
+
+
+def _part(values: Mapping[str, Array], entry: Stored, at: tuple[int, ...]) -> Array:
+    """Values of one of the arrays that follow each other in a variable; none where the file has none."""
+    if entry.name not in values:
+        return np.zeros(0)
+    counts = values[entry.count]
+    before = np.ravel_multi_index(at, counts.shape)
+    ends = np.concatenate([[0], np.cumsum(counts)]).astype(int)
+    return values[entry.name][ends[before] : ends[before + 1]]
