@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.flattened_waves import flattened, point_amplitude_ratio
+from benchmarks.load_sharing import film_under_share, load_sharing
 from ehlectric.cases.roughness import Roughness
-from ehlectric.formulas.asperities.flattening import flattened, point_amplitude_ratio
 from ehlectric.formulas.asperities.integrals import greenwood_integral
 from ehlectric.formulas.asperities.intermittency import contact_time_share, expected_spots
-from ehlectric.formulas.asperities.load_sharing import film_under_share, load_sharing
 from ehlectric.formulas.asperities.shares import LOAD_SHARE, load_shares
 from ehlectric.formulas.asperities.spectrum import SpectralMoments, profile_moments
 from ehlectric.formulas.asperities.statistical import greenwood_williamson, summit_separation

@@ -19,12 +19,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from benchmarks.film_mixed import RoughBodies, masjedi_khonsari_point
+from benchmarks.flattened_waves import flattened, point_amplitude_ratio
+from benchmarks.greenwood_tripp import greenwood_tripp
 from benchmarks.moving_asperities import POSED, Posed, Solved, solved, store, stored
 from ehlectric.arrays import Array
 from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.contact.spots.mechanics import load_of
-from ehlectric.formulas.asperities.flattening import flattened, point_amplitude_ratio
 from ehlectric.formulas.asperities.integrals import separation_of_gap
 from ehlectric.formulas.asperities.intermittency import contact_time_share, expected_spots
 from ehlectric.formulas.asperities.shares import LOAD_SHARE
@@ -32,11 +34,9 @@ from ehlectric.formulas.asperities.spectrum import SpectralMoments
 from ehlectric.formulas.asperities.statistical import (
     AsperityContact,
     Summits,
-    greenwood_tripp,
     greenwood_williamson,
     summit_separation,
 )
-from ehlectric.formulas.film_mixed import RoughBodies, masjedi_khonsari_point
 from ehlectric.motion.contact import TransientContact
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.summits import surface_moments

@@ -16,14 +16,13 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.atlas_nodes import groups_of, record
 from ehlectric.cases.oils.lubricant import Lubricant
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.coefficient import OilGroups
-from ehlectric.film.atlas.compute import record
 from ehlectric.film.atlas.film import atlas_film
-from ehlectric.film.atlas.grids import lubricant_coordinate
-from ehlectric.film.atlas.groups import Groups, groups_of
-from ehlectric.film.atlas.measures import NAMES
+from ehlectric.film.atlas.groups import Groups, lubricant_coordinate
+from ehlectric.film.atlas.table import NAMES
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
 

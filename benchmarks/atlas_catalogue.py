@@ -15,8 +15,7 @@ from ehlectric.cases.library.bearing_catalogue import bearing_catalogue
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.coefficient import OilGroups
 from ehlectric.film.atlas.film import atlas_film
-from ehlectric.film.atlas.grids import lubricant_coordinate
-from ehlectric.film.atlas.groups import Groups
+from ehlectric.film.atlas.groups import Groups, lubricant_coordinate
 from ehlectric.formulas.hertz_point import axis_ratio
 from ehlectric.lubricant.oil import Oil
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.atlas_catalogue import catalogue_contacts
+from benchmarks.atlas_nodes import groups_of
 from ehlectric.errors import InputError
 from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
 from ehlectric.film.atlas.film import atlas_film
-from ehlectric.film.atlas.groups import groups_of
 from ehlectric.formulas import film_line, film_point
 from ehlectric.lubricant.alpha import reciprocal_asymptotic_alpha
 

@@ -1,9 +1,17 @@
-"""Film of a line contact without its field and its smooth counterpart, for tests that need neither."""
+"""Films of line contacts without their fields and smooth counterparts, and rigid surfaces."""
+
+from dataclasses import replace
+
+import numpy as np
 
 from ehlectric.contact.problems import film_problem, line_domain_of
 from ehlectric.contact.resolve import resolve
+from ehlectric.film.deflection import LINE
 from ehlectric.film.line import solve_film
 from ehlectric.surfaces.rough_profiles import rough_surfaces
+
+# A line contact whose surfaces do not deform.
+RIGID_LINE = replace(LINE, influence=lambda nodes, _dx, _dy: np.zeros((nodes[0], 1)))
 
 
 def film_alone(case):

@@ -15,7 +15,7 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import dawsn, ndtr
+from scipy.special import dawsn
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, shown
@@ -96,27 +96,3 @@ def _gauss() -> tuple[Array, Array]:
     """Nodes and weights of Gauss-Legendre quadrature on the interval from -1 to 1."""
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
     return nodes, weights
-
-
-def touching_share(film_ratio: ArrayLike, *, touching: float = TOUCHING) -> Array:
-    """Share of the area where two rough surfaces touch, for Gaussian heights.
-
-    Parameters
-    ----------
-    film_ratio : array_like, shape (...)
-        Mean film thickness h over the combined root-mean-square height Rq of both surfaces, dimensionless.
-    touching : float
-        Gap over Rq below which the surfaces touch, dimensionless.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Share of the area from 0 to 1, dimensionless: the part that ``roughness_factor`` leaves out.
-
-    Examples
-    --------
-    >>> print(np.round(touching_share([1.0, 2.0, 3.0]), 4))
-    [0.1711 0.0256 0.0016]
-    """
-    share: Array = ndtr(touching - np.asarray(film_ratio, dtype=float))
-    return share

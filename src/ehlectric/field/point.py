@@ -97,11 +97,6 @@ class PointField(GapField):
         level = HIGH_FIELD * float(np.max(self.middle_strength))
         return area_above(self.x, self.y, self.middle_strength, level)
 
-    @property
-    def node_areas(self) -> Array:
-        """Area that belongs to each node of the map [m^2], shape (nx, ny)."""
-        return node_areas(self.x, self.y)
-
     def capacitance_of(self, zone: Zone) -> float:
         """Capacitance of a part of the map.
 

@@ -7,7 +7,7 @@ pressure with influence coefficients, evaluated by zero-padded real FFTs in O(N 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -118,7 +118,6 @@ LINE = Geometry(
     load=0.5 * np.pi,
     radius_ratio=0.0,
 )
-RIGID_LINE = replace(LINE, influence=lambda nodes, _dx, _dy: np.zeros((nodes[0], 1)))
 
 
 def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: float) -> Geometry:

@@ -94,39 +94,6 @@ def unfinished_share(law: PressureLaw) -> float:
     return float(end[0] * np.exp(-np.asarray(law(end)[0], dtype=float)[0]) * reciprocal_asymptotic_alpha(law))
 
 
-def film_alpha(law: PressureLaw) -> float:
-    """Bair's film-forming pressure-viscosity coefficient, in 1/Pa.
-
-    alpha_film = (1 - e^-3)/Int_0^(3/alpha*) eta(0)/eta(p) dp
-
-    Parameters
-    ----------
-    law : callable
-        ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
-
-    Returns
-    -------
-    float
-        Coefficient alpha_film [1/Pa]; alpha for Barus' law, and zero for a viscosity that does not rise with
-        pressure.
-
-    Notes
-    -----
-    S. Bair, Y. Liu and Q. J. Wang, The pressure-viscosity coefficient for Newtonian EHL film thickness with
-    general piezoviscous response, J. Tribol. 128 (2006) 624, doi:10.1115/1.2197846.
-
-    Examples
-    --------
-    >>> from ehlectric.lubricant.viscosity import barus
-    >>> round(film_alpha(lambda p: barus(p, pressure_viscosity_coefficient=2e-8)) * 1e9, 9)
-    20.0
-    """
-    asymptotic = reciprocal_asymptotic_alpha(law)
-    if asymptotic == 0.0:
-        return 0.0
-    return -math.expm1(-3.0) / _integral(law, np.linspace(0.0, 3.0 / asymptotic, 17))
-
-
 def _scale(law: PressureLaw) -> float:
     """Pressure that raises the viscosity about e times [Pa]; infinite if the viscosity does not rise."""
     exponent = np.asarray(law(_SOUGHT)[0], dtype=float)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 
+from scipy.optimize import brentq
+
 # Viscosity grades of ISO 3448. The middle of a grade is its number in mm^2/s at 40 degC, except for the four
 # thinnest, and its range is 10 % of the middle to either side.
 _MIDDLES = {2: 2.2, 3: 3.2, 5: 4.6, 7: 6.8}
@@ -138,12 +140,7 @@ def viscosity_at_100(at_40: float, index: float) -> float:
             f"an oil with {target:g} mm^2/s at 40 degC and viscosity index {index:g} has less than "
             f"{LEAST_AT_100:g} mm^2/s at 100 degC, the least of ASTM D2270"
         )
-    while top - bottom > 1e-12 * top:
-        middle = 0.5 * (bottom + top)
-        if not bottom < middle < top:
-            break
-        bottom, top = (middle, top) if _at_40(middle, index) < target else (bottom, middle)
-    return 1e-6 * 0.5 * (bottom + top)
+    return 1e-6 * float(brentq(lambda at_100: _at_40(at_100, index) - target, bottom, top, xtol=1e-12))
 
 
 def _at_40(at_100: float, index: float) -> float:

@@ -31,7 +31,7 @@ def csv_text(text: str) -> str:
     """Text for a cell of a CSV file, which no spreadsheet takes for a formula.
 
     A text that begins like a formula, with "=", "+", "-", "@", a tab or a line break, gets an apostrophe
-    before it, which spreadsheets take for the mark of a text. ``text_of_csv`` takes it off again.
+    before it, which spreadsheets take for the mark of a text.
 
     Examples
     --------
@@ -40,17 +40,6 @@ def csv_text(text: str) -> str:
     """
     # A text with apostrophes before the sign gets one more, so that the way back is certain.
     return f"'{text}" if _FORMULA.match(text) else text
-
-
-def text_of_csv(cell: str) -> str:
-    """Text of a cell that ``csv_text`` wrote.
-
-    Examples
-    --------
-    >>> text_of_csv("'=1"), text_of_csv("'Neill")
-    ('=1', "'Neill")
-    """
-    return cell[1:] if cell.startswith("'") and _FORMULA.match(cell) else cell
 
 
 def _cell(value: Any) -> Any:

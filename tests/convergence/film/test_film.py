@@ -5,14 +5,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ehlectric.film.deflection import RIGID_LINE
 from ehlectric.film.flow import Fluid
 from ehlectric.film.line import solve_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity
 from tests.helpers.each import each
-from tests.helpers.films import film_alone
+from tests.helpers.films import RIGID_LINE, film_alone
 from tests.reference.martin import exit_angle, film_coefficient
 
 INLET = -10.0  # in sqrt(2 R h0)

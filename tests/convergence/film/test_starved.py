@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from ehlectric import Case
-from ehlectric.film.deflection import RIGID_LINE
 from ehlectric.film.flow import Fluid
 from ehlectric.film.line import solve_film
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.problem import FilmProblem, OilSupply
 from tests.helpers.each import each
+from tests.helpers.films import RIGID_LINE
 from tests.helpers.starved_films import flooded_flow, posed, supplied
 from tests.reference.martin import exit_angle, film_coefficient
 

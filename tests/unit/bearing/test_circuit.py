@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing.circuit import Circuit, impedance, leaking_admittance
+from ehlectric.bearing.circuit import Circuit, leaking_admittance
 from ehlectric.bearing.shaft_voltage import voltage_ratio
 from tests.helpers.each import each
 
@@ -147,26 +147,6 @@ def test_voltage_ratio_by_hand():
     """20/(20 + 1000 + 70 + 110) = 1/60."""
     found = voltage_ratio(20e-12, 1e-9, 70e-12, 110e-12)
     assert found == pytest.approx(1.0 / 60.0, rel=1e-12, abs=0.0)
-
-
-def test_impedance_at_both_ends():
-    """A leaking capacitance: R = tau/C at rest, 1/(2 pi f C) far above 1/(2 pi tau), -45 degrees there."""
-    c, tau = 2e-10, 21.0
-    corner = 1.0 / (2.0 * np.pi * tau)
-    z = impedance(c, tau, np.array([0.0, corner, 1e6]))
-    assert z[0] == pytest.approx(tau / c, rel=1e-12, abs=0.0)
-    assert np.degrees(np.angle(z[1])) == pytest.approx(-45.0, rel=1e-9, abs=0.0)
-    assert abs(z[1]) == pytest.approx(tau / c / np.sqrt(2.0), rel=1e-9, abs=0.0)
-    assert abs(z[2]) == pytest.approx(1.0 / (2.0 * np.pi * 1e6 * c), rel=1e-9, abs=0.0)
-    assert np.degrees(np.angle(z[2])) == pytest.approx(-90.0, rel=1e-6, abs=0.0)
-
-
-@given(frequency=st.floats(1e-3, 1e6))
-def test_impedance_is_resistance_beside_capacitance(frequency):
-    """1/Z = 1/R + i omega C with R = tau/C."""
-    c, tau = 1e-10, 0.5
-    admittance = 1.0 / impedance(c, tau, np.array([frequency]))[0]
-    assert admittance == pytest.approx(c / tau + 2j * np.pi * frequency * c, rel=1e-12, abs=0.0)
 
 
 @given(rows=st.lists(elements, min_size=1, max_size=12), shape=st.floats(0.5, 200.0))

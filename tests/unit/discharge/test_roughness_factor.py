@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from ehlectric.discharge.roughness_factor import LEAST_RATIO, TOUCHING, roughness_factor, touching_share
+from ehlectric.discharge.roughness_factor import LEAST_RATIO, TOUCHING, roughness_factor
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 
@@ -22,7 +22,6 @@ def test_factor_is_the_mean_over_a_gaussian_gap(heights, ratio):
     gap = ratio + heights
     rough = np.mean(np.where(gap > TOUCHING, ratio / np.where(gap > TOUCHING, gap, 1.0), 0.0))
     assert float(roughness_factor(ratio)) == pytest.approx(rough, rel=2e-5)
-    assert float(touching_share(ratio)) == pytest.approx(np.mean(gap < TOUCHING), abs=1e-6)
 
 
 def test_factor_of_a_thick_film_is_one_plus_the_square_of_rq_over_h():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import gamma, gammaincc
 
@@ -16,7 +16,7 @@ from ehlectric.errors import InputError
 from ehlectric.lubricant import doolittle as free_volume
 from ehlectric.lubricant import equation_of_state as state
 from ehlectric.lubricant import heat_capacity, modulus, permittivity, thermal_conductivity, yasutomi
-from ehlectric.lubricant.alpha import film_alpha, initial_alpha, reciprocal_asymptotic_alpha
+from ehlectric.lubricant.alpha import initial_alpha, reciprocal_asymptotic_alpha
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson, dowson_higginson_pressure
 from ehlectric.lubricant.glass import GLASS_VISCOSITY, LARGEST_EXPONENT
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, roelands
@@ -412,7 +412,7 @@ def test_all_coefficients_of_barus_are_alpha(alpha):
     def barus(p):
         return alpha * p, np.full_like(p, alpha)
 
-    for coefficient in (initial_alpha, reciprocal_asymptotic_alpha, film_alpha):
+    for coefficient in (initial_alpha, reciprocal_asymptotic_alpha):
         assert coefficient(barus) == pytest.approx(alpha, rel=1e-9)
 
 
@@ -429,14 +429,6 @@ def test_coefficient_of_roelands_by_the_incomplete_gamma_function(alpha, z):
     assert found <= alpha * (1.0 + 1e-9)
 
 
-def test_film_coefficient_of_roelands_by_adaptive_quadrature():
-
-    law = partial(roelands, pressure_viscosity_coefficient=22e-9, roelands_z=0.67, roelands_pressure=0.196e9)
-    end = 3.0 / reciprocal_asymptotic_alpha(law)
-    integral = quad(lambda p: math.exp(-float(law(p)[0])), 0.0, end, epsabs=0.0, epsrel=1e-12)[0]
-    assert film_alpha(law) == pytest.approx((1.0 - math.exp(-3.0)) / integral, rel=1e-10)
-
-
 def test_viscosities_that_do_not_rise_have_no_coefficient():
     def constant(p):
         return np.zeros_like(p), np.zeros_like(p)
@@ -445,7 +437,7 @@ def test_viscosities_that_do_not_rise_have_no_coefficient():
         return -1e-9 * p, np.full_like(p, -1e-9)
 
     for law in (constant, thinning):
-        assert reciprocal_asymptotic_alpha(law) == film_alpha(law) == 0.0
+        assert reciprocal_asymptotic_alpha(law) == 0.0
 
 
 @pytest.mark.parametrize(("b1", "codes"), [(-0.0778401225, []), (0.3, ["law-range"])])

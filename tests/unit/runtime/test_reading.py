@@ -10,7 +10,7 @@ import pytest
 from ehlectric.cases.any_case import case_of_file
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.drive.source.oscilloscope import read_waveform
+from ehlectric.drive.source.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from ehlectric.runs.kinds import expect
 from ehlectric.runtime.reading import MOST_TEXT, blocks, read_bytes, read_text, refuse_unreadable

@@ -189,10 +189,6 @@ class BallBearing:
         cosine = self.radial_distance / self.groove_distance
         return 0.5 * self.pitch_diameter + self.offsets[0] * cosine
 
-    def gamma(self, angle: float) -> float:
-        """Ratio D cos a/d_m at a contact angle a [rad], dimensionless."""
-        return self.ball_diameter * math.cos(angle) / self.pitch_diameter
-
     def radii(self, angle: float, *, inner: bool) -> ContactRadii:
         """Radii of ball and groove at the inner or outer contact, for a contact angle [rad].
 

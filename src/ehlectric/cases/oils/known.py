@@ -9,6 +9,7 @@ from functools import cached_property, partial
 from typing import TypeVar
 
 import numpy as np
+from scipy.optimize import bisect
 
 from ehlectric.cases.oils.checks import check_parameters, check_viscosity
 from ehlectric.cases.oils.estimates import estimated_alpha
@@ -32,8 +33,8 @@ from ehlectric.lubricant.oil import BoundLaw, RangeCheck
 
 T = TypeVar("T")
 
-# Largest pressure at which the end of a law's range is sought [Pa], and relative width of the answer.
-_HIGHEST, _EXACT = 1e11, 1e-6
+# Largest pressure at which the end of a law's range is sought [Pa], and the error of the answer [Pa].
+_HIGHEST, _CLOSE = 1e11, 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,11 +113,7 @@ class KnownOil:
         check = self.checks.get(key)
         if check is None or not _beyond(check, _HIGHEST):
             return math.inf
-        low, high = 0.0, _HIGHEST
-        while high - low > _EXACT * high:
-            middle = 0.5 * (low + high)
-            low, high = (low, middle) if _beyond(check, middle) else (middle, high)
-        return high
+        return float(bisect(lambda pressure: _beyond(check, pressure) - 0.5, 0.0, _HIGHEST, xtol=_CLOSE))
 
 
 def _beyond(check: RangeCheck, pressure: float) -> bool:

@@ -174,12 +174,6 @@ def usual_temperatures(named: NamedOil) -> tuple[float | None, ...]:
     return tuple(kelvin for kelvin in _USUAL if ends[0] <= kelvin <= ends[1]) or ends
 
 
-def kind_of(sources: Iterable[Source], *, given: bool) -> str:
-    """Kind of the weakest source; "given" where a user's table gives all values, empty without any."""
-    kinds = [source.kind for source in sources]
-    return max(kinds, key=KINDS.index, default=GIVEN if given else "")
-
-
 def _value(one: OilProperty, oil: KnownOil, pressure: float) -> float | None:
     """Value of a property; None where it is not known, or its law has none at this pressure."""
     try:

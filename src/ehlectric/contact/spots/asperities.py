@@ -54,14 +54,6 @@ class Asperities:
         """Change of the load share from the coarser grid; None without it."""
         return None if self.coarser is None else self.touching.load_share - self.coarser.load_share
 
-    @property
-    def share_resolved(self) -> bool:
-        """Whether the load share is known to change little with the grid."""
-        change = self.share_change
-        if change is None:
-            return self.spots.number == 0
-        return abs(change) <= max(UNRESOLVED_SHARE * self.touching.load_share, UNRESOLVED_LOAD)
-
     def summary(self) -> dict[str, Any]:
         """Values of all parts, as in ``asperities`` of summary.json."""
         coarser, balance = self.coarser, self.balance

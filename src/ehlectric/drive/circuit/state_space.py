@@ -57,8 +57,6 @@ class StateSpace:
     capacitance : ndarray, shape (n, n)
         Matrix C of the free nodes, so that C p and the part of the source are the charges of the nodes [F];
         the inductances for the currents of inductors [H].
-    source_charge : ndarray, shape (n,)
-        Charge of the free nodes per volt of the source [F]; C k is equal to it.
     """
 
     nodes: tuple[str, ...]
@@ -66,7 +64,6 @@ class StateSpace:
     force: Array
     jump: Array
     capacitance: Array
-    source_charge: Array
 
     def potential(self, node: str) -> Array:
         """Row that takes the potential of a node out of p, shape (n,); zeros for the frame."""
@@ -139,7 +136,6 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
             (n.T @ drive - through.T @ k) / inductance,
         ]
     )
-    none = np.zeros(len(inductors))
     capacitance = np.block(
         [
             [own, np.zeros((len(free), len(inductors)))],
@@ -150,9 +146,8 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
         nodes=free,
         rates=rates,
         force=force,
-        jump=np.concatenate([k, none]),
+        jump=np.concatenate([k, np.zeros(len(inductors))]),
         capacitance=capacitance,
-        source_charge=np.concatenate([charge, none]),
     )
 
 

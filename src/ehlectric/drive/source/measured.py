@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ehlectric.cases.drives.source import Source
-from ehlectric.drive.source.oscilloscope import read_waveform
 from ehlectric.drive.source.quality import edge_warnings, repeat_warnings
 from ehlectric.drive.source.resampling import resample
 from ehlectric.drive.source.waveform import Waveform
+from ehlectric.drive.source.waveform_file import read_waveform
 from ehlectric.errors import InputError, ResultWarning
 
 

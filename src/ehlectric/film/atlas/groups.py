@@ -43,6 +43,10 @@ _SIDE, _SIDE_LENGTHS = 1.6, 7.0
 TOLERANCE = 1e-7
 _STEPS = 40
 
+# Exponent of the load group in the lubricant coordinate Y = L N^(1/6). In bearings L falls and N rises with
+# the viscosity and the speed, so that L and N are correlated, whereas Y and N are hardly so.
+SKEW = 1.0 / 6.0
+
 
 @dataclass(frozen=True)
 class Groups:
@@ -114,16 +118,15 @@ class Groups:
         return float(nijenbanning_venner_moes(point).central_thickness / _U**0.5)
 
 
-def groups_of(load_group: float, moes_l: float, ratio: float | None = None) -> Groups:
-    """Groups of a contact from ``Groups.load_group``, L and the ratio of the semi-axes.
+def lubricant_coordinate(groups: Groups) -> float:
+    """Coordinate Y = L N^(1/6) of a contact with the load group N, M for a line contact.
 
     Examples
     --------
-    >>> round(groups_of(100.0, 10.0, 4.0).load_group, 9)
-    100.0
+    >>> lubricant_coordinate(Groups(64.0, 10.0))
+    20.0
     """
-    unit = Groups(1.0, moes_l, ratio)
-    return replace(unit, moes_m=load_group / unit.load_group)
+    return float(groups.moes_l * groups.load_group**SKEW)
 
 
 def film_problem(

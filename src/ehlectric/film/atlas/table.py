@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from importlib.resources import files
@@ -13,7 +12,20 @@ from scipy.interpolate import NdBSpline, make_interp_spline
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.fill import HALVED
+
+# Numbers of each film, in this order.
+#   central: rho(0) h(0)/rho0 in Moes' unit.           minimum: h_min in Moes' unit.
+#   mean: mean of h over the Hertz zone in Moes' unit. pressure: p(0)/p_h.
+#   zone: mean of rho(0) h(0)/(rho h) over the Hertz zone.
+#   inlet, outlet: integral of dA/h before and behind the middle of the contact, outside the Hertz zone and
+#   inside x from -4.5 b to 1.5 b (lines: -4 b to 2 b) and 1.6 a + 1.4 b (at most 4.5 a) at the sides, over
+#   the same integral of the dry gap plus h(0).
+#   minimum_x, minimum_y: place of the minimum in semi-axes b and a.
+NAMES = ("central", "minimum", "mean", "pressure", "zone", "inlet", "outlet", "minimum_x", "minimum_y")
+
+# The error of a spline through every node over that of a spline through every second one: a sixteenth for
+# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
+HALVED = 1.0 / 5.0
 
 # Relative distance within which a coordinate is that of a node.
 _ALIKE = 1e-9
@@ -139,9 +151,3 @@ def table(kind: str) -> Table:
         np.asarray(data[f"{kind}_errors"], dtype=float),
         data[f"{kind}_solved"],
     )
-
-
-def provenance() -> dict[str, Any]:
-    """Version, dates and settings with which the atlas was computed."""
-    made: dict[str, Any] = json.loads(str(_file()["provenance"]))
-    return made

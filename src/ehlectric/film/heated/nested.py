@@ -42,8 +42,6 @@ class HeatedSolution:
         Temperature [K] at the nodes across the film; None for an isothermal film.
     zeta : ndarray, shape (nz,)
         Positions z/h of these nodes.
-    heat_flux : ndarray, shape (2, nx, ny), or None
-        Heat flow into both bodies [W/m^2].
     mid_temperature : ndarray, shape (nx, ny), or None
         Temperature at mid-film [K].
     max_temperature_rise, temperature_rise_error : float or None
@@ -67,7 +65,6 @@ class HeatedSolution:
     simple: RefinedSolution
     temperature: Array | None
     zeta: Array
-    heat_flux: Array | None
     mid_temperature: Array | None
     max_temperature_rise: float | None
     temperature_rise_error: float | None
@@ -245,7 +242,6 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
         simple=simple,
         temperature=None if heat is None else heat.temperature,
         zeta=columns.across.zeta,
-        heat_flux=None if heat is None else heat.flux,
         mid_temperature=middle,
         max_temperature_rise=largest_rise(course, last),
         temperature_rise_error=rise_error(found),

@@ -1,4 +1,4 @@
-"""Integrals of Greenwood over Gaussian heights, and the mean gap of two rough surfaces."""
+"""Integrals of Greenwood over Gaussian heights, and separations of two rough surfaces by their mean gap."""
 
 from __future__ import annotations
 
@@ -123,43 +123,11 @@ def _positive_root(at: Array, order: float) -> Array:
     return root
 
 
-def mean_gap(separation: ArrayLike, deviation: float) -> Array:
-    """Mean gap between two rough surfaces that touch, where overlapping peaks are flattened to no gap.
-
-    Before contact the mean gap is the separation of the mean planes. Where the peaks overlap they are pressed
-    flat, and the mean gap is ``separation + deviation F_1(separation/deviation)``. A film formula gives the
-    volume of oil per area, which is this gap; the statistics of contact take the separation.
-
-    Parameters
-    ----------
-    separation : array_like, shape (...)
-        Distance of the mean planes of the undeformed roughness [m], >= -12 ``deviation``.
-    deviation : float
-        Standard deviation of the gap, sqrt(Rq1^2 + Rq2^2) [m], > 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Mean gap [m].
-
-    Notes
-    -----
-    K. L. Johnson, J. A. Greenwood and S. Y. Poon, A simple theory of asperity contact in
-    elastohydrodynamic lubrication, Wear 19 (1972) 91-108. The flattened peaks push no material to other
-    places.
-
-    Examples
-    --------
-    >>> round(float(mean_gap(0.0, 100e-9)) * 1e9, 2)
-    39.89
-    """
-    at = np.asarray(separation, dtype=float)
-    gap: Array = at + deviation * greenwood_integral(1.0, at / deviation)
-    return gap
-
-
 def separation_of_gap(gap: ArrayLike, deviation: float) -> Array:
-    """Separation of the mean planes at which two rough surfaces have a mean gap: ``mean_gap`` inverted.
+    """Separation of the mean planes at which two rough surfaces have a mean gap.
+
+    Overlapping peaks are pressed flat: a separation d has the mean gap d + sigma F_1(d/sigma). A film formula
+    gives the volume of oil per area, which is this gap.
 
     Parameters
     ----------

@@ -113,33 +113,6 @@ def spot_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float
     return resistance
 
 
-def holm_cluster(radii: ArrayLike, cluster_radius: float, resistivity: float) -> float:
-    """Resistance of spots spread over a disc, rho/(2 sum a_i) + rho/(2 alpha), after Holm.
-
-    Parameters
-    ----------
-    radii : array_like, shape (n,)
-        Radii a_i of the spots [m], > 0; at least one.
-    cluster_radius : float
-        Radius alpha of the disc over which the spots lie [m]; of a bearing's contact, sqrt(a b) of its
-        semi-axes.
-    resistivity : float
-        Resistivity rho of the bodies [ohm m].
-
-    Returns
-    -------
-    float
-        Resistance [ohm].
-
-    Examples
-    --------
-    >>> round(holm_cluster([1e-6] * 10, 1e-4, 2.2e-7), 4)
-    0.0121
-    """
-    total = float(np.sum(np.asarray(radii, dtype=float)))
-    return resistivity / (2.0 * total) + resistivity / (2.0 * cluster_radius)
-
-
 def greenwood_cluster(positions: ArrayLike, radii: ArrayLike, resistivity: float) -> float:
     """Resistance of spots at given places, with currents in proportion to their radii, after Greenwood.
 

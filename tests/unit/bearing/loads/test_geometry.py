@@ -65,7 +65,6 @@ def test_curvature_sums_of_harris(angle):
     """Sum of curvatures (4 - 1/f + 2 g/(1 - g))/D at the inner, (4 - 1/f - 2 g/(1 + g))/D at the outer."""
     bearing = balls()
     d, gamma = 11.906e-3, 11.906 / 60 * math.cos(angle)
-    assert bearing.gamma(angle) == pytest.approx(gamma, rel=1e-14, abs=0.0)
     for inner, groove, rolling in (
         (True, 0.52, 2.0 * gamma / (1.0 - gamma)),
         (False, 0.53, -2.0 * gamma / (1.0 + gamma)),

@@ -1,11 +1,13 @@
 """Films of the atlas against contacts that are solved here and not in it."""
 
+import json
 import math
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
+from benchmarks.atlas_nodes import groups_of, measured, record
 
 from ehlectric.cases.grid import Grid
 from ehlectric.cases.oils.lubricant import Lubricant
@@ -15,12 +17,10 @@ from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError
 from ehlectric.film.accuracy.patch import Patch
 from ehlectric.film.atlas.coefficient import OilGroups, film_coefficient, reference_laws
-from ehlectric.film.atlas.compute import record
 from ehlectric.film.atlas.contact import contact_film
 from ehlectric.film.atlas.film import atlas_film
-from ehlectric.film.atlas.groups import Groups, film_problem, groups_of
-from ehlectric.film.atlas.measures import NAMES, measured
-from ehlectric.film.atlas.table import Table, provenance, tensor_spline
+from ehlectric.film.atlas.groups import Groups, film_problem
+from ehlectric.film.atlas.table import NAMES, Table, _file, tensor_spline
 from ehlectric.film.line import solve_film
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.point import solve_point_film
@@ -232,7 +232,7 @@ def test_spline_reproduces_cubics():
 
 
 def test_the_file_names_its_version_and_oil():
-    made = provenance()
+    made = json.loads(str(_file()["provenance"]))
     assert made["version"]
     assert made["oil"]["viscosity"]["roelands_z"] == 0.67
     assert made["lines"]["solved"] > 400

@@ -9,7 +9,6 @@ from ehlectric.formulas.asperities.resistance import (
     cluster_resistance,
     film_resistance,
     greenwood_cluster,
-    holm_cluster,
     holm_resistance,
     sharvin_resistance,
     spot_resistance,
@@ -52,7 +51,6 @@ def test_many_spots_over_a_disc():
     whole = STEEL / (2.0 * alpha)
     assert cluster_resistance(at, a, STEEL) - own == pytest.approx(whole, rel=0.05)
     assert greenwood_cluster(at, a, STEEL) - own == pytest.approx(32.0 / (3.0 * np.pi**2) * whole, rel=0.03)
-    assert holm_cluster(a, alpha, STEEL) == pytest.approx(own + whole, rel=1e-12)
 
 
 @given(st.integers(0, 1000), st.integers(2, 30))

@@ -9,10 +9,10 @@ from scipy import integrate
 from ehlectric.formulas.asperities.spectrum import (
     SpectralMoments,
     map_moments,
-    periodic_moments,
     profile_moments,
 )
 from ehlectric.surfaces import made_maps, made_profiles
+from tests.helpers.spectra import periodic_moments
 
 LENGTH = 1e-5
 

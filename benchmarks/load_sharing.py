@@ -9,7 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.formulas.asperities.integrals import LOWEST_SEPARATION, separation_of_gap
+from ehlectric.formulas.asperities.integrals import (
+    LOWEST_SEPARATION,
+    greenwood_integral,
+    separation_of_gap,
+)
 
 # Largest number of steps to the share, and its relative tolerance. Ten steps are usual.
 _STEPS, _TOLERANCE = 100, 1e-14
@@ -32,6 +36,41 @@ class LoadSharing:
     asperity_share: Array
     gap: Array
     separation: Array
+
+
+def mean_gap(separation: ArrayLike, deviation: float) -> Array:
+    """Mean gap between two rough surfaces that touch, where overlapping peaks are flattened to no gap.
+
+    Before contact the mean gap is the separation of the mean planes. Where the peaks overlap they are pressed
+    flat, and the mean gap is ``separation + deviation F_1(separation/deviation)``. A film formula gives the
+    volume of oil per area, which is this gap; the statistics of contact take the separation.
+
+    Parameters
+    ----------
+    separation : array_like, shape (...)
+        Distance of the mean planes of the undeformed roughness [m], >= -12 ``deviation``.
+    deviation : float
+        Standard deviation of the gap, sqrt(Rq1^2 + Rq2^2) [m], > 0.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Mean gap [m].
+
+    Notes
+    -----
+    K. L. Johnson, J. A. Greenwood and S. Y. Poon, A simple theory of asperity contact in
+    elastohydrodynamic lubrication, Wear 19 (1972) 91-108. The flattened peaks push no material to other
+    places.
+
+    Examples
+    --------
+    >>> round(float(mean_gap(0.0, 100e-9)) * 1e9, 2)
+    39.89
+    """
+    at = np.asarray(separation, dtype=float)
+    gap: Array = at + deviation * greenwood_integral(1.0, at / deviation)
+    return gap
 
 
 def film_under_share(film: ArrayLike, exponent: float) -> Callable[[Array], Array]:
@@ -112,7 +151,8 @@ def load_sharing(
 
     Examples
     --------
-    >>> from ehlectric.formulas.asperities.statistical import Summits, greenwood_tripp
+    >>> from benchmarks.greenwood_tripp import greenwood_tripp
+    >>> from ehlectric.formulas.asperities.statistical import Summits
     >>> rough = Summits(density=2e11, radius=2e-6, height_deviation=100e-9)
     >>> found = load_sharing(
     ...     film_under_share([50e-9, 100e-9, 200e-9], 0.14),

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from benchmarks.flattened_waves import flattened, line_amplitude_ratio, point_amplitude_ratio
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.formulas.asperities.flattening import flattened, line_amplitude_ratio, point_amplitude_ratio
 from ehlectric.formulas.asperities.spectrum import map_moments, profile_moments
 from ehlectric.surfaces import made_maps, made_profiles
 from tests.helpers.places import ROOT

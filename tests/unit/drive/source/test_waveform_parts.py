@@ -1,22 +1,22 @@
-"""Parts of the reader of text files: layout, heads, numbers and spacing."""
+"""Parts of the reader of text files: columns, heads, numbers and spacing."""
+
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive.source.text import numbers
-from ehlectric.drive.source.text.dialect import Dialect, layout_of
-from ehlectric.drive.source.text.heads import heads_of
-from ehlectric.drive.source.text.numbers import Columns, block_of
-from ehlectric.drive.source.text.spacing import Spacing, resolution
-from ehlectric.drive.source.text.spelling import parts, spelled
+from ehlectric.drive.source import waveform_file as reader
+from ehlectric.drive.source.waveform_file import _Choice, _Dialect, _Head, _Layout, _Samples
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 
+PATH = Path("scope.csv")
+
 
 def layout(text):
-    return layout_of("scope.csv", text.split("\n"))
+    return reader._layout(PATH, text.split("\n"))
 
 
 @each(
@@ -39,16 +39,16 @@ def layout(text):
 )
 def test_dialects(row, separator, decimal):
     found = layout("\n".join([row] * 20))
-    assert found.dialect == Dialect(separator, decimal)
-    assert (found.first, found.header) == (1, ())
+    assert found.dialect == _Dialect(separator, decimal)
+    assert (found.first, found.header) == (0, ())
 
 
 def test_the_decimal_mark_is_seen_behind_many_zeros():
-    assert layout("\n".join(["0;0"] * 30 + ["0,5;1"] * 3)).dialect == Dialect(";", ",")
+    assert layout("\n".join(["0;0"] * 30 + ["0,5;1"] * 3)).dialect == _Dialect(";", ",")
 
 
 def test_heads_settle_what_a_comma_is():
-    assert layout("\n".join(["t,u", *["0,5"] * 20])).dialect == Dialect(",", ".")
+    assert layout("\n".join(["t,u", *["0,5"] * 20])).dialect == _Dialect(",", ".")
     assert layout("\n".join(["u [V]", *["0,5"] * 20])).dialect.decimal == ","
     with pytest.raises(InputError, match="decimal comma"):
         layout("\n".join(["0,5"] * 20))
@@ -56,7 +56,7 @@ def test_heads_settle_what_a_comma_is():
 
 def test_a_single_line_of_numbers_above_the_heads_belongs_to_the_header():
     found = layout("\n".join(["a title", "2500,4", "t,u", *(f"{k},{k}" for k in range(20))]))
-    assert found.first == 4
+    assert found.first == 3
 
 
 @each(
@@ -76,23 +76,26 @@ def test_a_single_line_of_numbers_above_the_heads_belongs_to_the_header():
     ],
 )
 def test_names_and_units_of_heads(head, name, unit):
-    assert parts(head) == (name, unit)
+    assert reader._parts(head) == (name, unit)
 
 
 @each(
     "written, unit",
     [
-        ("Second", "s"),
-        ("S", "s"),
-        ("VOLTS", "V"),
-        ("(\u03bcs)", "us"),
-        ("[µs]", "us"),
-        ("(MV)", "MV"),
-        ("Seq", ""),
+        ("Second", ("s", 1.0)),
+        ("S", ("s", 1.0)),
+        ("VOLTS", ("V", 1.0)),
+        ("\u03bcs", ("s", 1e-6)),
+        ("µs", ("s", 1e-6)),
+        ("mV", ("V", 1e-3)),
+        ("MV", ("V", 1e6)),
+        ("Seq", ("", 1.0)),
+        ("M", ("", 1.0)),
+        ("", ("", 1.0)),
     ],
 )
 def test_spellings_of_units(written, unit):
-    assert spelled(written) == unit
+    assert reader._unit(written) == unit
 
 
 @pytest.mark.parametrize(
@@ -100,13 +103,23 @@ def test_spellings_of_units(written, unit):
     [("Time (us)  Ch 1 (V)", ["Time", "Ch 1"]), ("Time (us) CH1 (V)", ["Time", "CH1"]), ("t u", ["t", "u"])],
 )
 def test_heads_of_columns_of_white_space(head, names):
-    heads = heads_of(layout("\n".join([head, *(f"{k} {k / 7:.3f}" for k in range(20))])))
-    assert [column.name for column in heads.columns] == names
+    heads = reader._heads(layout("\n".join([head, *(f"{k} {k / 7:.3f}" for k in range(20))])))
+    assert [column.name for column in heads] == names
 
 
-def test_units_in_the_lines_above():
-    text = "\n".join(["Horizontal Units,ms", "Vertical Units,mV,V", "TIME,CH1,CH2", *["0,1,2"] * 20])
-    assert [column.unit for column in heads_of(layout(text)).columns] == ["ms", "mV", "V"]
+@each(
+    "above, heads",
+    [
+        (["t,CH1,CH2", "(us),(V),(dB)"], [("t", "us"), ("CH1", "V"), ("CH2", "dB")]),
+        (["s,CH1 (V),CH2 (V)"], [("s", ""), ("CH1", "V"), ("CH2", "V")]),
+        (["s,V,A"], [("", "s"), ("", "V"), ("", "A")]),
+        (["ms,CH1,1"], [("ms", "ms"), ("CH1", ""), ("1", "")]),
+        (["Record Length,2500,4"], [("", ""), ("", ""), ("", "")]),
+    ],
+)
+def test_rows_of_names_and_of_units(above, heads):
+    found = reader._heads(layout("\n".join([*above, *(f"{k},{k / 7:.3f},1" for k in range(20))])))
+    assert [(head.name, head.unit) for head in found] == heads
 
 
 NUMBERS = ("1", "-2.5", "+.5", "3.", "1e-3", "1E+4", "0001", "-1.234567890123456789")
@@ -115,93 +128,87 @@ OTHERS = (*TEXTS, "1e999", "9" * 41, "1" * 400)
 fields = st.sampled_from([*NUMBERS, *OTHERS, '"1"', '"'])
 
 
-def test_stated_values_above_a_single_column():
-    """After Infiniium: keys, no times, and a start that counts samples."""
-    keys = ["Type,raw", "Start,0", "Points,20", "XInc,2.0E-09", "XOrg,-1.0E-06", "YUnits,Volt", "Data,"]
-    heads = heads_of(layout("\n".join([*keys, *(f"{k / 7:.3e}" for k in range(20))])))
-    assert (heads.step, heads.start, heads.points) == (2e-9, -1e-6, 20)
-    assert [column.unit for column in heads.columns] == ["V"]
+def two_columns(separator, decimal="."):
+    return _Layout(_Dialect(separator, decimal), (0, 1), 2, 0, (), {})
 
 
 @pytest.mark.slow
 @given(st.lists(st.lists(fields, min_size=1, max_size=4), min_size=1, max_size=6), st.sampled_from(";,\t"))
 def test_the_fast_parser_reads_what_the_slow_one_reads(rows, separator):
     """Or nothing, and then the slow one decides."""
-    text = "\n".join(separator.join(row) for row in rows).encode()
-    columns = Columns("scope.csv", Dialect(separator, "."), (1, 0), 2)
-    fast = numbers._at_once(text, columns)
+    text, columns = "\n".join(separator.join(row) for row in rows), two_columns(separator)
+    fast = reader._at_once(columns, (1, 0), text)
     try:
-        slow = numbers._line_by_line(text, 1, columns)
+        lines = reader._rows(columns.dialect, text, 1)
+        slow = [reader._row(PATH, columns, (1, 0), number, row) for number, row in lines]
     except InputError:
         # Only a field behind an empty one is left out by the fast parser.
         assert fast is None or any(len(row) > 3 for row in rows)
         return
     if fast is not None:
-        for one, other in zip(fast, slow, strict=True):
-            assert one == pytest.approx(other, rel=1e-15)
+        assert np.transpose(fast) == pytest.approx(np.reshape(slow, (-1, 2)), rel=1e-15)
 
 
 def test_ordinary_lines_are_parsed_fast():
     for separator, decimal in ((";", ","), (",", "."), ("\t", "."), (None, ".")):
         row = f"{{:.3f}}{separator or '  '}{{:.5f}}".format
         lines = [row(k, k / 7).replace(".", decimal) for k in range(50)]
-        columns = Columns("scope.csv", Dialect(separator, decimal), (1, 0), 2)
-        found = numbers._at_once("\r\n".join([*lines, "", ""]).encode(), columns)
+        columns = two_columns(separator, decimal)
+        found = reader._at_once(columns, (1, 0), "\n".join([*lines, "", ""]))
         assert found is not None
         assert found[0] == pytest.approx(np.arange(50) / 7, abs=1e-5)
         assert found[1].tolist() == list(range(50))
         longer = [*lines, lines[0] + (separator or " ") + "7"]
-        assert numbers._at_once("\n".join(longer).encode(), columns) is None
+        assert reader._at_once(columns, (1, 0), "\n".join(longer)) is None
 
 
 def test_lines_are_numbered_in_the_file():
-    columns = Columns("scope.csv", Dialect(",", "."), (1, 0), 2)
-    block = block_of(b"0,1\n\n , \n1,2\n2,3\n", 10, columns)
-    assert block.values[0].tolist() == [1.0, 2.0, 3.0]
-    assert [block.line(row) for row in range(3)] == [10, 13, 14]
+    columns = two_columns(",")
+    found = reader._numbers(PATH, columns, (1, 0), "0,1\n\n , \n1,2\n2,3\n", 10)
+    assert found[0].tolist() == [1.0, 2.0, 3.0]
     with pytest.raises(InputError, match=r"line 12, column 2: .*'x'"):
-        block_of(b"0,1\n\n1,x\n", 10, columns)
+        reader._numbers(PATH, columns, (1, 0), "0,1\n\n1,x\n", 10)
+    blocks = ["0,1\n\n1,2\n", "\n2,3\n1,4\n"]
+    with pytest.raises(InputError, match="line 6 goes backward"):
+        reader._samples(PATH, columns, (1, 0), blocks, ordered=True)
 
 
-def spaced(times, sizes):
-    """Step of times that come in blocks of given sizes."""
-    spacing = Spacing("scope.csv")
-    for part in np.split(times, np.cumsum(sizes)):
-        spacing.add(part, lambda row: row)
-    return spacing
+def spaced(times, digit=0.0):
+    """Step of times with a last printed digit."""
+    choice = _Choice(_Head(1, "u", "V"), 1.0, _Head(0, "t", "s"), 1.0, ())
+    return reader._timing(PATH, _Samples(np.zeros(times.size), times, digit), choice, None)[1]
 
 
-@given(
-    st.lists(st.integers(1, 30_000), max_size=5),
-    st.floats(1e-12, 1e3),
-    st.integers(-10_000, 10_000),
-    st.integers(3, 70_000),
-)
-def test_the_step_does_not_depend_on_the_blocks(sizes, step, first, count):
-    times = (first + np.arange(count)) * step
-    assert spaced(times, sizes).step(0.0) == pytest.approx(step, rel=1e-9)
+@given(st.floats(1e-12, 1e3), st.integers(-10_000, 10_000), st.integers(3, 70_000))
+def test_the_step_of_even_times(step, first, count):
+    assert spaced((first + np.arange(count)) * step) == pytest.approx(step, rel=1e-9)
 
 
-@given(st.lists(st.integers(1, 30_000), max_size=5), st.integers(0, 69_999), st.floats(0.005, 0.9))
-def test_one_late_sample_is_found_in_any_block(sizes, late, by):
+@given(st.integers(0, 69_999), st.floats(0.005, 0.9))
+def test_one_late_sample_is_found(late, by):
     times = np.arange(70_000.0)
     times[late] += by
     with pytest.raises(InputError, match="unevenly sampled"):
-        spaced(times, sizes).step(0.0)
+        spaced(times)
 
 
-@given(st.floats(0.3, 40.0), st.integers(3000, 70_000), st.lists(st.integers(1, 30_000), max_size=5))
-def test_rounding_of_printed_times_is_no_jitter(step, count, sizes):
+@given(st.floats(0.3, 40.0), st.integers(3000, 70_000))
+def test_rounding_of_printed_times_is_no_jitter(step, count):
     """Times that are printed with one to some hundred digits a step."""
     times = np.round(np.arange(count) * (1.0 + step))
-    assert spaced(times, sizes).step(1.0) == pytest.approx(1.0 + step, abs=1.1 / (count - 1))
+    assert spaced(times, 1.0) == pytest.approx(1.0 + step, abs=1.1 / (count - 1))
+
+
+def test_the_last_digit_of_times_that_are_printed_without_zeros_at_the_end():
+    ends = ["-1.000e-03,0", "-9.99e-04,0"], ["0.001,0", "0.00101,0"]
+    assert reader._digit(_Dialect(",", "."), 0, ends) == 1e-05
 
 
 @given(st.integers(2, 8), st.integers(-300, 300), st.floats(1e-9, 1e-3))
 def test_times_of_few_significant_digits_have_the_digits_of_the_largest(digits, first, step):
     times = (first + np.arange(60)) * step
     texts = [f"{time:.{digits}e}" for time in times]
-    found = resolution(".", [texts[:40], texts[-40:]])
+    found = reader._digit(_Dialect(",", "."), 0, [texts[:40], texts[-40:]])
     largest = max(abs(float(text)) for text in texts)
     assert found >= np.max(np.abs(times - [float(text) for text in texts])) / 0.51
     assert found <= 10.0 ** (np.ceil(np.log10(largest)) - digits) * 1.001

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks.greenwood_tripp import greenwood_tripp
+from benchmarks.load_sharing import film_under_share, load_sharing, mean_gap
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import optimize
 
-from ehlectric.formulas.asperities.integrals import mean_gap
-from ehlectric.formulas.asperities.load_sharing import film_under_share, load_sharing
-from ehlectric.formulas.asperities.statistical import Summits, greenwood_tripp
+from ehlectric.formulas.asperities.statistical import Summits
 
 ROUGH = Summits(density=2e11, radius=2e-6, height_deviation=100e-9)
 

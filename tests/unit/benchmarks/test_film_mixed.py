@@ -2,17 +2,17 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from scipy import optimize
-
-from ehlectric.formulas.film_line import LineContact, pan_hamrock
-from ehlectric.formulas.film_mixed import (
+from benchmarks.film_mixed import (
     MixedFilm,
     RoughBodies,
     masjedi_khonsari_line,
     masjedi_khonsari_point,
 )
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import optimize
+
+from ehlectric.formulas.film_line import LineContact, pan_hamrock
 from ehlectric.formulas.film_point import PointContact, hamrock_dowson
 from tests.helpers.each import each
 

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive.source.oscilloscope import read_waveform
+from ehlectric.drive.source.waveform_file import read_waveform
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 from tests.helpers.places import ROOT
@@ -56,7 +56,7 @@ def refused(path, **keywords):
         ("tektronix_mso4000", {}, []),
         ("keysight_infiniivision", {"column": "1"}, []),
         ("keysight_infiniivision", {"column": 3, "scale": 0.5}, []),
-        ("rigol_ds1000z", {}, []),
+        ("rigol_ds1000z", {"step": 4e-9}, []),
         ("lecroy_spreadsheet", {}, ["units-assumed"]),
         ("lecroy_spreadsheet", {"time_unit": "s", "value_unit": "V"}, []),
         ("picoscope", {"column": "channel a"}, []),
@@ -72,7 +72,8 @@ def test_formats_of_the_makers(name, keywords, told):
     assert codes(warnings) == told
     assert read.values == pytest.approx(SHARED, abs=6e-4)
     assert read.step == pytest.approx(4e-9, rel=1e-12)
-    assert read.start == pytest.approx(-80e-9, rel=1e-9)
+    # Without times, the first sample is at zero.
+    assert read.start == pytest.approx(0.0 if "step" in keywords else -80e-9, rel=1e-9)
     assert read.duration == pytest.approx(47 * 4e-9)
 
 
@@ -182,7 +183,7 @@ GOOD = [f"{k},{value:.4f}" for k, value in enumerate(wave(40))]
         (["time [us],u [V]", *GOOD[:20], GOOD[19], *GOOD[20:]], "line 22 repeats"),
         (["time [us],u [V]", *GOOD[:20], GOOD[5], *GOOD[20:]], "line 22 .*backward"),
         (["time [us],u [V]", *GOOD[::-1]], "line 3 .*backward"),
-        (["time [us],u [V]", *(f"{k**1.01},{k % 3}" for k in range(40))], "unevenly sampled.* samples 1"),
+        (["time [us],u [V]", *(f"{k**1.01},{k % 3}" for k in range(40))], r"unevenly sampled.* sample \d+ "),
         (["time [us],u [V]", *GOOD[:20], *GOOD[23:]], "unevenly sampled"),
         (["time [us],u [V]", *(f"{k},1.5" for k in range(40))], r" 40 samples of u \(column 2\) .*1\.5"),
         (
@@ -297,9 +298,57 @@ def test_a_file_without_times_needs_the_interval(tmp_path):
     "stated",
     ["Sample Interval,4e-9", "Sampling Period: 4 ns", "Sample Rate,250000000.0", "Sampling Rate: 250 MSa/s"],
 )
-def test_intervals_that_the_lines_above_state(tmp_path, stated):
-    text = f"{stated}\nCH1 [V],CH2 [V]\n" + "\n".join(f"{v:.4f},0" for v in wave(30))
-    assert read_waveform(written(tmp_path, text), column="CH1")[0].step == pytest.approx(4e-9)
+def test_an_interval_that_a_line_above_states_is_asked_for(tmp_path, stated):
+    path = written(tmp_path, f"{stated}\nCH1 [V],CH2 [V]\n" + "\n".join(f"{v:.4f},0" for v in wave(30)))
+    line = refused(path, column="CH1")
+    assert line.startswith("step: missing")
+    assert stated in line
+    assert "'4 ns'" in line
+    assert read_waveform(path, column="CH1", step=4e-9)[0].step == 4e-9
+
+
+def test_a_file_with_an_interval_in_its_second_row_is_not_guessed():
+    """After Rigol: numbers of samples, and no times."""
+    line = refused(DATA / "rigol_ds1000z.csv")
+    assert line.startswith("step: missing")
+    assert "X,CH1,Start,Increment" in line
+    assert "'Sequence' as unit of X (column 1)" in refused(DATA / "rigol_ds1000z.csv", time_column="X")
+
+
+@each(
+    "above, key, found",
+    [
+        ("Vertical Units,mV,V", "value_unit", "mV, V"),
+        ("Vertical Units,dB", "value_unit", "dB"),
+        ("Horizontal Units,points", "time_unit", "points"),
+        ("yunit: CH1", "value_unit", "CH1"),
+    ],
+)
+def test_units_above_that_are_not_clear_are_asked_for(tmp_path, above, key, found):
+    text = "\n".join([above, "TIME,CH1,CH2", *(f"{k}e-6,{v:.4f},0" for k, v in enumerate(wave(30)))])
+    line = refused(written(tmp_path, text), column="CH1")
+    assert line.startswith(f"{key}: ")
+    assert f"'{found}'" in line
+
+
+def test_units_above_that_differ_from_those_of_the_user_are_refused(tmp_path):
+    text = "\n".join(["Vertical Units,mV", "TIME,CH1", *(f"{k}e-6,{v:.4f}" for k, v in enumerate(wave(30)))])
+    path = written(tmp_path, text)
+    assert read_waveform(path)[0].values == pytest.approx(1e-3 * wave(30), abs=1e-7)
+    assert refused(path, value_unit="V").startswith("value_unit: ")
+
+
+@each("above", ["Made on a bench", "# bench 3, run 7, again", "Time (us) CH 1 (V)"])
+def test_a_line_above_without_names_is_not_passed_over(tmp_path, above):
+    text = "\n".join([above, *(f"{k}e-6 {v:.4f}" for k, v in enumerate(wave(30)))])
+    path = written(tmp_path, text)
+    assert refused(path).startswith("time_column: missing")
+    line = refused(path, time_column=1, column=2)
+    assert line.startswith("value_unit: missing")
+    assert above.strip("# ") in line
+    assert refused(path, time_column=1, column=2, value_unit="V").startswith("time_unit: missing")
+    read, warnings = read_waveform(path, time_column=1, column=2, value_unit="V", time_unit="s")
+    assert (read.step, warnings) == (pytest.approx(1e-6), ())
 
 
 def test_units_of_the_user_and_of_the_file_must_agree(tmp_path):
@@ -385,7 +434,7 @@ def test_lines_of_several_blocks_are_counted(tmp_path):
 PEAK = """
 import sys
 from pathlib import Path
-from ehlectric.drive.source.oscilloscope import read_waveform
+from ehlectric.drive.source.waveform_file import read_waveform
 read, _ = read_waveform(sys.argv[1])
 status = Path("/proc/self/status").read_text()
 print(read.values.size, 1024 * int(status.partition("VmHWM:")[2].split()[0]))
