@@ -7,7 +7,9 @@ from typing import Any
 
 from cycler import cycler
 
-_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
+from ehlectric.quantities.palette import AMBER, BLUE, GREEN, ORANGE, PURPLE, SKY
+
+_COLOURS = [BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY]
 
 
 def apply(gallery_conf: dict[str, Any], name: str) -> None:  # noqa: ARG001

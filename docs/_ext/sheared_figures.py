@@ -13,14 +13,15 @@ ROOT = Path(__file__).parents[2]
 if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
-from measured_figures.look import BLUE, GREEN, GREY, ORANGE, decades, label, new  # noqa: E402
+from measured_figures.look import decades, label, new  # noqa: E402
 from tests.unit.film.sheared.contacts import friction, line_contact, solved  # noqa: E402
 
 from ehlectric.film.sheared.laws import Rheology  # noqa: E402
+from ehlectric.quantities.palette import BLUE, GREEN, MIDDLE_GREY, ORANGE  # noqa: E402
 from ehlectric.runtime.files import prepare  # noqa: E402
 
 LAWS = {
-    "Newtonian": (Rheology(), GREY),
+    "Newtonian": (Rheology(), MIDDLE_GREY),
     "Ree-Eyring, $\\tau_0$ = 5 MPa": (Rheology("eyring", {"eyring_stress": 5e6}), BLUE),
     "Carreau, $G$ = 6 MPa, $n$ = 0.5": (
         Rheology("carreau", {"carreau_stress": 6e6, "carreau_exponent": 0.5}),

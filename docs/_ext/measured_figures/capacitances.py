@@ -11,7 +11,8 @@ from tests.measured.computed import OILS, STEEL, ball_on_disc, capacitances
 from tests.measured.equation_of_state import values
 from tests.measured.reference import Reference, load
 
-from measured_figures.look import BLUE, GREEN, MEASURED, ORANGE, decades, label, new
+from ehlectric.quantities.palette import BLUE, GREEN, ORANGE
+from measured_figures.look import MEASURED, decades, label, new
 
 _METER = {"fill": "oil"}
 _BAND = "computed, from air to oil around the film"

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from tests.measured.microdent import DENTS, MICRO, OPTICS_END, at, measured, passage
 
-from measured_figures.look import BLUE, ORANGE, label, new
+from ehlectric.quantities.palette import BLUE, ORANGE
+from measured_figures.look import label, new
 
 
 def dent_in_rolling() -> tuple[Figure, list[str], Iterator[list[str]]]:

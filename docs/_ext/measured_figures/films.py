@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from tests.measured.computed import OILS, ball_on_disc, central_films
 from tests.measured.reference import exponent, film_log, load, zero_checks
 
-from measured_figures.look import BLUE, GREEN, MEASURED, decades, label, new
+from ehlectric.quantities.palette import BLUE, GREEN
+from measured_figures.look import MEASURED, decades, label, new
 
 SPEED, FILM = "entrainment speed $u$ [m/s]", "central film [nm]"
 

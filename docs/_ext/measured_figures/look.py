@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#777777"
+from ehlectric.quantities.palette import ORANGE
+
 MEASURED: dict[str, Any] = {"color": ORANGE, "marker": "o", "ms": 4, "capsize": 2, "lw": 0.9, "ls": "none"}
 
 

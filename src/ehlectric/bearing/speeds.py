@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlectric.bearing.margin.critical_speed import LEAST, MOST
+from ehlectric.bearing.over_speed import Speed
 from ehlectric.bearing.quick.ways import quick_case
 from ehlectric.bearing.solution import CONDUCTING
 from ehlectric.bearing.solving.contacts_and_circuit import solution_of
@@ -18,9 +19,6 @@ from ehlectric.quantities.units import rpm
 
 # Number of speeds in a geometric series.
 COUNT = 9
-
-# Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
-Speed = tuple[float, dict[str, Any]]
 
 # Logarithm of the lambda ratio that is looked for where surfaces part, and how often it is.
 _ABOVE, _TRIES = 1e-3, 4

@@ -15,15 +15,13 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
 from ehlectric.arrays import Array
+from ehlectric.figures.data import is_wide
 from ehlectric.figures.style import figure_of
 
 COLOURS = colormaps["viridis"]
 
 # For lines and dots on white: the lightest colours are left out, they can hardly be seen there.
 DARK_COLOURS = ListedColormap(COLOURS(np.linspace(0.0, 0.85, 256)))
-
-# Colours and axes are logarithmic where the values differ by more than this ratio.
-WIDE = 20.0
 
 # An axis has a tick at each value where there are at most so many, each of at most so many characters.
 _FEW_VALUES, _SHORT = 8, 4
@@ -110,11 +108,6 @@ def round_numbers(low: float, high: float) -> Array:
     return np.asarray(MaxNLocator(5).tick_values(low, high))
 
 
-def is_wide(values: Array) -> bool:
-    """Whether the finite values are all positive and differ by more than the ratio ``WIDE``."""
-    return by_logarithm(values, log_axis=False)
-
-
 def by_logarithm(values: Array, *, log_axis: bool) -> bool:
     """Whether values are interpolated linearly in their logarithm between points.
 
@@ -140,9 +133,8 @@ def by_logarithm(values: Array, *, log_axis: bool) -> bool:
     (False, True)
     """
     finite = values[np.isfinite(values)]
-    if not finite.size or finite.min() <= 0.0:
-        return False
-    return log_axis or bool(finite.max() > WIDE * finite.min())
+    positive = bool(finite.size and finite.min() > 0.0)
+    return positive and (log_axis or is_wide(finite))
 
 
 def levels_of(values: Array, *, log: bool) -> Array:

@@ -23,7 +23,8 @@ from ehlectric.cases.oils.survey import PROPERTIES, OilProperty, depends_on_temp
 from ehlectric.errors import InputError
 from ehlectric.figures.axes import DARK_COLOURS, scale_axis
 from ehlectric.figures.names import OIL_FIGURE_FILES
-from ehlectric.figures.style import BLUE, GREY, ORANGE, figure_of, name_over, new_panels, save_figure, style
+from ehlectric.figures.style import figure_of, name_over, new_panels, save_figure, style
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 
 # Pressure up to which an oil is drawn at least [Pa]; a higher one of the user is drawn with some room.
 _PRESSURE, _ROOM = 2e9, 1.1

@@ -13,7 +13,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
 from ehlectric.arrays import Array
-from ehlectric.figures.style import BODY, OUT_OF_RANGE
+from ehlectric.quantities.palette import BODY, OUT_OF_RANGE
 
 # Mark of a maximum: a ring that can be seen on any colour.
 MAXIMUM: dict[str, Any] = {

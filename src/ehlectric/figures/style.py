@@ -24,17 +24,11 @@ from matplotlib.transforms import offset_copy
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.names import STYLES, in_formats, with_units_kept
+from ehlectric.quantities.palette import GREY
 from ehlectric.runtime.files import write
 from ehlectric.runtime.parallel.threads import Turn
 
 D = TypeVar("D")
-
-# Colours that stay apart in print and for colour-blind readers (Okabe and Ito).
-BLUE, ORANGE, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#555555"
-BODY, OIL = "#c9ced6", "#fff1cc"
-
-# Colour of values beyond the ends of a colour scale: grey, which no scale has.
-OUT_OF_RANGE = "#a3a8ad"
 
 # Text properties of the title of a figure whose result is not converged.
 NOT_CONVERGED: dict[str, Any] = {"color": "red", "weight": "bold"}

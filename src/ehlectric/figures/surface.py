@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from ehlectric.figures.style import BLUE, axes_or_new, figure_of, new_panels, save_figure, style
+from ehlectric.figures.style import axes_or_new, figure_of, new_panels, save_figure, style
+from ehlectric.quantities.palette import BLUE
 from ehlectric.quantities.units import unit_for
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile, rms, statistics

@@ -13,15 +13,16 @@ from matplotlib.figure import Figure
 from ehlectric.arrays import Array
 from ehlectric.contact.results import Result
 from ehlectric.figures.contact import line_maps as plot
-from ehlectric.figures.style import BODY, figure_of, new_panels
+from ehlectric.figures.style import figure_of, new_panels
 from ehlectric.paper import schematics
 from ehlectric.paper.contacts import CONTACTS, PaperContact
 from ehlectric.paper.study import Study, readings_differ_by, straight_line
+from ehlectric.quantities.palette import AMBER, BLUE, BODY, GREEN, PURPLE
 from ehlectric.quantities.units import unit_for
 
 # Colours of the curves of one panel, by speed: distinct for colour-blind readers, and none so dark that a
 # black line on it would be lost.
-_COLOURS = ("#0072b2", "#009e73", "#cc79a7", "#e69f00")
+_COLOURS = (BLUE, GREEN, PURPLE, AMBER)
 _MICRO = 1e6
 
 # Width of figures with two panels beside each other on the screen [inches].

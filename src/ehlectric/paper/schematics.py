@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
-from ehlectric.figures.style import BODY, OIL, figure_of, new_panels
+from ehlectric.figures.style import figure_of, new_panels
+from ehlectric.quantities.palette import BODY, OIL
 
 _INK = "black"
 

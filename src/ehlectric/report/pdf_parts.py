@@ -29,6 +29,7 @@ from reportlab.platypus import (
 )
 
 from ehlectric.errors import SEVERITY_WORDS
+from ehlectric.quantities.palette import GREY, LIGHTS
 from ehlectric.report.content import Cell, Link, Picture, Table, Text, Warnings
 from ehlectric.report.images import image_of
 from ehlectric.report.light import Light
@@ -43,10 +44,9 @@ _FONTS: Mapping[str, str] = MappingProxyType(
     }
 )
 
-INK, SOFT, LINE, PANEL = (HexColor(colour) for colour in ("#1a1a1a", "#555555", "#c8c8c8", "#f2f3f5"))
+INK, SOFT, LINE, PANEL = (HexColor(colour) for colour in ("#1a1a1a", GREY, "#c8c8c8", "#f2f3f5"))
 _LINK, _ALARM = "#0058a3", "#b00020"
-_LIGHTS = {"green": "#009e73", "yellow": "#e69f00", "red": "#d55e00", "grey": "#777777"}
-_SEVERITIES = {"severe": _ALARM, "warning": _LIGHTS["yellow"], "note": _LIGHTS["grey"]}
+_SEVERITIES = {"severe": _ALARM, "warning": LIGHTS["yellow"], "note": LIGHTS["grey"]}
 
 # Parts of a word after which a line may end.
 _PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
@@ -114,7 +114,7 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
             for line in lines:
                 first = f"<b>{SEVERITY_WORDS[line.severity]}.</b> {escape(line.meaning)}"
                 *others, last = map(escape, line.texts)
-                last = f'{last} <font color="#555555">{escape(line.code)}</font>'
+                last = f'{last} <font color="{GREY}">{escape(line.code)}</font>'
                 yield _panel([first, *others, last], _SEVERITIES[line.severity], width)
                 yield Spacer(1.0, 4.0)
         case Picture():
@@ -123,7 +123,7 @@ def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
 
 def _light(light: Light, width: float) -> Flowable:
     """Panel of a verdict, with its lamp beside what it means."""
-    colour = _LIGHTS[light.level]
+    colour = LIGHTS[light.level]
     heading, bound = escape(light.words), f" ({escape(light.bound)})" if light.bound else ""
     words = f'<font size="11" color="{colour}">\u25cf</font> <font size="11"><b>{heading}</b></font>{bound}'
     return _panel([words, escape(light.text)], colour, width)

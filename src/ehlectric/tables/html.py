@@ -19,6 +19,7 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.errors import ResultWarning, printable
 from ehlectric.motion.result import MotionResult
 from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
+from ehlectric.quantities.palette import LIGHTS
 from ehlectric.quantities.rows import Row
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.inputs import Sweep
@@ -32,8 +33,6 @@ from ehlectric.tables.drive import drive_rows
 from ehlectric.tables.measured import factor_rows
 from ehlectric.tables.motion import run_rows
 from ehlectric.tables.sweep import sweep_rows
-
-_COLOURS = {"green": "#009e73", "yellow": "#e69f00", "red": "#d55e00", "grey": "#777777"}
 
 # Largest number of values of a varied key that are listed.
 _LISTED = 6
@@ -74,12 +73,12 @@ def _verdict(verdict: Any) -> str:
     """Sentences of a verdict with a dot of its colour; empty without one."""
     if verdict is None:
         return ""
-    dot = f'<span style="color:{_COLOURS[verdict.level]}">&#9679;</span>'
+    dot = f'<span style="color:{LIGHTS[verdict.level]}">&#9679;</span>'
     return f"<p>{dot} {escape(verdict.text)}</p>"
 
 
 def _row(row: Row) -> str:
-    style = ' style="color:#d55e00"' if row.alarm else ""
+    style = f' style="color:{LIGHTS["red"]}"' if row.alarm else ""
     name = escape(row.name).replace("  ", "&emsp;")
     value, rest = escape(row.bounded), escape(f"{row.unit}{row.note}")
     return (

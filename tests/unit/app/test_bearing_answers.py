@@ -244,10 +244,10 @@ def test_the_figure_over_speed_passes_through_the_bearing_itself(whole, summary)
 def test_no_voltage_is_drawn_where_surfaces_touch():
     slow = whole_quick_answer(inputs(inner_speed="600 rpm"))
     data = slow.figures["breakdown"].plot["data"]
-    (hatched,) = (trace for trace in data if "no voltage" in str(trace.get("name")))
+    (hatched,) = (trace for trace in data if "λ < 1" in str(trace.get("name")))
     assert hatched["fillpattern"]["shape"]
     begin, end = min(hatched["x"]), max(hatched["x"])
-    lines = [t for t in data if t["mode"] == "lines" and "break" in t["name"] and "yaxis" not in t]
+    lines = [t for t in data if t["mode"] == "lines" and "break" in t["name"] and t["yaxis"] == "y"]
     (line,) = (trace for trace in lines if "first" in trace["name"])
     known = [x for x, y in zip(line["x"], line["y"], strict=True) if y is not None]
     assert known

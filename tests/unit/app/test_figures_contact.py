@@ -9,11 +9,11 @@ import pytest
 from ehlectric import Case
 from ehlectric.app.compute.contact import view_of
 from ehlectric.app.figures.cuts import point_cuts
-from ehlectric.app.figures.heat import heat_panels
 from ehlectric.app.figures.line import line_figures
 from ehlectric.app.figures.look import values
 from ehlectric.app.figures.point import point_figures, reach_of
 from ehlectric.contact.solver import solve
+from ehlectric.figures.contact.profiles import Line, heat
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import EXAMPLES
@@ -81,7 +81,7 @@ def test_curves_of_a_line_contact_keep_their_extremes(line):
     assert min(trace(shown, "film thickness")["y"]) == pytest.approx(film.minimum_thickness * 1e6, rel=1e-6)
     walls = max(max(trace(shown, f"field at surface {k}")["y"]) for k in (1, 2))
     assert walls == pytest.approx(field.max_strength / 1e6, rel=1e-6)
-    assert max(trace(shown, "dry contact (Hertz)")["y"]) == pytest.approx(
+    assert max(trace(shown, "Hertz pressure")["y"]) == pytest.approx(
         line.conditions.max_pressure / 1e9, rel=1e-6
     )
     least = trace(shown, f"minimum film, {film.minimum_thickness * 1e6:.4g} µm")
@@ -170,7 +170,7 @@ def test_hertz_pressure_of_a_cut_is_that_of_the_dry_contact(long_point):
     cuts = by_name(point_cuts(long_point, 0.0, 0.0))
     conditions = long_point.conditions
     for name, edge in (("cut-x", conditions.semi_axis_x), ("cut-y", conditions.semi_axis_y)):
-        hertz = trace(cuts[name], "dry contact (Hertz)")
+        hertz = trace(cuts[name], "Hertz pressure")
         assert max(hertz["y"]) == pytest.approx(conditions.max_pressure / 1e9, rel=1e-3)
         inside = [abs(x) for x, y in zip(hertz["x"], hertz["y"], strict=True) if y > 0.0]
         assert max(inside) == pytest.approx(1e6 * edge, rel=0.1)
@@ -193,7 +193,7 @@ def test_dashed_lines_of_a_cut_are_the_edges_of_the_dry_contact_there(long_point
             assert ends[1] == -ends[0]
             assert f"{edges[1]:.4g} µm" in cuts[name].caption
             # Beyond its edges the dry contact carries nothing.
-            hertz = trace(cuts[name], "dry contact (Hertz)")["y"]
+            hertz = trace(cuts[name], "Hertz pressure")["y"]
             assert not any(np.array(hertz)[np.abs(along) > ends[1] + 1e-9])
 
 
@@ -301,19 +301,26 @@ def test_numbers_of_surfaces_that_touch_say_so(touching_line, touching_point):
         assert "discharge.breakdown_voltage" not in numbers
 
 
+_TEMPERATURES = {"mid-film", "surface 1", "surface 2", "oil in the inlet"}
+
+
 @pytest.mark.parametrize(
     ("film", "title", "curves"),
     [
-        ({"thermal": True, "rheology": "eyring"}, "temperature rise", {"mid-film", "surface 1", "surface 2"}),
-        ({"rheology": "eyring"}, "shear stress", {"shear stress at mid-film"}),
+        (
+            {"thermal": True, "rheology": "eyring"},
+            "temperature",
+            _TEMPERATURES,
+        ),
+        ({"rheology": "eyring"}, "shear stress", {"shear stress at mid-film", "pressure"}),
     ],
 )
 def test_heat_and_shear_have_a_panel(film, title, curves):
     bodies = {"temperature_1": "20 degC", "temperature_2": "120 degC"} if "thermal" in film else {}
     result = solve(Case.from_dict(HOT_LINE | {"contact": HOT_LINE["contact"] | bodies, "film": film}))
-    (panel,) = heat_panels(result, 1.0)
+    (panel,) = heat(Line.through(result, 1.0))
     assert panel.title == title
-    assert {curve.name for curve in panel.curves} == curves
+    assert {curve.name.partition(" ×")[0] for curve in panel.curves} == curves
     values = np.concatenate([curve.y for curve in panel.curves])
     assert panel.bottom <= values.min()
     assert 0.0 < values.max() < panel.top

@@ -33,8 +33,6 @@ from tests.unit.motion.test_summary import made
 
 SLOW = {"entrainment_speed": "0.05 m/s"}
 WAVE = {"surface": 1, "generator": "sinusoid", "amplitude": "0.2 um", "wavelength": "60 um"}
-# Variables that only files of runs with touching surfaces have.
-TOUCHING = (LOAD_SHARE, AREA_SHARE, SPOTS, COARSE_SHARE)
 # The film is pierced between the steps 34 and 41.
 CASE = moving(LINE, contact=LINE["contact"] | SLOW, roughness=[WAVE], motion={"passes": 0.75, "record": 8})
 FULL = moving(LINE, motion={"passes": 0.75, "record": 8})

@@ -13,8 +13,8 @@ from ehlectric.quantities.contact_results import CONTACT_BOOK
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import shown_unit
 from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
-from ehlectric.report.facts import row_tables
 from ehlectric.report.content import Table
+from ehlectric.report.facts import row_tables
 from ehlectric.runs.results import load
 from ehlectric.sweep.labels import label_of
 from ehlectric.tables.contact import result_rows

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ehlectric.app.figures.bearing_look import polar_layout, shown_over
-from ehlectric.app.figures.look import BLUE, GREY, ORANGE, Plot, plot
+from ehlectric.app.figures.look import Plot, plot
+from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY
 
 # Lambda ratios below which surfaces touch, and below which they touch at times.
 _RATIOS = (1.0, 3.0)
@@ -21,7 +22,7 @@ _HEIGHT = 420
 
 # Colour, width of the line and marker of each ring: the inner one is drawn over the wider line of the outer.
 _LOOKS: Mapping[str, tuple[str, float, str]] = {
-    "outer": (ORANGE, 4.0, "square"),
+    "outer": (AMBER, 4.0, "square"),
     "inner": (BLUE, 2.0, "circle"),
 }
 
@@ -153,7 +154,7 @@ def _circle(ratio: float, radius: float) -> Plot:
         "mode": "lines",
         "theta": list(range(0, 361, 5)),
         "r": [radius] * 73,
-        "line": {"color": GREY, "width": 1.5, "dash": "dot" if ratio == _RATIOS[0] else "dash"},
+        "line": {"color": MIDDLE_GREY, "width": 1.5, "dash": "dot" if ratio == _RATIOS[0] else "dash"},
         "name": f"λ = {ratio:g}: {words}",
         "hovertemplate": f"λ = {ratio:g}<br>h = {radius:.4g} µm<extra></extra>",
     }

@@ -9,9 +9,10 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ehlectric.app.answers.compare import Effect, Side
+from ehlectric.quantities.palette import AMBER, BLUE
 
-# Colours of both cases, which differ for the colour blind, too.
-_FIRST, _SECOND = "#0072b2", "#e69f00"
+# Colours of both cases.
+_FIRST, _SECOND = BLUE, AMBER
 
 # Largest change that is drawn [%]; a longer bar is cut, and its name has the number.
 _LONGEST = 200.0

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ehlectric.app.figures.touching import film_scale, touches
 from ehlectric.contact.results import PointResult, Result
+from ehlectric.figures.contact.profiles import film_scale, touches
 from ehlectric.quantities.units import unit_for
 
 # Range of x/b that figures show at first, as in the figures of the command.

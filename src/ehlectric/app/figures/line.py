@@ -8,40 +8,28 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers.figure import Shown
-from ehlectric.app.figures.heat import heat_panels
 from ehlectric.app.figures.lengths import BEFORE, BEHIND, Lengths, main_numbers
-from ehlectric.app.figures.look import (
-    BLUE,
-    FIELD_COLOURS,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    Indices,
-    axis,
-    plot,
-    thinned,
-    values,
-)
-from ehlectric.app.figures.stack import Along, Curve, Panel, names_of, stack
-from ehlectric.app.figures.touching import (
-    ASPERITIES,
-    BEYOND,
-    SPOTS,
-    field_scale,
-    film_scale,
-    told_of_spots,
-    touches,
-)
+from ehlectric.app.figures.look import FIELD_COLOURS, Indices, axis, plot, thinned, values
+from ehlectric.app.figures.stack import names_of, stack
+from ehlectric.app.figures.touching import BEYOND, told_of_spots
 from ehlectric.arrays import Array
 from ehlectric.contact.results import Result
-from ehlectric.discharge.utilisation import FieldUtilisation
-from ehlectric.formulas.hertz_line import line_pressure
+from ehlectric.figures.contact.profiles import (
+    Line,
+    field_scale,
+    field_strength,
+    film_scale,
+    film_thickness,
+    heat,
+    pressure,
+    touches,
+)
+from ehlectric.figures.data import Along
+from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 
-# Largest number of intervals of a curve whose extremes are kept, of columns of the map, and its rows.
-_INTERVALS, _COLUMNS, _ROWS = 1500, 300, 90
+# Largest number of columns of the map, and its rows.
+_COLUMNS, _ROWS = 300, 90
 
 # Number of lines of equal potential between the potentials of the surfaces.
 _POTENTIALS = 9
@@ -77,9 +65,10 @@ def _profiles(result: Result) -> Shown:
     b = factor * conditions.half_width
     window = max(factor * float(film.x[0]), BEFORE * b), min(factor * float(film.x[-1]), BEHIND * b)
     along = Along("x", unit, window, (-b, b))
-    panels = [_pressure(result, factor), _film(result, factor)]
+    line = Line.through(result, factor)
+    panels = [pressure(line), film_thickness(line)]
     if result.converged:
-        panels += [_field(result, factor), *heat_panels(result, factor)]
+        panels += [field_strength(line), *heat(line)]
     told = f"Over x in {unit}: {', '.join(names_of(panels))}."
     notes = (
         f"Oil enters on the left. Dashed lines: edges of the dry contact, x = ±{b:.4g} {unit}.",
@@ -93,79 +82,6 @@ def _profiles(result: Result) -> Shown:
         stack(along, panels, converged=result.converged),
         " ".join(filter(None, notes)),
     )
-
-
-def _pressure(result: Result, to_x: float) -> Panel:
-    film, conditions = result.film, result.conditions
-    largest = max(film.max_pressure, conditions.max_pressure)
-    factor, unit = unit_for(largest, "Pa")
-    hertz = conditions.max_pressure * line_pressure(film.x / conditions.half_width)
-    asperities = film.contact_pressure if touches(result) else None
-    drawn = [film.pressure, hertz, *([] if asperities is None else [asperities])]
-    kept = thinned(drawn, _INTERVALS)
-    x = to_x * film.x[kept]
-    curves = [Curve("pressure", x, factor * film.pressure[kept], BLUE)]
-    if asperities is not None:
-        curves.append(Curve(ASPERITIES, x, factor * asperities[kept], RED, width=1.2))
-    if result.smooth is not None:
-        smooth = factor * result.smooth.pressure[kept]
-        curves.insert(0, Curve("pressure, smooth surfaces", x, smooth, GREY, width=1.2))
-    curves.append(Curve("dry contact (Hertz)", x, factor * hertz[kept], GREY, "dash", 1.5))
-    return Panel("pressure", unit, curves, 1.05 * factor * largest)
-
-
-def _film(result: Result, to_x: float) -> Panel:
-    film, scale = result.film, film_scale(result)
-    factor, unit = unit_for(scale, "m")
-    kept = thinned([film.thickness], _INTERVALS)
-    x = to_x * film.x[kept]
-    curves = [Curve("film thickness", x, factor * film.thickness[kept], ORANGE)]
-    if result.smooth is not None:
-        smooth = factor * result.smooth.thickness[kept]
-        curves.insert(0, Curve("film, smooth surfaces", x, smooth, GREY, width=1.2))
-    at, least = to_x * film.minimum_position, factor * film.minimum_thickness
-    if touches(result):
-        # Every interval of the curve keeps its least film, and so a node of every spot that can be seen.
-        spots = kept[film.contact[kept]]
-        curves.append(Curve(SPOTS, to_x * film.x[spots], factor * film.thickness[spots], RED, dots=True))
-    elif result.converged:
-        name = f"minimum film, {least:.4g} {unit}"
-        curves.append(Curve(name, np.array([at]), np.array([least]), ORANGE, mark=True))
-    return Panel("film thickness", unit, curves, 3.0 * factor * scale)
-
-
-def _field(result: Result, to_x: float) -> Panel:
-    field, scale = result.field, field_scale(result)
-    factor, unit = unit_for(scale, "V/m")
-    walls = field.strength[:, 0], field.strength[:, -1]
-    kept = thinned([*walls, field.middle_strength], _INTERVALS)
-    # The end faces of the field's domain disturb the field beside them.
-    kept = kept[field.inner[kept]]
-    x = to_x * field.x[kept]
-    curves = [
-        Curve("field at surface 1", x, factor * walls[0][kept], RED),
-        Curve("field at surface 2", x, factor * walls[1][kept], GREEN, "dash"),
-        Curve("field at mid-film", x, factor * field.middle_strength[kept], GREY, "dot", 1.5),
-    ]
-    limit = strength_limit(result)
-    top = factor * scale
-    if limit is not None:
-        curves.append(Curve("dielectric strength", x, factor * limit[kept], PURPLE, "longdash", 1.5))
-        top = min(2.0 * top, max(top, factor * float(np.min(limit))))
-    if touches(result):
-        return Panel("field strength", unit, curves, 1.08 * top)
-    name = f"maximum field, {factor * field.max_strength:.4g} {unit}"
-    at, most = np.array([to_x * field.max_strength_position]), np.array([factor * field.max_strength])
-    curves.append(Curve(name, at, most, RED, mark=True))
-    return Panel("field strength", unit, curves, 1.08 * top)
-
-
-def strength_limit(result: Any) -> Array | None:
-    """Dielectric strength at the columns of the field [V/m]; None without one, or with a Weibull law."""
-    discharge = result.case.discharge
-    if discharge is None or discharge.weibull is not None or not discharge.has_strength:
-        return None
-    return FieldUtilisation.of(discharge, result.film, result.field).dielectric_strength
 
 
 def _section(result: Result) -> Shown:
@@ -268,5 +184,5 @@ def _potentials(result: Result, kept: Indices, to_x: float, to_z: float) -> dict
 
 
 def _cross(at: dict[str, list[float]], name: str) -> dict[str, Any]:
-    marker = {"symbol": "x-thin", "size": 11, "line": {"color": RED, "width": 3}}
+    marker = {"symbol": "x-thin", "size": 11, "line": {"color": ORANGE, "width": 3}}
     return {"type": "scatter", "mode": "markers", **at, "marker": marker, "name": name, "hoverinfo": "skip"}

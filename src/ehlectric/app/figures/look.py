@@ -10,10 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
-
-# Colours that differ for the colour blind too (Okabe and Ito), and one for what is only compared with.
-BLUE, ORANGE, RED, GREEN, GREY = "#0072b2", "#e69f00", "#d55e00", "#009e73", "#777777"
-PURPLE = "#cc79a7"
+from ehlectric.quantities.palette import MIDDLE_GREY
 
 # Maps of colours: film, pressure and field. Plotly has no Plasma of its own.
 FILM_COLOURS, PRESSURE_COLOURS = "Viridis", "Cividis"
@@ -95,9 +92,18 @@ def axis(title: str = "", **more: Any) -> Plot:
     return look | ({"title": {"text": title, "standoff": 6}} if title else {}) | more
 
 
+def log_ticks(*, log: bool) -> Plot:
+    """Type of an axis, and ticks of a logarithmic one, whose numbers are written in full."""
+    if not log:
+        return {"type": "linear"}
+    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1.0, 2.0, 5.0)]
+    texts = [f"{tick:.12g}" for tick in ticks]
+    return {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": texts}
+
+
 def vertical(at: float, **more: Any) -> Plot:
     """Dashed line across all panels at a position, such as the edge of the dry contact."""
-    line = {"color": GREY, "width": 1, "dash": "dash"}
+    line = {"color": MIDDLE_GREY, "width": 1, "dash": "dash"}
     return {"type": "line", "x0": at, "x1": at, "yref": "paper", "y0": 0.0, "y1": 1.0, "line": line} | more
 
 

@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ehlectric.app.figures.look import BLUE, GREEN, RED, Plot, axis, kept_nodes, plot
+from ehlectric.app.figures.look import Plot, axis, kept_nodes, plot
 from ehlectric.app.figures.look import values as listed
 from ehlectric.arrays import Array, IntArray
 from ehlectric.contact.conditions import PointConditions
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import breakdown_voltages
+from ehlectric.quantities.palette import BLUE, GREEN, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Largest number of instants and of nodes along a line that a page receives, and bounds of the size of all
@@ -132,7 +133,7 @@ def _line_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plo
     panels = (
         ("thickness", "film", "film thickness h", BLUE),
         ("pressure", "pressure", "pressure p", GREEN),
-        ("strength", "field", "field |E|", RED),
+        ("strength", "field", "field |E|", ORANGE),
     )
     values = [of[unit][0] * run.values(name)[chosen][:, nodes] for name, unit, _, _ in panels]
     traces = [
@@ -148,7 +149,7 @@ def _line_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plo
         }
         for number, ((_, unit, label, colour), rows) in enumerate(zip(panels, values, strict=True))
     ]
-    marks = [_mark("minimum film", "y", BLUE, "triangle-up"), _mark("maximum field", "y3", RED, "diamond")]
+    marks = [_mark("minimum film", "y", BLUE, "triangle-up"), _mark("maximum field", "y3", ORANGE, "diamond")]
     places = [_marked(run, frame, of) for frame in chosen.tolist()]
     frames = [
         {
@@ -215,7 +216,7 @@ def _map_movie(run: MotionRun, chosen: IntArray, of: Mapping[str, Unit]) -> Plot
     }
     marks = [
         _mark("minimum film", "y", "#ffffff", "triangle-up"),
-        _mark("maximum field", "y", RED, "diamond"),
+        _mark("maximum field", "y", ORANGE, "diamond"),
     ]
     for mark in marks:
         mark["marker"]["line"] = {"color": "#000000", "width": 1}

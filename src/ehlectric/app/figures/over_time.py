@@ -7,13 +7,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ehlectric.app.figures.look import BLUE, GREEN, GREY, ORANGE, RED, Plot, plot, thinned
+from ehlectric.app.figures.look import Plot, plot, thinned
 from ehlectric.app.figures.look import values as listed
 from ehlectric.app.figures.motion import MARGIN, Unit, axis_name, stacked, units
 from ehlectric.arrays import Array
 from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import breakdown_voltages
+from ehlectric.quantities.palette import AMBER, BLUE, GREEN, MIDDLE_GREY, ORANGE
 
 # Largest number of pieces of a line over time, each drawn by its lowest and its highest point.
 _PIECES = 1000
@@ -39,7 +40,7 @@ def history(run: MotionRun) -> Plot:
     recorded = factor * run.frame_time, run.values("max_strength")
     lines = [
         ("minimum film", BLUE, of["film"], film, None),
-        ("maximum field", RED, of["field"], field.strength, recorded[1]),
+        ("maximum field", ORANGE, of["field"], field.strength, recorded[1]),
     ]
     if voltages is not None:
         # Breakdown voltage and maximum field are inversely proportional.
@@ -47,7 +48,7 @@ def history(run: MotionRun) -> Plot:
         lines.append(("breakdown voltage", GREEN, (1.0, "V"), between, voltages))
     touching = TouchHistory.of(run)
     if touching is not None:
-        lines.append(("load share of asperities", ORANGE, (100.0, "%"), touching.load_share, None))
+        lines.append(("load share of asperities", AMBER, (100.0, "%"), touching.load_share, None))
     traces, titles = [], []
     for number, (name, colour, suited, values, solved) in enumerate(lines):
         look = {"yaxis": axis_name(number)}
@@ -105,7 +106,7 @@ def _halved(time: Array, film: Array, unit: str) -> Plot:
         "name": "time step not converged at once, and halved",
         "x": listed(time[chosen], 6),
         "y": listed(film[chosen], 5),
-        "marker": {"color": GREY, "symbol": "x", "size": 7},
+        "marker": {"color": MIDDLE_GREY, "symbol": "x", "size": 7},
         "hovertemplate": f"time step halved, t = %{{x:.4g}} {unit}<extra></extra>",
     }
 
@@ -119,7 +120,7 @@ def _present(time: float) -> Plot:
         "y0": 0,
         "y1": 1,
         "yref": "paper",
-        "line": {"color": ORANGE, "width": 2},
+        "line": {"color": AMBER, "width": 2},
     }
 
 
@@ -141,7 +142,7 @@ def _stationary(run: MotionRun, of: Mapping[str, Unit]) -> list[Plot]:
             "y0": value,
             "y1": value,
             "yref": axis,
-            "line": {"color": GREY, "width": 1, "dash": "dash"},
+            "line": {"color": MIDDLE_GREY, "width": 1, "dash": "dash"},
         }
         for axis, value in values
     ]

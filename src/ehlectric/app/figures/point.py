@@ -15,7 +15,6 @@ from ehlectric.app.figures.look import (
     FIELD_COLOURS,
     FILM_COLOURS,
     PRESSURE_COLOURS,
-    RED,
     Indices,
     Plot,
     axis,
@@ -24,18 +23,11 @@ from ehlectric.app.figures.look import (
     values,
 )
 from ehlectric.app.figures.rotated import film_surface
-from ehlectric.app.figures.touching import (
-    BEYOND,
-    SPOTS,
-    field_scale,
-    film_scale,
-    spot_marks,
-    spot_position,
-    told_of_spots,
-    touches,
-)
+from ehlectric.app.figures.touching import BEYOND, spot_marks, spot_position, told_of_spots
 from ehlectric.arrays import Array
 from ehlectric.contact.results import PointResult
+from ehlectric.figures.contact.profiles import SPOTS, field_scale, film_scale, touches
+from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Largest number of nodes along an axis of a map.
@@ -198,7 +190,7 @@ def _drawn(result: PointResult, what: _Map) -> Shown:
     }
     name = what.marked
     marked = {"x": [float(across_at)], "y": [float(down_at)], "name": name, "hoverinfo": "skip"}
-    marker = {"symbol": "x-thin", "size": 11, "line": {"color": RED, "width": 3}}
+    marker = {"symbol": "x-thin", "size": 11, "line": {"color": ORANGE, "width": 3}}
     mark = {"type": "scatter", "mode": "markers", "marker": marker, "showlegend": True, **marked}
     marks = [*spot_marks(result, lengths.factor, turned=turned), *([mark] if name else [])]
     figure = plot(
@@ -280,7 +272,7 @@ def _shapes(result: PointResult, lengths: Lengths) -> list[dict[str, Any]]:
     b, a = (lengths.factor * length for length in result.conditions.semi_axes)
     at = [lengths.factor * place for place in spot_position(result)]
     (across, down), (across_at, down_at) = ((a, b), at[::-1]) if is_turned(result) else ((b, a), at)
-    cut = {"color": RED, "width": 1}
+    cut = {"color": ORANGE, "width": 1}
     ellipse = {"type": "circle", "x0": -across, "x1": across, "y0": -down, "y1": down}
     # White dashes on black are seen on every colour.
     edges = [

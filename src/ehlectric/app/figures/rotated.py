@@ -9,8 +9,8 @@ import numpy as np
 from ehlectric.app.answers.figure import Shown
 from ehlectric.app.figures.lengths import Lengths, is_turned, main_numbers
 from ehlectric.app.figures.look import FIELD_COLOURS, INK, Plot, kept_nodes, plot, values
-from ehlectric.app.figures.touching import field_scale, film_scale
 from ehlectric.contact.results import PointResult
+from ehlectric.figures.contact.profiles import field_scale, film_scale
 from ehlectric.quantities.units import unit_for
 
 # Largest number of nodes along an axis of the surface.

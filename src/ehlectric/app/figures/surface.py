@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.app.figures.look import BLUE, axis, plot, thinned, values
+from ehlectric.app.figures.look import axis, plot, thinned, values
 from ehlectric.app.figures.thinning import coarser
 from ehlectric.arrays import Array
+from ehlectric.quantities.palette import BLUE
 from ehlectric.quantities.units import unit_for
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile

@@ -10,14 +10,14 @@ from textwrap import wrap
 from typing import Any
 
 from ehlectric.app.answers.sweep import Axis, Chart, ChartPoint, PointState
+from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY, ORANGE
 
 # Colours of no value are greys, so that they are never read as numbers. Every state has a marker too.
-_GREY = "#777777"
 _MARKERS: Mapping[PointState, tuple[str, str, str]] = {
-    "failed": ("x", "#d55e00", "refused or failed"),
-    "not converged": ("diamond-open", "#d55e00", "not converged: no value drawn"),
-    "do not use": ("triangle-up-open", "#e69f00", "solved, but do not use"),
-    "no value": ("circle-open", "#e69f00", "solved, no such number"),
+    "failed": ("x", ORANGE, "refused or failed"),
+    "not converged": ("diamond-open", ORANGE, "not converged: no value drawn"),
+    "do not use": ("triangle-up-open", AMBER, "solved, but do not use"),
+    "no value": ("circle-open", AMBER, "solved, no such number"),
     "open": ("circle", "#999999", "not solved yet"),
 }
 
@@ -60,7 +60,7 @@ def figure_of(chart: Chart, chosen: int | None = None) -> dict[str, Any]:
 def chosen_trace(chart: Chart, chosen: int | None) -> dict[str, Any]:
     """Trace that marks the chosen point; without one it is empty."""
     some = [] if chosen is None else [chart.points[chosen]]
-    look = {"symbol": "square-open", "size": 16, "color": "#d55e00", "line": {"width": 3}}
+    look = {"symbol": "square-open", "size": 16, "color": ORANGE, "line": {"width": 3}}
     below = chart.y is None and any(point.value is None for point in some)
     return _dots(chart, some, _SELECTED, look, below=below) | {"hoverinfo": "skip", "showlegend": False}
 
@@ -93,7 +93,7 @@ def _cells(chart: Chart) -> dict[str, Any]:
         "type": "heatmap",
         **_axes_of_cells(chart),
         "z": _grid(chart, tried),
-        "colorscale": [[0.0, _GREY], [1.0, _GREY]],
+        "colorscale": [[0.0, MIDDLE_GREY], [1.0, MIDDLE_GREY]],
         "opacity": 0.35,
         "showscale": False,
         "hoverinfo": "skip",
@@ -167,7 +167,7 @@ def _critical(chart: Chart) -> list[dict[str, Any]]:
     halo = line | {"line": {"color": "#ffffff", "width": 6}, "showlegend": False}
     return [
         halo,
-        line | {"line": {"color": "#d55e00", "width": 3}, "showlegend": True, "name": chart.critical},
+        line | {"line": {"color": ORANGE, "width": 3}, "showlegend": True, "name": chart.critical},
     ]
 
 
@@ -194,14 +194,14 @@ def _line(chart: Chart) -> list[dict[str, Any]]:
         "customdata": [point.number for point in chart.points],
         "hovertemplate": "%{text}<extra></extra>",
         "connectgaps": False,
-        "line": {"color": "#0072b2", "width": 2},
+        "line": {"color": BLUE, "width": 2},
         "marker": {"size": 8},
         "name": chart.title,
     }
     voltages = [point.voltage for point in chart.points]
     traces: list[dict[str, Any]] = [solved]
     if any(voltage is not None for voltage in voltages):
-        dashed = {"color": "#d55e00", "width": 2, "dash": "dash"}
+        dashed = {"color": ORANGE, "width": 2, "dash": "dash"}
         applied = {"type": "scatter", "mode": "lines", "x": list(chart.x.values), "y": voltages}
         traces.append(applied | {"line": dashed, "name": chart.voltage, "hoverinfo": "y"})
     return traces + _states(chart)

@@ -10,11 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from ehlectric.bearing.meter.reading import shaft_path
+from ehlectric.bearing.over_speed import nearly_equal
 from ehlectric.bearing.result import BearingResult
-from ehlectric.figures.axes import is_wide, round_numbers
-from ehlectric.figures.bearing.curves import nearly_equal
+from ehlectric.figures.axes import round_numbers
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, fill_text, label_ends, volts
-from ehlectric.figures.style import BLUE, ORANGE, axes_or_new, figure_of, legend_above
+from ehlectric.figures.data import is_wide
+from ehlectric.figures.draw import line_look
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above
+from ehlectric.quantities.palette import BLUE, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Largest number of elements that have a tick on the axis of a figure of this width [inches]. Fewer have one
@@ -129,8 +132,8 @@ def _levels(result: BearingResult, ax: Axes) -> None:
     if shaft is not None:
         levels.append(("shaft voltage", shaft, SHAFT))
     for name, value, look in reversed(levels):
-        ax.axhline(value, label=name.replace("\n", " "), **look)
-    label_ends(ax, [(value, f"{name}\n{volts(value)}", look["color"]) for name, value, look in levels])
+        ax.axhline(value, label=name.replace("\n", " "), **line_look(*look))
+    label_ends(ax, [(value, f"{name}\n{volts(value)}", look[0]) for name, value, look in levels])
 
 
 def _elements(result: BearingResult, ax: Axes) -> None:

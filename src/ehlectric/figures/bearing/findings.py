@@ -13,12 +13,7 @@ from ehlectric.bearing.impedance import impedance_of
 from ehlectric.bearing.intermittency.duty import duty_of
 from ehlectric.bearing.intermittency.words import time_text
 from ehlectric.bearing.meter.reading import shaft_capacitance
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solution import lambda_text, lubrication
-from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
-from ehlectric.discharge.verdict import lead_of, ratio_text
-from ehlectric.figures.bearing.curves import (
-    RPM,
+from ehlectric.bearing.over_speed import (
     Curves,
     Speed,
     Speeds,
@@ -26,10 +21,15 @@ from ehlectric.figures.bearing.curves import (
     opening_speed_of,
     value_of,
 )
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import lambda_text, lubrication
+from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
+from ehlectric.discharge.verdict import lead_of, ratio_text
 from ehlectric.figures.bearing.impedance import magnitude_at, prefixed, read_at
 from ehlectric.figures.bearing.looks import volts
 from ehlectric.figures.bearing.pitch import capacitances, first_breakdowns, variation
 from ehlectric.figures.bearing.speeds import rpm_text
+from ehlectric.quantities.units import rpm
 
 _TOUCHING = ("conducting", "touching")
 
@@ -155,7 +155,7 @@ def case_lines(result: BearingResult, *, voltages: bool) -> list[str]:
         for load, way in ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
         if load
     ]
-    duty += [f"{bearing.inner_speed * RPM:.4g} rpm", f"{bearing.oil_temperature - 273.15:.4g} °C"]
+    duty += [f"{rpm(bearing.inner_speed):.4g} rpm", f"{bearing.oil_temperature - 273.15:.4g} °C"]
     parts = [part for part in duty if part not in title]
     line = ", ".join([*filter(None, [textwrap.shorten(title, 70, placeholder=" ...")]), *parts])
     return [line, film_line(result, voltages=voltages)]

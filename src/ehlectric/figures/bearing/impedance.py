@@ -9,7 +9,8 @@ from ehlectric.arrays import Array
 from ehlectric.bearing.discharges.leakage import shaft_leakage
 from ehlectric.bearing.impedance import Impedance, impedance_of
 from ehlectric.bearing.result import BearingResult
-from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new
+from ehlectric.figures.style import axes_or_new
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Frequencies of a common inverter [Hz]: from the lowest switching frequency to those in the edges of its

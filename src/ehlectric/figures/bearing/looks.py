@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 
-from ehlectric.figures.style import GREEN
+from ehlectric.quantities.palette import BLACK, GREEN, OCHRE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Colour, dash and width [pt] of a line.
+Look = tuple[str, str, float]
 
 # Lines of the voltages of the whole bearing in all figures. The voltages are often equal, so the line drawn
 # first is the wider one.
-FIRST: dict[str, Any] = {"color": "black", "lw": 1.1, "ls": "-"}
-THROUGH: dict[str, Any] = {"color": "#b57700", "lw": 3.0, "ls": "-"}
-SHAFT: dict[str, Any] = {"color": GREEN, "lw": 1.4, "ls": "--"}
+FIRST: Look = (BLACK, "solid", 1.1)
+THROUGH: Look = (OCHRE, "solid", 3.0)
+SHAFT: Look = (GREEN, "dash", 1.4)
 
 # Height of a line of a label at the right edge, as a part of the height of axes that are an inch high.
 _LINE = 0.155

@@ -10,10 +10,12 @@ from matplotlib.axes import Axes
 from ehlectric.arrays import Array
 from ehlectric.bearing.meter.path import shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.meter.reading import shaft_path
+from ehlectric.bearing.over_speed import nearly_equal
 from ehlectric.bearing.result import BearingResult
-from ehlectric.figures.bearing.curves import nearly_equal
 from ehlectric.figures.bearing.looks import FIRST, SHAFT, THROUGH, label_ends, volts
-from ehlectric.figures.style import BLUE, GREY, axes_or_new, legend_above
+from ehlectric.figures.draw import line_look
+from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.quantities.palette import BLUE, GREY
 from ehlectric.quantities.units import unit_for
 
 # A quantity that varies by less than this part of its mean over a pitch is a number, not a figure.
@@ -93,15 +95,14 @@ def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
     if nearly_equal(first, through):
         lines = [("first and\nring-to-ring\nbreakdown", first, FIRST)]
     for name, values, look in lines:
-        _over_pitch(result, ax, values, name.replace("\n", " "), look)
+        _over_pitch(result, ax, values, name.replace("\n", " "), line_look(*look))
     shaft = result.shaft_voltage
     ends = [
-        (float(values[0]), f"{name}\nmin. {volts(np.min(values))}", look["color"])
-        for name, values, look in lines
+        (float(values[0]), f"{name}\nmin. {volts(np.min(values))}", look[0]) for name, values, look in lines
     ]
     if shaft is not None:
-        ax.axhline(shaft, label="shaft voltage", **SHAFT)
-        ends.append((shaft, f"shaft voltage\n{volts(shaft)}", SHAFT["color"]))
+        ax.axhline(shaft, label="shaft voltage", **line_look(*SHAFT))
+        ends.append((shaft, f"shaft voltage\n{volts(shaft)}", SHAFT[0]))
     ax.set_ylim(0.0, 1.15 * max(float(np.max(through)), shaft or 0.0))
     ax.set_ylabel(f"{'shaft' if path.coated else 'bearing'} voltage [V]")
     label_ends(ax, ends)

@@ -17,8 +17,10 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
-from ehlectric.figures.axes import is_wide, round_numbers
-from ehlectric.figures.style import BLUE, GREY, ORANGE, page_size
+from ehlectric.figures.axes import round_numbers
+from ehlectric.figures.data import is_wide
+from ehlectric.figures.style import page_size
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so

@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric.bearing.impedance import impedance_of
+from ehlectric.bearing.over_speed import Curves, Speed, Speeds, breaks_anywhere, curves_of
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.speeds import over_speed
 from ehlectric.errors import ResultWarning
 from ehlectric.figures.bearing import findings
 from ehlectric.figures.bearing.circuit import breakdown_voltages, contact_capacitances
-from ehlectric.figures.bearing.curves import Curves, Speed, Speeds, curves_of
 from ehlectric.figures.bearing.impedance import impedance_magnitude, impedance_phase, phase_varies
 from ehlectric.figures.bearing.pitch import (
     LEAST_VARIATION,
@@ -26,7 +26,7 @@ from ehlectric.figures.bearing.pitch import (
     variation,
 )
 from ehlectric.figures.bearing.polar import film_around, load_around, new_polar
-from ehlectric.figures.bearing.speeds import breakdown_over_speed, breaks_anywhere, capacitance_over_speed
+from ehlectric.figures.bearing.speeds import breakdown_over_speed, capacitance_over_speed
 from ehlectric.figures.names import in_formats, of_cut
 from ehlectric.figures.style import drawing_of, new_panels, save_figure, share_below, style, titled
 

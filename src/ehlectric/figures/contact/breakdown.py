@@ -14,10 +14,8 @@ from ehlectric.discharge.laws import WeakestLink
 from ehlectric.figures.contact.findings import AnyContact, signed, strength_limit
 from ehlectric.figures.lengths import LENGTH_AXIS, label_position, length_axis
 from ehlectric.figures.names import BREAKDOWN_FIGURE
-from ehlectric.figures.style import BLUE, ORANGE, legend_above, new_panels
-
-# Colour of the dielectric strength and of breakdown.
-STRENGTH = "#a50026"
+from ehlectric.figures.style import legend_above, new_panels
+from ehlectric.quantities.palette import BLUE, ORANGE, STRENGTH
 
 # White edge of a text, which keeps it readable on a line.
 _OUTLINE = [withStroke(linewidth=2.0, foreground="white")]

@@ -3,74 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array
 from ehlectric.contact.results import PointResult
-from ehlectric.field.point import PointField
 from ehlectric.figures.contact.breakdown import limit_line
 from ehlectric.figures.contact.findings import strength_limit
 from ehlectric.figures.contact.maps import film_unit, film_window, round_levels
+from ehlectric.figures.contact.profiles import Cut
 from ehlectric.figures.lengths import label_position
 from ehlectric.figures.section import draw_section
-from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, figure_of, legend_above, new_panels
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, new_panels
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Colour and dashes of the cut through the centre, and of the cut through the minimum film or maximum field.
 _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
-
-
-@dataclass(frozen=True)
-class Cut:
-    """Straight cut through a map along one of its axes, on a line of nodes.
-
-    Attributes
-    ----------
-    along : str
-        Axis that the cut runs along, "x" or "y".
-    index : int
-        Number of the line's nodes on the other axis.
-    position : float
-        Position of the line on the other axis [m].
-    """
-
-    along: str
-    index: int
-    position: float
-
-    @classmethod
-    def near(cls, along: str, at: tuple[float, float], x: Array, y: Array) -> Cut:
-        """Cut along an axis of the nodes x, y [m] that passes nearest to the point ``at``, (x, y) [m]."""
-        axis, position = (y, at[1]) if along == "x" else (x, at[0])
-        index = int(np.argmin(np.abs(axis - position)))
-        return cls(along, index, float(axis[index]))
-
-    def of(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values on the cut, (nx, ...) or (ny, ...), of an array of shape (nx, ny, ...)."""
-        return values[:, self.index] if self.along == "x" else values[self.index]
-
-    def away(self, field: PointField) -> Mask:
-        """Mask of the columns of the cut far enough from the side faces of the field domain.
-
-        If the cut itself lies near a side face, so that at most two columns are left, the mask is True for
-        all of them.
-        """
-        inner: Mask = self.of(field.inner)
-        return inner if np.count_nonzero(inner) > 2 else np.ones_like(inner)
-
-    def name(self, result: PointResult) -> str:
-        """Position of the cut as text for a label, such as "$y/b$ = 0.5"."""
-        axis = "y" if self.along == "x" else "x"
-        # At the centre this gives 0, not 1e-17 or -0.
-        at = round(self.position / result.conditions.semi_axis_x, 6) + 0.0
-        return f"${axis}/b$ = {at:.3g}".replace("-", "−")
 
 
 def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:

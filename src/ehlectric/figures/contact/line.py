@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array
 from ehlectric.contact.results import Result
 from ehlectric.figures.contact.breakdown import breakdown_figures_of, limit_line
 from ehlectric.figures.contact.findings import cut_offs, disagreement, per_cent, strength_limit
@@ -18,11 +17,15 @@ from ehlectric.figures.contact.heat import heat_figures_of
 from ehlectric.figures.contact.line_maps import field_strength
 from ehlectric.figures.contact.meter import meter_figures_of
 from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
+from ehlectric.figures.contact.profiles import Line, field_scale, film_thickness, pressure
+from ehlectric.figures.contact.profiles import field_strength as strength_panel
 from ehlectric.figures.contact.spots import spots_figures_of
+from ehlectric.figures.data import Curve
+from ehlectric.figures.draw import draw_curves
 from ehlectric.figures.lengths import LENGTH_AXIS, in_half_widths, label_position, length_axis
 from ehlectric.figures.names import ROUGHNESS_FIGURE
-from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
-from ehlectric.formulas.hertz_line import line_pressure
+from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.quantities.palette import BLUE, GREEN, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 
 
@@ -42,51 +45,26 @@ def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
         Axes of the pressure; the film thickness is on a twin of them, with an axis on the right. Both axes
         have their ticks at the same heights. The minimum film is marked.
     """
-    ax = axes_or_new(ax)
-    film, conditions = result.film, result.conditions
-    x = in_half_widths(result, film.x)
-    largest = max(film.max_pressure, conditions.max_pressure)
-    factor, unit = unit_for(largest, "Pa")
-    hertz = conditions.max_pressure * line_pressure(x)
-    # Dashes tell the lines apart without colours too.
-    lines = ax.plot(x, factor * hertz, color=GREY, ls=":", lw=1.0, label="Hertz pressure")
-    lines += ax.plot(x, factor * film.pressure, color=BLUE, zorder=2.5, label="pressure")
-    ax.set_xlim(*_window(x))
+    ax, line = axes_or_new(ax), _line(result)
+    above, below = pressure(line), film_thickness(line)
+    lines = draw_curves(above.curves, ax)
+    ax.set_xlim(*_window(line.x))
     label_position(result, ax)
-    ax.set_ylabel(f"pressure $p$ [{unit}]", color=BLUE)
+    ax.set_ylabel(f"pressure $p$ [{above.unit}]", color=BLUE)
     twin = ax.twinx()
-    to_pressure = factor
-    factor, unit = unit_for(film.central_thickness, "m")
-    lines += twin.plot(x, factor * film.thickness, color=ORANGE, ls=_FILM, label="film thickness")
-    if film.film_fraction is not None:
-        oil = factor * film.film_fraction * film.thickness
-        lines += twin.plot(x, oil, color=ORANGE, lw=0.8, label="layer of oil")
-    if result.smooth:
-        # Wide and behind the rough curves, so that neither hides the other.
-        ax.plot(x, to_pressure * result.smooth.pressure, **_SMOOTH)
-        smooth = factor * result.smooth.thickness
-        lines += twin.plot(x, smooth, label="both, smooth surfaces", **_SMOOTH)
-    twin.set_ylabel(f"film thickness $h$ [{unit}]", color=ORANGE)
-    _align(ax, twin, to_pressure * largest, factor * film.central_thickness)
-    minimum, position = factor * film.minimum_thickness, film.minimum_position / conditions.half_width
-    lines += twin.plot(
-        position,
-        minimum,
-        ls="none",
-        marker="o",
-        ms=4.0,
-        mfc="white",
-        color=ORANGE,
-        label=f"minimum film, {minimum:.3g} {unit}",
-    )
+    # Dashes tell the curves of both axes apart without colours too.
+    dashed = [replace(one, dash="longdash") if one.name == "film thickness" else one for one in below.curves]
+    lines += draw_curves(dashed, twin)
+    twin.set_ylabel(f"film thickness $h$ [{below.unit}]", color=ORANGE)
+    _align(ax, twin, above.top, below.top / 3.0)
     length_axis(result, ax)
     legend_above(ax, lines, 4 if len(lines) < 5 else 3, lift=LENGTH_AXIS)
     return ax
 
 
-# Dashes of the film thickness, and look of smooth surfaces behind rough ones.
-_FILM = (0, (5.0, 1.5))
-_SMOOTH: dict[str, Any] = {"color": "0.75", "lw": 2.6, "zorder": 1.5}
+def _line(result: Result) -> Line:
+    """Line contact over x/b."""
+    return Line.through(result, 1.0 / result.conditions.half_width)
 
 
 def _window(x: Array) -> tuple[float, float]:
@@ -100,7 +78,7 @@ def _align(ax: Axes, twin: Axes, pressure: float, film: float) -> None:
     The film in the centre lies in the lowest quarter, so that its flanks leave the contact on both sides of
     the pressure.
     """
-    ticks = np.asarray(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, 1.04 * pressure))
+    ticks = np.asarray(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, pressure))
     intervals = ticks.size - 1
     steps = np.array([1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0])
     least = 4.0 * film / intervals
@@ -190,30 +168,25 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
         dielectric strength is a line, if the case has one. Where walls and mid-film agree within a per cent,
         they are one line. Of a rough contact, only the field strengths of the Hertz zone are shown.
     """
-    ax = axes_or_new(ax)
-    field = result.field
-    x = in_half_widths(result, field.x)
-    factor, unit = unit_for(field.max_strength, "V/m")
+    ax, field, panel = axes_or_new(ax), result.field, strength_panel(_line(result))
     zone = in_half_widths(result, np.array(field.high_field_zone))
     width, length = unit_for(field.high_field_width, "m", least=1.0)
     label = f"above 95 % of maximum, {width * field.high_field_width:.3g} {length} wide"
     shaded = ax.axvspan(zone[0], zone[1], color=GREEN, alpha=0.25, lw=0.0, label=label)
-    strengths = factor * np.stack(_strengths(result))
-    lines = _sections(ax, x, field.inner, strengths, rough=bool(result.rough), apart=disagreement(result))
-    if result.smooth:
-        smooth = factor * result.smooth.middle_strength
-        look: dict[str, Any] = {"color": "black", "lw": 1.1, "ls": (0, (3.0, 1.5)), "zorder": 4.0}
-        lines += ax.plot(x, smooth, label="mid-film, smooth surfaces", **look)
-    ax.set(ylabel=rf"field strength $|E|$ [{unit}]", xlim=(x[0], x[-1]))
+    smooth = [curve for curve in panel.curves if "smooth" in curve.name]
+    sections = panel.curves[:3]
+    lines = draw_curves([*_merged(sections, disagreement(result)), *smooth], ax)
+    x = in_half_widths(result, field.x)
+    ax.set(ylabel=rf"field strength $|E|$ [{panel.unit}]", xlim=(x[0], x[-1]))
     label_position(result, ax)
-    top = factor * field.max_strength
+    factor = unit_for(field_scale(result), "V/m")[0]
+    low, top = 0.0, factor * field.max_strength
     limit = strength_limit(result)
     if limit is not None:
-        top = max(top, limit_line(ax, x, factor * limit, top, unit))
-    low = 0.0
-    hertz = np.abs(x) <= 1.0
+        top = max(top, limit_line(ax, x, factor * limit, top, panel.unit))
+    hertz = np.abs(sections[0].x) <= 1.0
     if result.rough and np.any(hertz):
-        low = float(np.min(strengths[:, hertz]))
+        low = min(float(np.min(curve.y[hertz])) for curve in sections)
         low = max(0.0, low - 0.1 * (top - low))
     ax.set_ylim(low, top + 0.08 * (top - low))
     scale = result.strength_scale / factor
@@ -225,35 +198,16 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _strengths(result: Result) -> tuple[Array, Array, Array]:
-    """Field strength on both walls and at mid-film [V/m], each (nx,)."""
-    field = result.field
-    return field.strength[:, 0], field.strength[:, -1], field.middle_strength
-
-
-def _sections(
-    ax: Axes, x: Array, on: Mask, values: Array, *, rough: bool, apart: float = np.inf, marker: str = ""
-) -> list[Line2D]:
-    """Draw values (3, nx) on both walls and at mid-film over x/b, where the mask is True.
-
-    Close to the end faces of the field domain, the faces disturb the field. Where the values of all three are
-    at most a per cent ``apart``, they are one line, and so are those of walls that are alike.
-    """
-    looks = [
-        ("surface 1", BLUE, "-", 1.2 if rough else 1.6),
-        ("surface 2", ORANGE, "-", 0.9),
-        ("mid-film", GREEN if rough else "black", "-", 0.6 if rough else 0.8),
-    ]
+def _merged(sections: Sequence[Curve], apart: float = np.inf) -> list[Curve]:
+    """Curves of walls and mid-film: one where they are at most a per cent ``apart``, two of equal walls."""
+    first, second, middle = sections
     if apart < _EQUAL:
-        looks = [(f"walls and mid-film, equal within {per_cent(apart)}", BLUE, "-", 1.2)]
-        values = values[2:]
-    elif np.allclose(values[0][on], values[1][on], rtol=0.0, atol=_ALIKE * float(np.ptp(values[:, on]))):
-        looks, values = [("both walls", *looks[0][1:]), looks[2]], values[1:]
-    lines: list[Line2D] = []
-    for (label, color, dashes, width), along in zip(looks, values, strict=True):
-        look: dict[str, Any] = {"color": color, "ls": dashes, "lw": width, "marker": marker, "ms": 2.5}
-        lines += ax.plot(x[on], along[on], label=label, **look)
-    return lines
+        name = f"walls and mid-film, equal within {per_cent(apart)}"
+        return [replace(first, name=name, y=middle.y, width=1.2)]
+    range_ = float(np.ptp([curve.y for curve in sections]))
+    if np.allclose(first.y, second.y, rtol=0.0, atol=_ALIKE * range_):
+        return [replace(first, name="field at both walls", width=1.2), middle]
+    return list(sections)
 
 
 def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
@@ -274,18 +228,22 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
         out: within some gap heights, the end faces disturb the field.
     """
     if ax is not None:
-        return _deviations(result, ax)
+        _deviations(result, ax)
+        legend_above(ax, columns=3)
+        return ax
     above, below = stacked_panels((6.3, 5.2))
     _deviations(result, above)
-    _deviations(result, below, marker=".")
-    x, on = in_half_widths(result, result.field.x), result.field.inner
-    deviations = np.where(on, np.abs(_from_thin_gap(result)), 0.0)
-    k = int(np.argmax(np.max(deviations, axis=0)))
-    ends = x[k] - _AROUND, x[k] + _AROUND
+    _deviations(result, below)
+    sections = _from_thin_gap(result)
+    x, deviations = sections[0].x, np.stack([curve.y for curve in sections])
+    at = x[int(np.argmax(np.max(np.abs(deviations), axis=0)))]
+    ends = at - _AROUND, at + _AROUND
     below.set_xlim(*ends)
-    shown = _from_thin_gap(result)[:, on & (x >= ends[0]) & (x <= ends[1])]
+    shown = deviations[:, (x >= ends[0]) & (x <= ends[1])]
     room = 0.08 * float(np.ptp(shown)) or 1.0
     below.set_ylim(float(shown.min()) - room, float(shown.max()) + room)
+    for line in below.get_lines():
+        line.set(marker=".", markersize=2.5)
     enlarged_below(above, ends)
     legend_above(above, columns=3)
     return above
@@ -295,23 +253,20 @@ def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
 _AROUND = 0.03
 
 
-def _from_thin_gap(result: Result) -> Array:
-    """Deviations of the field from V12/h on both walls and at mid-film [‰], (3, nx)."""
-    deviations: Array = 1e3 * (np.stack(_strengths(result)) / result.field.thin_gap_strength - 1.0)
-    return deviations
+def _from_thin_gap(result: Result) -> list[Curve]:
+    """Deviations of the field from V12/h on both walls and at mid-film [‰], where the end faces are far."""
+    factor, thin = unit_for(field_scale(result), "V/m")[0], result.field.thin_gap_strength[result.field.inner]
+    sections = strength_panel(_line(result)).curves[:3]
+    return [replace(curve, y=1e3 * (curve.y / (factor * thin) - 1.0)) for curve in sections]
 
 
-def _deviations(result: Result, ax: Axes, marker: str = "") -> Axes:
+def _deviations(result: Result, ax: Axes) -> None:
     """Draw the deviations of the field from V12/h over x/b."""
-    field = result.field
-    x, on = in_half_widths(result, field.x), field.inner
-    _sections(ax, x, on, _from_thin_gap(result), rough=bool(result.rough), marker=marker)
+    x = in_half_widths(result, result.field.x)
+    draw_curves(_merged(_from_thin_gap(result)), ax)
     ax.axhline(0.0, color=GREY, lw=0.5, zorder=0.5)
     ax.set(ylabel="deviation of the field\nfrom $V_{12}/h$ [‰]", xlim=(x[0], x[-1]))
     label_position(result, ax)
-    if not marker:
-        legend_above(ax, columns=3)
-    return ax
 
 
 def roughness(result: Result, ax: Axes | None = None) -> Axes:

@@ -16,7 +16,8 @@ from ehlectric.figures.contact.maps import round_levels
 from ehlectric.figures.contact.panels import enlarged_below, stacked_panels
 from ehlectric.figures.lengths import in_half_widths, label_position
 from ehlectric.figures.section import MAXIMUM, draw_section, section_part
-from ehlectric.figures.style import BODY, OUT_OF_RANGE, axes_or_new, figure_of, legend_above
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above
+from ehlectric.quantities.palette import BODY, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
 
 

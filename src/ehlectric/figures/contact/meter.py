@@ -12,7 +12,8 @@ from ehlectric.contact.meter.profile import meter_profile
 from ehlectric.contact.meter.reading import Metered
 from ehlectric.figures.contact.findings import AnyContact, with_unit
 from ehlectric.figures.names import METER_FIGURE
-from ehlectric.figures.style import BLUE, GREY, ORANGE, legend_above, new_panels
+from ehlectric.figures.style import legend_above, new_panels
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 
 

@@ -7,7 +7,8 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
-from ehlectric.figures.style import GREY, new_panels
+from ehlectric.figures.style import new_panels
+from ehlectric.quantities.palette import GREY
 
 
 def stacked_panels(size: tuple[float, float]) -> list[Axes]:

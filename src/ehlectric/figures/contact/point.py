@@ -41,7 +41,8 @@ from ehlectric.figures.contact.meter import meter_figures_of
 from ehlectric.figures.contact.refined import refined, smoothed
 from ehlectric.figures.contact.spots import spots_figures_of
 from ehlectric.figures.names import ROUGHNESS_FIGURE
-from ehlectric.figures.style import GREY, OUT_OF_RANGE, legend_above
+from ehlectric.figures.style import legend_above
+from ehlectric.quantities.palette import GREY, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
 
 SECTIONS = ("surface 1", "mid-film", "surface 2")

@@ -23,9 +23,12 @@ from ehlectric.figures.contact.maps import (
     on_page,
     round_levels,
 )
-from ehlectric.figures.lengths import LENGTH_AXIS, in_half_widths, label_position, length_axis
+from ehlectric.figures.contact.profiles import Line, film_scale, film_thickness
+from ehlectric.figures.draw import draw_panel
+from ehlectric.figures.lengths import LENGTH_AXIS, label_position, length_axis
 from ehlectric.figures.names import SPOTS_FIGURE
-from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.quantities.palette import ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Share of the Hertz zone outside of the spots whose film the colours and the axis span.
@@ -86,25 +89,10 @@ def _map(result: PointResult, ax: Axes | None) -> Axes:
 
 def _profile(result: Result, ax: Axes | None) -> Axes:
     ax = axes_or_new(ax)
-    film, x = result.film, in_half_widths(result, result.film.x)
-    top = 1.15 * _thick(result)
-    factor, unit = unit_for(top, "m", least=1.0)
-    ax.plot(x, factor * film.thickness, color=BLUE, lw=0.8, label="film thickness")
-    if result.smooth is not None:
-        ax.plot(x, factor * result.smooth.thickness, color=GREY, lw=0.8, ls="--", label="smooth surfaces")
-    touched = film.contact
-    ax.plot(
-        x[touched],
-        factor * film.thickness[touched],
-        ls="none",
-        marker="o",
-        ms=3.0,
-        color=ORANGE,
-        label="surfaces touch",
-        zorder=3.0,
-    )
-    ax.set(xlim=_LINE_WINDOW, ylim=(-0.03 * factor * top, factor * top))
-    ax.set_ylabel(f"film thickness [{unit}]")
+    panel = film_thickness(Line.through(result, 1.0 / result.conditions.half_width))
+    draw_panel(panel, ax)
+    top = 1.15 * _thick(result) * unit_for(film_scale(result), "m")[0]
+    ax.set(xlim=_LINE_WINDOW, ylim=(-0.03 * top, top))
     label_position(result, ax)
     length_axis(result, ax)
     legend_above(ax, lift=LENGTH_AXIS)

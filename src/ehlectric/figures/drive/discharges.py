@@ -11,7 +11,8 @@ from matplotlib.ticker import MaxNLocator
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, PEAK, VOLTAGE
 from ehlectric.drive.result import DriveResult
-from ehlectric.figures.axes import is_wide, scale_axis
+from ehlectric.figures.axes import scale_axis
+from ehlectric.figures.data import is_wide
 from ehlectric.figures.drive.looks import COLOURS, NAMES, events_of, number_of_events
 from ehlectric.figures.style import axes_or_new, legend_above
 from ehlectric.quantities.units import unit_for

@@ -9,8 +9,8 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.record import FILM
 from ehlectric.drive.result import DriveResult
-from ehlectric.figures.style import BLUE, ORANGE
 from ehlectric.quantities.drive_results import NAMES_OF_ENDS
+from ehlectric.quantities.palette import BLUE, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Names of both bearings in titles and legends, and their colours.

@@ -16,7 +16,8 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.drive.looks import COLOURS, NAMES
 from ehlectric.figures.names import literal
-from ehlectric.figures.style import GREY, axes_or_new, legend_above
+from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.quantities.palette import GREY
 from ehlectric.quantities.units import unit_for
 
 # Letters on a line of a name, and lines of it; distance of both bearings from the middle of their row.

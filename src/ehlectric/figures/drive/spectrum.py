@@ -9,7 +9,8 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from ehlectric.arrays import Array
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive.looks import voltage_unit
-from ehlectric.figures.style import BLUE, axes_or_new
+from ehlectric.figures.style import axes_or_new
+from ehlectric.quantities.palette import BLUE
 
 # Number of points that are drawn for each decade of frequency, and part of the largest line that is drawn.
 _POINTS, _LEAST = 400, 1e-6

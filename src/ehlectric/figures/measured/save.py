@@ -14,12 +14,10 @@ from numpy.typing import NDArray
 from ehlectric.arrays import Array
 from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.measurements.factors import FilmFactors, factor_text
-from ehlectric.figures.axes import is_wide, scale_axis
+from ehlectric.figures.axes import scale_axis
+from ehlectric.figures.data import is_wide
 from ehlectric.figures.names import MEASURED_FIGURE, in_formats
 from ehlectric.figures.style import (
-    BLUE,
-    GREY,
-    ORANGE,
     drawing_of,
     figure_of,
     legend_above,
@@ -28,6 +26,7 @@ from ehlectric.figures.style import (
     save_figure,
     style,
 )
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import rpm
 
 # Width and height [inches].

@@ -20,8 +20,9 @@ from ehlectric.figures.motion.panels import (
     shown_range,
     time_unit,
 )
-from ehlectric.figures.style import BLUE, GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.figures.style import axes_or_new, legend_above
 from ehlectric.motion.stored_run import MotionRun, coincident_frame
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.quantities.units import unit_for
 
 

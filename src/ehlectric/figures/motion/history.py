@@ -10,10 +10,11 @@ from ehlectric.arrays import Array
 from ehlectric.contact.spots.warnings import share_text
 from ehlectric.figures.motion.findings import always_near_maximum
 from ehlectric.figures.motion.panels import field_unit, film_unit, fitted, time_unit
-from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.figures.style import axes_or_new, legend_above
 from ehlectric.motion.asperities import TouchHistory
 from ehlectric.motion.field_history import NEAR_MAXIMUM, intervals_above
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.palette import BLUE, GREEN, GREY, ORANGE
 
 # The film has changed where it differs from that before the motion by more than this part of its range; the
 # time before is left out if it is longer than this part of the run.

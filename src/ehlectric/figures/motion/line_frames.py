@@ -25,8 +25,9 @@ from ehlectric.figures.motion.panels import (
     shown_range,
     time_unit,
 )
-from ehlectric.figures.style import BLUE, BODY, OIL, ORANGE, figure_of, new_panels
+from ehlectric.figures.style import figure_of, new_panels
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.palette import BLUE, BODY, OIL, ORANGE
 from ehlectric.quantities.units import unit_for
 
 # Size of a frame [inches].

@@ -15,8 +15,9 @@ from matplotlib.patheffects import withStroke
 from ehlectric.arrays import Array
 from ehlectric.figures.contact.maps import round_levels
 from ehlectric.figures.motion.panels import along_label, field_unit, film_unit, in_contact, time_unit
-from ehlectric.figures.style import BODY, OUT_OF_RANGE, axes_or_new, figure_of, new_panels
+from ehlectric.figures.style import axes_or_new, figure_of, new_panels
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.palette import BODY, OUT_OF_RANGE
 from ehlectric.quantities.units import unit_for
 
 # The maps show x from -1.5 to 1.5 [half-widths]: beyond it the field is not solved, or hardly changes.

@@ -13,16 +13,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ehlectric.arrays import Array, IntArray
-from ehlectric.figures.axes import (
-    DARK_COLOURS,
-    colour_bar,
-    is_wide,
-    levels_of,
-    round_numbers,
-    scale_axis,
-)
+from ehlectric.figures.axes import DARK_COLOURS, colour_bar, levels_of, round_numbers, scale_axis
+from ehlectric.figures.data import is_wide
 from ehlectric.figures.names import literal
-from ehlectric.figures.style import GREY, axes_or_new, legend_above
+from ehlectric.figures.style import axes_or_new, legend_above
 from ehlectric.figures.sweep.paths import (
     NAMED,
     LinePath,
@@ -42,6 +36,7 @@ from ehlectric.figures.sweep.points import (
 )
 from ehlectric.figures.sweep.time_shares import TIME_SHARES
 from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.palette import GREY
 from ehlectric.sweep.interpolation import spaced_log
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice, take

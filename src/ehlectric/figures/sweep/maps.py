@@ -17,8 +17,9 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.tri import Triangulation
 
 from ehlectric.arrays import Array, Mask
-from ehlectric.figures.axes import COLOURS, by_logarithm, colour_bar, is_wide, levels_of, norm_of, scale_axis
-from ehlectric.figures.style import GREY, ORANGE, axes_or_new, legend_above
+from ehlectric.figures.axes import COLOURS, by_logarithm, colour_bar, levels_of, norm_of, scale_axis
+from ehlectric.figures.data import is_wide
+from ehlectric.figures.style import axes_or_new, legend_above
 from ehlectric.figures.sweep.line_labels import ON_BOX, ON_COLOURS, label_lines
 from ehlectric.figures.sweep.points import (
     dot_size,
@@ -37,6 +38,7 @@ from ehlectric.figures.sweep.time_shares import (
     scatter_regimes,
 )
 from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.palette import GREY, ORANGE
 from ehlectric.sweep.interpolation import Surface, applied_at, spaced_log, surface_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice, take

@@ -10,13 +10,13 @@ from matplotlib.colors import Normalize
 
 from ehlectric.arrays import Array, IntArray
 from ehlectric.figures.axes import DARK_COLOURS, by_logarithm, norm_of
-from ehlectric.figures.style import BLUE, GREEN, GREY, ORANGE
 from ehlectric.figures.sweep.time_shares import TIME_SHARES, quantile_of, share_of
+from ehlectric.quantities.palette import AMBER, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY
 from ehlectric.sweep.interpolation import applied_at, curve_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice
 
-_TEXTS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "black", GREY)
+_TEXTS = (BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY, "black", GREY)
 
 # Largest number of lines named in a legend; more lines have a colour bar instead.
 NAMED = 8

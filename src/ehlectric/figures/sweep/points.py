@@ -14,9 +14,10 @@ from matplotlib.patheffects import withStroke
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.bearings.ways import HOW
-from ehlectric.figures.style import GREY, ORANGE, name_over
+from ehlectric.figures.style import name_over
 from ehlectric.figures.sweep.time_shares import TIME_SHARES
 from ehlectric.quantities.formats import CELSIUS, Scale
+from ehlectric.quantities.palette import GREY, ORANGE
 from ehlectric.sweep.labels import Label, label_of
 from ehlectric.sweep.results import SweepResults
 from ehlectric.sweep.slices import Slice

@@ -13,20 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ehlectric.arrays import Array
-from ehlectric.figures.style import (
-    BLUE,
-    GREY,
-    ORANGE,
-    axes_or_new,
-    figure_of,
-    legend_above,
-    new_panels,
-    save_figure,
-    style,
-)
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, new_panels, save_figure, style
 from ehlectric.figures.sweep import findings
 from ehlectric.figures.sweep.points import labelled, name_figure, range_text
 from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 from ehlectric.sweep.breakdown_keys import breakdown_of
 from ehlectric.sweep.labels import label_of
 from ehlectric.sweep.results import SweepResults

@@ -15,8 +15,8 @@ from scipy.special import ndtr, ndtri
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.intermittency.duty import CAPACITIVE, RESISTIVE
-from ehlectric.figures.style import BLUE, GREY, ORANGE
 from ehlectric.figures.sweep.line_labels import ON_BOX, label_lines
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
 
 # Keys of a bearing's summary that are such shares.
 TIME_SHARES = ("bearing.contact_time_share", "bearing.touching_time_share", "bearing.clarke_time_share")

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from ehlectric.figures.contact.cuts import Cut, cuts, field_sections, film_cut
+from ehlectric.figures.contact.cuts import cuts, field_sections, film_cut
+from ehlectric.figures.contact.profiles import Cut
 from tests.helpers.each import each
 from tests.helpers.point_pages import KINDS, drawn, result_of
 

@@ -15,7 +15,8 @@ from ehlectric.figures.contact.line import field_deviation, field_profiles, film
 from ehlectric.figures.contact.line_maps import field_strength
 from ehlectric.figures.contact.save import drawings_of, figure
 from ehlectric.figures.lengths import length_axis
-from ehlectric.figures.style import OUT_OF_RANGE, axes_or_new
+from ehlectric.figures.style import axes_or_new
+from ehlectric.quantities.palette import LIGHT_GREY, OUT_OF_RANGE
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.point_pages import result_of, solved
@@ -263,9 +264,9 @@ def test_fields_that_coincide_are_one_line_and_rough_ones_are_beside_the_smooth_
     assert plain[0].startswith("walls and mid-film, equal within ")
     assert "mid-film" not in plain
     ax = field_profiles(rough)
-    smooth = next(line for line in ax.lines if line.get_label() == "mid-film, smooth surfaces")
+    smooth = next(line for line in ax.lines if line.get_label().endswith("mid-film, smooth surfaces"))
     assert smooth.get_zorder() > max(line.get_zorder() for line in ax.lines if line is not smooth)
-    np.testing.assert_array_equal(smooth.get_ydata(), 1e-6 * rough.smooth.middle_strength)
+    np.testing.assert_array_equal(smooth.get_ydata(), 1e-6 * rough.smooth.middle_strength[rough.field.inner])
     # From the minimum of the Hertz zone, with a tenth of the range below it.
     low, high = ax.get_ylim()
     hertz = np.abs(rough.field.x) <= rough.conditions.half_width
@@ -286,7 +287,7 @@ def test_films_are_told_apart_without_colours(below, rough):
         names = ("Hertz pressure", "pressure", "film thickness")
         assert len({str(lines[name]._dash_pattern) for name in names}) == 3
     for ax, name in ((left, "pressure"), (right, "film thickness")):
-        (smooth,) = (line for line in ax.lines if line.get_color() == "0.75")
+        (smooth,) = (line for line in ax.lines if line.get_color() == LIGHT_GREY)
         assert smooth.get_zorder() < lines[name].get_zorder()
         assert smooth.get_linewidth() > lines[name].get_linewidth()
 

@@ -27,7 +27,7 @@ from ehlectric.figures.contact.point import (
     roughness,
 )
 from ehlectric.figures.names import ALL_FIGURES, POINT_FIGURE_FILES
-from ehlectric.figures.style import OUT_OF_RANGE
+from ehlectric.quantities.palette import OUT_OF_RANGE
 from tests.helpers.each import each
 from tests.helpers.point_pages import KINDS, PIT, drawn, on_page, pages, result_of, solved
 from tests.helpers.titles import title_of

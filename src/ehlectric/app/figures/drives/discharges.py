@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers.bearing import Figure, Table
-from ehlectric.app.figures.drives.voltages import COLOURS
 from ehlectric.app.figures.look import Plot, axis, plot, values
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.record import CHARGE, ENERGY, PEAK, VOLTAGE
@@ -15,7 +14,8 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.discharges import bins_of
-from ehlectric.figures.drive.looks import NAMES, events_of, number_of_events
+from ehlectric.figures.drive.looks import COLOURS, NAMES, events_of, number_of_events
+from ehlectric.quantities.palette import BLUE, faint
 from ehlectric.quantities.units import unit_for
 
 # Quantities of a discharge by the names of their figures: words, column, unit, and name in the summary.
@@ -79,7 +79,7 @@ def _bars(edges: Array, own: Array, factor: float, b: int, unit: str) -> Plot:
     """Share of the discharges in each bin, as steps."""
     counts, _ = np.histogram(np.clip(factor * own, edges[0], edges[-1]), edges)
     share = np.append(100.0 * counts / own.size, 0.0)
-    fill = {"fill": "tozeroy", "fillcolor": "rgba(0,114,178,0.25)"} if b == 0 else {}
+    fill = {"fill": "tozeroy", "fillcolor": faint(BLUE, 0.25)} if b == 0 else {}
     return {
         "type": "scatter",
         "mode": "lines",

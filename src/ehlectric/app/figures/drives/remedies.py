@@ -8,11 +8,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ehlectric.app.answers.bearing import Figure, Table
-from ehlectric.app.figures.drives.voltages import COLOURS
 from ehlectric.app.figures.look import Plot, axis, plot
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
-from ehlectric.figures.drive.looks import NAMES
+from ehlectric.figures.drive.looks import COLOURS, NAMES
 from ehlectric.figures.drive.remedies import variants
 from ehlectric.quantities.formats import number_text
 

@@ -7,11 +7,12 @@ import math
 import numpy as np
 
 from ehlectric.app.answers.bearing import Figure, Table
-from ehlectric.app.figures.look import BLUE, axis, plot, values
+from ehlectric.app.figures.look import axis, plot, values
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
 from ehlectric.figures.drive.looks import voltage_unit
 from ehlectric.figures.drive.spectrum import highest_lines, shown_range
+from ehlectric.quantities.palette import BLUE
 
 _HEIGHT = 380
 

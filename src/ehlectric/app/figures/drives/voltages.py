@@ -8,22 +8,17 @@ from typing import Any
 import numpy as np
 
 from ehlectric.app.answers.bearing import Figure, Table
-from ehlectric.app.figures.look import BLUE, GREY, ORANGE, Plot, axis, plot, thinned, values
-from ehlectric.app.figures.stack import Along, Curve, Panel, stack
+from ehlectric.app.figures.look import Plot, axis, plot, values
+from ehlectric.app.figures.stack import stack
 from ehlectric.arrays import Array
-from ehlectric.drive.discharges.record import ON, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.figures.drive import findings
-from ehlectric.figures.drive.looks import NAMES, breakdown_of, events_of, voltage_unit
-from ehlectric.quantities.units import unit_for
+from ehlectric.figures.drive.looks import COLOURS, NAMES, breakdown_of, voltage_unit
+from ehlectric.figures.drive.voltage_panels import bearing_panel, shown_discharges, source_panel, time_axis
+from ehlectric.quantities.palette import MIDDLE_GREY
 
-COLOURS = (BLUE, ORANGE)
-
-# Pieces of a curve over time, each drawn by its lowest and its highest point, and marked discharges.
-_PIECES, _MARKED = 1500, 400
-
-# Breakdown voltage over the largest voltage of a panel up to which it is drawn, and room around the curves.
-_NEAR, _ROOM = 1.8, 1.12
+# Largest number of discharges of a bearing in the table.
+_LISTED = 400
 
 # Least share of time that is drawn, over the largest one.
 _LEAST = 1e-6
@@ -33,72 +28,21 @@ _HEIGHT = 380
 
 def voltages_figure(result: DriveResult) -> Figure:
     """Common-mode voltage and both bearing voltages over two periods of the carrier, with discharges."""
-    trace = result.solution.record.trace
-    begin, end = float(trace[0, 0]), float(trace[-1, 0])
-    begin = max(begin, 0.0)
-    scale, unit = unit_for(end - begin, "s", least=1.0)
-    kept = thinned([trace[:, column] for column in (1, 2, 3)], _PIECES)
-    time = scale * (trace[kept, 0] - begin)
-    span = scale * (end - begin)
-    factor, volts = voltage_unit(float(np.max(np.abs(trace[:, 1]), initial=0.0)))
-    source = Curve("common mode", time, factor * trace[kept, 1], GREY)
-    most = _ROOM * float(np.max(np.abs(source.y), initial=1e-9))
-    panels, marks, rows = [Panel("common mode", volts, [source], most, -most)], [], []
-    for b, name in enumerate(NAMES):
-        panel, here = _bearing(result, b, (begin, end), time, trace[kept, 2 + b])
-        panels.append(panel)
-        factor, volts = _unit_of(result, b, here)
-        marks.append(_marks(scale * (here[:, ON] - begin), factor * here[:, VOLTAGE], volts, b))
-        rows += [(name, f"{scale * (one[ON] - begin):.4g}", f"{one[VOLTAGE]:.3g}") for one in here[:_MARKED]]
-    after = "" if begin < 1e-9 else f" after {1e3 * begin:.4g} ms"
-    figure = stack(Along(f"time{after}", unit, (0.0, span)), panels)
-    figure["data"] += marks
-    figure["layout"]["showlegend"] = False
+    along = time_axis(result)
+    panels = [source_panel(result), *(bearing_panel(result, b) for b in range(2))]
+    rows = [
+        (name, f"{at:.4g}", f"{volts:.3g}")
+        for b, name in enumerate(NAMES)
+        for at, volts in list(zip(*shown_discharges(result, b), strict=True))[:_LISTED]
+    ]
     found = findings.voltages(result)
     return Figure(
         "Voltages over two periods of the carrier",
         f"Common-mode voltage and voltages across the films of both bearings over time. {found}.",
-        figure,
-        Table("Discharges of this time", ("bearing", f"time [{unit}]", "voltage [V]"), tuple(rows)),
+        stack(along, panels, showlegend=False),
+        Table("Discharges of this time", ("bearing", f"time [{along.unit}]", "voltage [V]"), tuple(rows)),
         "Circles mark discharges. Dashed: breakdown voltage of the weakest position, where it is near.",
     )
-
-
-def _bearing(
-    result: DriveResult, b: int, ends: tuple[float, float], time: Array, volts: Array
-) -> tuple[Panel, Array]:
-    """Panel of the voltage across the films of one bearing, and its discharges in this time."""
-    own = events_of(result, b)
-    here = own[(own[:, ON] >= ends[0]) & (own[:, ON] <= ends[1])][:_MARKED]
-    factor, unit = _unit_of(result, b, here)
-    largest = factor * max(float(np.max(np.abs(part), initial=1e-12)) for part in (volts, here[:, VOLTAGE]))
-    curves, breakdown = [Curve(NAMES[b], time, factor * volts, COLOURS[b])], factor * breakdown_of(result, b)
-    if breakdown <= _NEAR * largest:
-        at = np.array([0.0, time[-1]])
-        curves += [
-            Curve("breakdown, weakest", at, np.full(2, sign * breakdown), GREY, dash="dash", width=1.5)
-            for sign in (1.0, -1.0)
-        ]
-        largest = max(largest, breakdown)
-    return Panel(NAMES[b], unit, curves, _ROOM * largest, -_ROOM * largest), here
-
-
-def _unit_of(result: DriveResult, b: int, here: Array) -> tuple[float, str]:
-    trace = result.solution.record.trace[:, 2 + b]
-    return voltage_unit(max(float(np.max(np.abs(part), initial=0.0)) for part in (trace, here[:, VOLTAGE])))
-
-
-def _marks(time: Array, volts: Array, unit: str, b: int) -> Plot:
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "x": values(time),
-        "y": values(volts),
-        "yaxis": ("y2", "y3")[b],
-        "name": "discharge",
-        "marker": {"color": "rgba(0,0,0,0)", "size": 9, "line": {"color": COLOURS[b], "width": 2}},
-        "hovertemplate": f"discharge at %{{y:.4g}} {unit}<extra></extra>",
-    }
 
 
 def histogram_figure(result: DriveResult) -> Figure:
@@ -155,7 +99,7 @@ def _steps(at: Array, share: Array, b: int, unit: str) -> Plot:
 
 
 def _thresholds(result: DriveResult, factor: float, most: float) -> list[Plot]:
-    line = {"color": GREY, "width": 1.5, "dash": "dash"}
+    line = {"color": MIDDLE_GREY, "width": 1.5, "dash": "dash"}
     near = sorted({breakdown_of(result, b) for b in range(2)})
     return [
         {"type": "line", "x0": at, "x1": at, "yref": "paper", "y0": 0.0, "y1": 1.0, "line": line}

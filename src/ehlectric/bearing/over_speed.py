@@ -16,9 +16,6 @@ from ehlectric.bearing.solution import CONDUCTING
 Speed = tuple[float, dict[str, Any]]
 Speeds = Sequence[Speed]
 
-# Factor from rad/s to revolutions per minute.
-RPM = 30.0 / np.pi
-
 # Keys that are drawn in place of others, where a summary has them: voltages on the shaft, with a coating.
 _ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
 
@@ -196,3 +193,8 @@ def nearly_equal(one: Array, other: Array) -> bool:
     """Whether two curves differ by less than a per cent wherever both are known."""
     known = np.isfinite(one) & np.isfinite(other)
     return bool(np.all(np.abs(other[known] - one[known]) < 0.01 * one[known]))
+
+
+def breaks_anywhere(points: Speeds) -> bool:
+    """Whether there is a breakdown voltage at any speed."""
+    return any(summary["bearing"]["first_break"] is not None for _, summary in points)

@@ -1,0 +1,71 @@
+"""Panels of figures that are data, drawn by Matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from ehlectric.figures.axes import scale_axis
+from ehlectric.figures.data import Along, Area, Curve, Panel
+
+# Dashes by their names.
+DASHES: Mapping[str, Any] = {
+    "solid": "-",
+    "dash": "--",
+    "dot": ":",
+    "dashdot": "-.",
+    "longdash": (0, (5.0, 1.5)),
+}
+
+_MARKERS: Mapping[str, dict[str, Any]] = {
+    "dots": {"marker": "o", "ms": 3.5},
+    "ring": {"marker": "o", "ms": 5.0, "mfc": "white", "mew": 1.2, "zorder": 5.5},
+    "star": {"marker": "*", "ms": 12.0, "mec": "white", "zorder": 6.0},
+}
+
+
+def line_look(colour: str, dash: str = "solid", width: float = 1.2) -> dict[str, Any]:
+    """Look of a line as Matplotlib takes it."""
+    return {"color": colour, "ls": DASHES[dash], "lw": width}
+
+
+def draw_curves(curves: Sequence[Curve], ax: Axes) -> list[Line2D]:
+    """Draw curves over each other, the last one on top."""
+    lines: list[Line2D] = []
+    for k, curve in enumerate(curves):
+        look: dict[str, Any] = line_look(curve.colour, curve.dash, curve.width) | {"zorder": 2.0 + 0.01 * k}
+        if curve.marker:
+            look |= {"ls": "none", **_MARKERS[curve.marker]}
+        lines += ax.plot(curve.x, curve.y, label=curve.name or "_", **look)
+    return lines
+
+
+def draw_panel(panel: Panel, ax: Axes, along: Along | None = None) -> None:
+    """Draw a panel with its axis and, where it is given, the axis along it."""
+    x, y = (np.concatenate([getattr(curve, axis) for curve in panel.curves]) for axis in ("x", "y"))
+    if along is not None:
+        scale_axis(ax.xaxis, f"{along.name} [{along.unit}]", values=np.round(x, 6), log=along.log)
+        if along.window is not None:
+            ax.set_xlim(*along.window)
+    scale_axis(ax.yaxis, f"{panel.title} [{panel.unit}]", values=y, log=panel.log)
+    if not panel.log:
+        ax.set_ylim(panel.bottom, panel.top)
+    for area in panel.areas:
+        _shade(area, ax)
+    draw_curves(panel.curves, ax)
+    for line in panel.uprights:
+        ax.axvline(line.at, **line_look(line.colour, line.dash, 1.0))
+
+
+def _shade(area: Area, ax: Axes) -> None:
+    look: dict[str, Any] = {"facecolor": (area.colour, area.opacity), "lw": 0.0, "label": area.name or "_"}
+    if area.hatched:
+        look |= {"edgecolor": (area.colour, 0.5), "hatch": "xxx"}
+    if area.ends is None:
+        look |= {"transform": ax.get_xaxis_transform(), "zorder": 0.0}
+    low, high = (0.0, 1.0) if area.ends is None else area.ends
+    ax.fill_between(area.x, low, high, where=list(area.within), interpolate=area.ends is not None, **look)
