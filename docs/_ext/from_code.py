@@ -40,6 +40,7 @@ from ehlectric.commands.app import app as commands
 from ehlectric.errors import CODES
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
+from ehlectric.quantities.units import printed
 from ehlectric.sweep import inputs as sweep_inputs
 
 _TABLES = {**TABLES, "sweep": sweep_inputs.Sweep}
@@ -106,12 +107,6 @@ def _find(annotation: Any, metadata: Iterable[Any]) -> Any:
     return None
 
 
-def _unit(written: str) -> str:
-    """A unit as it is printed: m**2 as m², N*s as N s."""
-    squared, cubed = "\N{SUPERSCRIPT TWO}", "\N{SUPERSCRIPT THREE}"
-    return written.replace("**2", squared).replace("**3", cubed).replace("*", " ")
-
-
 def _takes(name: str, found: Any, *, pair: bool) -> str:
     """Values that a key accepts, with their unit and the reason for their bounds."""
     if name in _NAMES:
@@ -125,7 +120,7 @@ def _takes(name: str, found: Any, *, pair: bool) -> str:
     if isinstance(found, Amounts):
         return f"a list of {found.least} or more, each {_takes(name, found.each, pair=False)}"
     if isinstance(found, Amount | Count):
-        unit = f" {_unit(found.unit)}" if isinstance(found, Amount) and found.unit else ""
+        unit = f" {printed(found.unit)}" if isinstance(found, Amount) and found.unit else ""
         kind = "whole, " if isinstance(found, Count) else "two, each " if pair else ""
         return f"{kind}{_bounds(found)}{unit}: {found.reason}"
     if isinstance(found, tuple):

@@ -3,7 +3,8 @@
 import pytest
 
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.words import in_field_unit, with_signs
+from ehlectric.app.fields.words import in_field_unit
+from ehlectric.quantities.units import printed
 from tests.browser.driving import (
     complete,
     field,
@@ -125,7 +126,7 @@ def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key
     shown = next(one for group in BEARING_GROUPS for one in group.fields if one.key == key)
     expected = in_field_unit(shown, line.partition(f"{key}: ")[2])
     assert " ".join(error.inner_text().split()) == " ".join(expected.split())
-    assert with_signs(shown.unit) in error.inner_text()
+    assert printed(shown.unit) in error.inner_text()
     assert "string" not in error.inner_text()
     notice = page.get_by_test_id("notice").inner_text()
     assert shown.label in notice

@@ -183,8 +183,8 @@ def test_sweep_over_a_parameter_of_a_new_law():
     ]
     label = label_of("inputs.lubricant.doubling_pressure", case)
     assert label.axis(label.scaled(np.array([2e7, 4e7]))) == "doubling pressure $p_2$ [MPa]"
-    # Without a title the key stands there.
-    assert label_of("inputs.lubricant.bulk_modulus", case).name == "lubricant.bulk_modulus"
+    # Without a title the key stands there in words.
+    assert label_of("inputs.lubricant.bulk_modulus", case).name == "bulk modulus"
 
 
 def test_a_new_permittivity_law(monkeypatch):

@@ -14,15 +14,14 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, Unpack
 from pydantic import PrivateAttr, model_validator
 
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
-from ehlectric.cases.contact import Contact, geometry_of
+from ehlectric.cases.contact import Contact, LineKeys, PointKeys, geometry_of
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.discharge import Discharge
 from ehlectric.cases.doubts import warn_of
 from ehlectric.cases.films.inlet import Inlet
 from ehlectric.cases.films.physics import FilmPhysics, check_film
 from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
-from ehlectric.cases.keywords.constructors import tables, takes
-from ehlectric.cases.keywords.types import Keys, LineKeys, PointKeys
+from ehlectric.cases.keywords import Keys, tables, takes
 from ehlectric.cases.meter import Meter
 from ehlectric.cases.motion import Motion
 from ehlectric.cases.oils.lubricant import Lubricant
@@ -183,7 +182,7 @@ class Case(Tabled, Table):
         """Make the case of a line contact from the keys of its table ``contact``.
 
         ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
-        SI units, texts with units, or quantities of pint (``ehlectric.cases.keywords.types.LineKeys``); all
+        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact.LineKeys``); all
         others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
 
         >>> steel = {"reduced_radius": "14.1 mm", "reduced_modulus": 226e9}
@@ -218,7 +217,7 @@ class Case(Tabled, Table):
         """Make the case of a point contact from the keys of its table ``contact``.
 
         ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
-        SI units, texts with units, or quantities of pint (``ehlectric.cases.keywords.types.PointKeys``); all
+        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact.PointKeys``); all
         others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
 
         >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa"}

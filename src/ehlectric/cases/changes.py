@@ -7,15 +7,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from ehlectric.cases.contact import CONTACT_ALTERNATIVES, ONLY
-from ehlectric.cases.discharge import STRENGTHS, TABLES
-from ehlectric.cases.films.inlet import SUPPLIES
-from ehlectric.cases.meter import FILLINGS
 from ehlectric.cases.oils.alternatives import displace_oil
 from ehlectric.errors import InputError, shown
-
-# Groups of alternative keys in one table. A group is a tuple of rows, and a table has the keys of one row.
-Groups = tuple[tuple[tuple[str, ...], ...], ...]
+from ehlectric.quantities.alternatives import ALTERNATIVES, CONTACT_ALTERNATIVES, GRID_OF_ANY, ONLY, Rows
 
 
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
@@ -84,7 +78,9 @@ def flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return flat
 
 
-def displace(table: dict[str, Any], changes: Mapping[str, Any], alternatives: Mapping[str, Groups]) -> None:
+def displace(
+    table: dict[str, Any], changes: Mapping[str, Any], alternatives: Mapping[str, tuple[Rows, ...]]
+) -> None:
     """Remove from nested tables the keys that are alternatives to changed keys.
 
     Parameters
@@ -93,7 +89,7 @@ def displace(table: dict[str, Any], changes: Mapping[str, Any], alternatives: Ma
         Nested tables, changed in place.
     changes : mapping
         New values by dotted key.
-    alternatives : mapping of str to Groups
+    alternatives : mapping of str to tuple of Rows
         Groups of alternative keys, by the name of the table.
 
     Examples
@@ -128,7 +124,7 @@ def _names_in(table: str, changes: Mapping[str, Any]) -> set[str]:
     return {key.removeprefix(f"{table}.") for key in flattened(changes) if key.startswith(f"{table}.")}
 
 
-def _displace_in(table: dict[str, Any], names: set[str], groups: Groups) -> None:
+def _displace_in(table: dict[str, Any], names: set[str], groups: tuple[Rows, ...]) -> None:
     """Remove from one table the keys that are alternatives to its changed keys."""
     for group in groups:
         for row in group:
@@ -154,11 +150,6 @@ def drop(table: dict[str, Any], key: str) -> None:
             del table[first]
 
 
-# Keys of a grid that stay if the geometry changes. Lengths, numbers of nodes and the error are removed,
-# because the other geometry has other units of length and other defaults.
-_GRID_OF_ANY = ("wedge", "field_degree", "refine")
-
-
 def drop_geometry(table: dict[str, Any], geometry: str) -> None:
     """Remove the keys of a case that only contacts of this geometry have."""
     for key in ONLY[geometry]:
@@ -166,23 +157,15 @@ def drop_geometry(table: dict[str, Any], geometry: str) -> None:
     drop(table, "discharge.length")
     drop(table, "meter.length")
     drop(table, "inlet.layer_table")
-    table["grid"] = {key: value for key, value in table["grid"].items() if key in _GRID_OF_ANY}
+    table["grid"] = {key: value for key, value in table["grid"].items() if key in GRID_OF_ANY}
 
 
 def displace_alternatives(table: dict[str, Any], changes: Mapping[str, Any], geometry: object) -> None:
     """Remove from the tables of a case the keys that the changes replace."""
     if "lubricant.base" in changes:
         table["lubricant"] = {}
-    alternatives = {
-        "contact": (
-            *CONTACT_ALTERNATIVES.get(str(geometry), ()),
-            (("slide_to_roll_ratio",), ("speed_1", "speed_2")),
-        ),
-        "discharge": (STRENGTHS, TABLES),
-        "meter": (FILLINGS,),
-        "inlet": (SUPPLIES,),
-        "motion": ((("passes",), ("duration",)),),
-        "grid": tuple((("error",), (key,)) for key in ("nodes", "nodes_y", "refine")),
-    }
+    alternatives = {name: ALTERNATIVES[name] for name in ("discharge", "meter", "inlet", "motion", "grid")}
+    of_geometry = CONTACT_ALTERNATIVES.get(str(geometry), ())
+    alternatives["contact"] = (*of_geometry, *ALTERNATIVES["contact"])
     displace(table, changes, alternatives)
     displace_oil(table.get("lubricant", {}), nested(changes, "lubricant"))

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, TypedDict
 
 from pydantic import AfterValidator, model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.defaults import BOUNDARY_FILM
+from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES, ONLY
 
 _Radius = Annotated[float, Amount("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
 _SignedRadius = Annotated[float, Amount("m", least=-1e3, most=1e3, reason="negative for a concave body")]
@@ -53,37 +55,6 @@ class Body(Table):
 # Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
 _ATOM = 5e-11
 
-# Alternative inputs by geometry: a case gives all keys of exactly one row of each group.
-Alternatives = tuple[tuple[tuple[str, ...], ...], ...]
-_SPEEDS = (("entrainment_speed",), ("speed_1", "speed_2"))
-_BODIES = ("body_1", "body_2")
-_ELASTIC = tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio"))
-CONTACT_ALTERNATIVES: dict[str, Alternatives] = {
-    "line": (
-        (("reduced_radius",), ("radius_1", "radius_2")),
-        (("reduced_modulus",), _ELASTIC),
-        (("load_per_length",), ("max_hertz_pressure",)),
-        _SPEEDS,
-    ),
-    "point": (
-        (
-            ("radius_x", "radius_y"),
-            tuple(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
-        ),
-        (("reduced_modulus",), _ELASTIC),
-        (("load",), ("max_hertz_pressure",)),
-        _SPEEDS,
-    ),
-}
-
-# Keys that only contacts of one geometry have.
-ONLY: dict[str, tuple[str, ...]] = {
-    "line": ("reduced_radius", "radius_1", "radius_2", "load_per_length"),
-    "point": (
-        *("radius_x", "radius_y", "load"),
-        *(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
-    ),
-}
 OTHER = {"line": "point", "point": "line"}
 
 
@@ -209,6 +180,42 @@ class Contact(Table):
         for name in group[used[0]]:
             if name not in present[used[0]]:
                 raise InputError.missing(name, f"either {choices}")
+
+
+class _ContactKeys(TypedDict, total=False):
+    """Keys that the constructors of line and point contacts share."""
+
+    reduced_modulus: Value
+    body_1: Keys
+    body_2: Keys
+    max_hertz_pressure: Value
+    entrainment_speed: Value
+    temperature: Value
+    temperature_1: Value
+    temperature_2: Value
+    slide_to_roll_ratio: Value
+    speed_1: Value
+    speed_2: Value
+    boundary_film: Value
+    hardness: Value
+    boundary_friction: Value
+
+
+class LineKeys(_ContactKeys, total=False):
+    """Keys of the table ``contact`` of a line contact, as ``Case.line`` takes them."""
+
+    reduced_radius: Value
+    radius_1: Value
+    radius_2: Value
+    load_per_length: Value
+
+
+class PointKeys(_ContactKeys, total=False):
+    """Keys of the table ``contact`` of a point contact, as ``Case.point`` takes them."""
+
+    radius_x: Value
+    radius_y: Value
+    load: Value
 
 
 def geometry_of(contact: Any) -> Any:

@@ -9,15 +9,11 @@ from pydantic import model_validator
 from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ALTERNATIVES
 
 _STRENGTH = Amount("V/m", least=1e4, most=1e10, reason="of the film, not of the oil in bulk")
 _PRESSURE = Amount("Pa", least=0.0, most=2e10, reason="in the film")
 _TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the film")
-
-# Alternative keys of the dielectric strength, and of the variable of a strength table. A case gives the keys
-# of at most one row of each.
-STRENGTHS = (("dielectric_strength",), ("strength_table", "temperature"), ("weibull",))
-TABLES = (("strength_table.pressure",), ("strength_table.temperature", "temperature"))
 
 # Keys that need the length of a line contact.
 _OF_LENGTH = ("weibull", "external_capacitance", "peak_current", "pit")
@@ -109,7 +105,7 @@ class Discharge(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        names = [row[0] for row in STRENGTHS]
+        names = [row[0] for row in ALTERNATIVES["discharge"][0]]
         present = [name for name in names if getattr(self, name) is not None]
         if len(present) > 1:
             together, takes = " and ".join(present), ", ".join(names)

@@ -1,12 +1,10 @@
-"""Inputs of a case by dotted key: field, type of number, unit, and name in labels."""
+"""Inputs of a case by dotted key: field, type of number, unit, and what the book of inputs says of them."""
 
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping
-from functools import cache
-from importlib import resources
+from dataclasses import replace
 from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
@@ -22,14 +20,13 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.contact import Body, Contact
 from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
 from ehlectric.cases.drives.breakdown import Breakdown
-from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase, Operation, Remedy
+from ehlectric.cases.drives.case import DriveCase, Operation, Remedy
 from ehlectric.cases.drives.circuit import Circuit
 from ehlectric.cases.drives.machine import Geometry
 from ehlectric.cases.drives.source import Source
 from ehlectric.cases.films.inlet import Inlet, LayerTable
 from ehlectric.cases.films.physics import FilmPhysics
 from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.cases.meter import Coating, Meter
 from ehlectric.cases.motion import Motion
 from ehlectric.cases.oils.laws import law_parameters
@@ -39,6 +36,9 @@ from ehlectric.cases.oils.temperature import OilTemperature
 from ehlectric.cases.roughness import Roughness
 from ehlectric.cases.table import Table, any_of, meant, nearest, table_of
 from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at, inputs, table_and_key
+from ehlectric.quantities.quantity import Quantity
+from ehlectric.quantities.units import printed
 
 # Tables and keys that only a bearing file has.
 _OF_BEARINGS = ("bearing", "motor", "contacts")
@@ -46,8 +46,8 @@ _OF_BEARINGS = ("bearing", "motor", "contacts")
 # Tables that only a drive file has, beside those of its bearings.
 _OF_DRIVES = ("drive", "source", "circuit", "breakdown")
 
-# Tables of case and bearing files by the names under which keys.toml describes their keys. The table of sweep
-# files, "sweep", is in the package sweep.
+# Tables of case, bearing and drive files by their names in the book of inputs. That of sweep files is in the
+# package sweep.
 TABLES: Mapping[str, type[Table]] = {
     "case_file": Case,
     "bearing_file": BearingCase,
@@ -86,35 +86,42 @@ TABLES: Mapping[str, type[Table]] = {
 }
 
 
-@cache
-def _texts() -> dict[str, dict[str, str]]:
-    """Contents of keys.toml."""
-    text = resources.files("ehlectric.cases").joinpath("keys.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)
+def input_of(key: str) -> Quantity | None:
+    """Label, symbol, meaning and SI unit of a dotted key; None where no file has this key.
 
-
-def descriptions(table: str) -> dict[str, str]:
-    """Descriptions of the keys of a table, in Markdown with formulas in LaTeX.
-
-    Parameters
-    ----------
-    table : str
-        Name of the table in ``TABLES``, or "sweep".
-
-    Raises
-    ------
-    InputError
-        Where there is no such table.
+    Parameters of laws that are not in the book of inputs are described with their law.
 
     Examples
     --------
-    >>> descriptions("contact")["load"]
-    'load of a point contact'
+    >>> input_of("bearing.radial_load").unit, input_of("lubricant.roelands_pressure").label
+    ('N', "Roelands' constant")
     """
-    if table not in _texts():
-        raise InputError.unknown(table, nearest(table, _texts()))
-    laws = {p.name: p.meaning for p in law_parameters().values()} if table == "lubricant" else {}
-    return laws | _texts()[table]
+    entry = input_at(key) or _entry(*table_and_key(key)[:2])
+    return None if entry is None else replace(entry, unit=unit_of(_numbered(key)))
+
+
+def _entry(table: str, name: str) -> Quantity | None:
+    """Entry of a key of a table: that of the book, or that of the law whose parameter it is."""
+    parameter = law_parameters().get(name) if table == "lubricant" else None
+    return inputs().get(table, {}).get(name) or (None if parameter is None else parameter.quantity)
+
+
+def descriptions(table: str) -> dict[str, str]:
+    """Descriptions of the keys of a table of ``TABLES`` or of "sweep", in Markdown, each after its label.
+
+    Examples
+    --------
+    >>> descriptions("contact")["load"], descriptions("contact")["reduced_radius"]
+    ('load of a point contact', 'reduced radius, $R$, with $1/R = 1/R_1 + 1/R_2$')
+    """
+    if table not in inputs():
+        raise InputError.unknown(table, nearest(table, inputs()))
+    laws = law_parameters() if table == "lubricant" else {}
+    entries = {name: parameter.quantity for name, parameter in laws.items()} | dict(inputs()[table])
+    return {
+        name: entry.meaning if entry.meaning.startswith(entry.label) else f"{entry.label}, {entry.meaning}"
+        for name, entry in entries.items()
+    }
 
 
 def describe(key: str) -> str:
@@ -143,45 +150,24 @@ def describe(key: str) -> str:
     >>> describe("bearing.radial_load")
     'radial load, F_r [N]'
     """
-    _, own = end_and_key(key)
-    *names, leaf = [name for name in own.split(".") if not name.isdecimal()] or [key]
-    table = ".".join("body" if name in ("body_1", "body_2") else name for name in names)
-    known = descriptions(table) if table in _texts() else {}
-    if leaf not in known:
-        every = [f"{table}.{name}" for table in _texts() for name in descriptions(table)]
+    table, name, _ = table_and_key(key)
+    if not table or name not in (descriptions(table) if table in inputs() else {}):
+        every = [f"{one}.{name}" for one in inputs() for name in descriptions(one)]
         raise InputError.unknown(key, nearest(key, every))
-    unit = unit_of(_numbered(key)).replace("**2", "²").replace("**3", "³").replace("*", " ")
-    whole = _phrase(own, leaf, known[leaf])
-    return f"{whole} [{unit}]" if unit else whole
+    unit = unit_of(_numbered(key))
+    return f"{phrase(table, name)} [{printed(unit)}]" if unit else phrase(table, name)
 
 
 def phrase(table: str, key: str) -> str:
-    """Description of a key of a table as plain text, which begins with the name of the key.
-
-    Parameters
-    ----------
-    table : str
-        Name of the table in ``TABLES``, or "sweep".
-    key : str
-        One of its keys that have a description.
+    """Description of a key of a table as plain text, which begins with the label of the key.
 
     Examples
     --------
     >>> phrase("bearing", "radial_load"), phrase("contact.body", "youngs_modulus")
-    ('radial load, F_r', 'youngs modulus, E')
+    ('radial load, F_r', "Young's modulus, E")
     """
-    return _phrase(f"{table}.{key}", key, descriptions(table)[key])
+    return plain_text(descriptions(table)[key])
 
-
-def _phrase(key: str, leaf: str, description: str) -> str:
-    """Plain text of a description, after the name of the quantity where it does not begin with it."""
-    text = plain_text(description)
-    name = INPUT_NAMES.get(key, (leaf.replace("_", " ") if _NAMELESS.match(description) else "", ""))[0]
-    return text if text.startswith(name) else f"{name}, {text}"
-
-
-# Descriptions that begin with a formula or a preposition, and do not name the quantity.
-_NAMELESS = re.compile(r"\$|of |at |above |below |from |peak|absolute")
 
 # Commands of LaTeX in descriptions, as plain text.
 _LATEX = {
@@ -298,18 +284,6 @@ def is_of_drive(key: str) -> bool:
     False
     """
     return key.partition(".")[0] in (*_OF_DRIVES, *ENDS, BOTH)
-
-
-def end_and_key(key: str) -> tuple[str, str]:
-    """Name of the bearing of a drive before a dotted key, and the key in a bearing file.
-
-    Examples
-    --------
-    >>> end_and_key("drive_end.bearing.temperature"), end_and_key("source.dc_link")
-    (('drive_end', 'bearing.temperature'), ('', 'source.dc_link'))
-    """
-    first, _, rest = key.partition(".")
-    return (first, rest) if first in (*ENDS, BOTH) and rest else ("", key)
 
 
 def of_both_ends(key: str) -> tuple[str, ...]:

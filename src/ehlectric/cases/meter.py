@@ -19,9 +19,6 @@ _NAMED = {"oil": 1.0, "air": 0.0}
 # Relative difference of its two radii up to which a body is a ball.
 _ROUND = 1e-3
 
-# Alternative keys of what fills the gap outside the film's domain.
-FILLINGS = (("fill",), ("oil_radius",))
-
 
 @dataclass(frozen=True)
 class _Share(Amount):

@@ -246,9 +246,6 @@ def roelands_temperature(
 VISCOSITY = Parameter(
     "viscosity",
     "Pa*s",
-    title="viscosity",
-    symbol=r"$\eta_0$",
-    meaning=r"$\eta_0$ at ambient pressure",
     least=1e-7,
     most=1e6,
     reason="at ambient pressure",

@@ -251,9 +251,6 @@ def murnaghan_pressure(
 REFERENCE_TEMPERATURE = Parameter(
     "reference_temperature",
     "K",
-    title="reference temperature",
-    symbol="$T_0$",
-    meaning="temperature $T_0$ of the given viscosity, density and volume",
     least=100.0,
     most=1000.0,
     reason="absolute, of the oil",

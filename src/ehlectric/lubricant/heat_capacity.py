@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ehlectric.arrays import Array
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.equation_of_state import TAIT
-from ehlectric.lubricant.law import Law, required
+from ehlectric.lubricant.law import Law, Parameter, required
 from ehlectric.lubricant.thermal import beyond_larsson, larsson_constant, number, volume
 
 
@@ -194,24 +194,8 @@ def _capacity_warnings(
     yield from beyond_larsson("heat_capacity_law", max_pressure, temperature)
 
 
-HEAT_CAPACITY = number(
-    "heat_capacity",
-    "J/kg/K",
-    "specific heat capacity",
-    "$c$",
-    "specific heat capacity $c$ of the oil",
-    (500.0, 5000.0),
-    "of an oil",
-)
-DENSITY = number(
-    "density",
-    "kg/m**3",
-    "density",
-    r"$\rho_0$",
-    r"density $\rho_0$ at ambient pressure and `reference_temperature`",
-    (500.0, 3000.0),
-    "of an oil",
-)
+HEAT_CAPACITY = Parameter("heat_capacity", "J/kg/K", least=500.0, most=5000.0, reason="of an oil")
+DENSITY = Parameter("density", "kg/m**3", least=500.0, most=3000.0, reason="of an oil")
 
 _K1, _K2 = (larsson_constant("k", k, "heat capacity") for k in (1, 2))
 

@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.quantity import Quantity
 
 
 class PressureLaw(Protocol):
@@ -69,7 +70,8 @@ class Parameter:
     meaning : str
         One sentence for the table of keys in the documentation, in Markdown.
     title, symbol : str
-        Name and symbol on the axis of a figure. Without a title the axis shows the dotted key.
+        Name and symbol on the axis of a figure. Without a title it is the key with spaces. Title, symbol and
+        meaning are empty for a parameter that stands in the book of inputs, since it has a field in the app.
     least, most : float
         Smallest and largest allowed values in ``unit``.
     above, below : float
@@ -91,7 +93,7 @@ class Parameter:
 
     name: str
     unit: str
-    meaning: str
+    meaning: str = ""
     title: str = ""
     symbol: str = ""
     least: float = -math.inf
@@ -101,6 +103,11 @@ class Parameter:
     reason: str = ""
     derivation: Derivation | None = None
     difference: bool = False
+
+    @property
+    def quantity(self) -> Quantity:
+        """Meaning, unit, label and symbol of the parameter."""
+        return Quantity(self.meaning, self.unit, self.title or self.name.replace("_", " "), self.symbol)
 
 
 @dataclass(frozen=True)

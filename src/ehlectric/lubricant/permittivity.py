@@ -89,9 +89,6 @@ def constant_permittivity(
 RELATIVE_PERMITTIVITY = Parameter(
     "relative_permittivity",
     "",
-    title="relative permittivity",
-    symbol=r"$\varepsilon_\mathrm{r}$",
-    meaning=r"$\varepsilon_r$ at the density of zero pressure",
     least=1.0,
     most=1e3,
     reason="vacuum has 1, oils 2 to 5, water 80",

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.lubricant.equation_of_state import TAIT
-from ehlectric.lubricant.law import Law, required
+from ehlectric.lubricant.law import Law, Parameter, required
 from ehlectric.lubricant.thermal import beyond_larsson, larsson_constant, number, volume
 
 
@@ -171,15 +171,7 @@ def _conductivity_warnings(
     yield from beyond_larsson("thermal_conductivity_law", max_pressure, temperature)
 
 
-THERMAL_CONDUCTIVITY = number(
-    "thermal_conductivity",
-    "W/m/K",
-    "thermal conductivity",
-    "$k$",
-    "thermal conductivity $k$ of the oil at ambient pressure",
-    (0.01, 1.0),
-    "of an oil",
-)
+THERMAL_CONDUCTIVITY = Parameter("thermal_conductivity", "W/m/K", least=0.01, most=1.0, reason="of an oil")
 _C1, _C2 = (larsson_constant("c", k, "thermal conductivity") for k in (1, 2))
 
 THERMAL_CONDUCTIVITY_LAWS = {

@@ -244,9 +244,6 @@ def _roelands_hint(viscosity: float, given: Mapping[str, float]) -> str:
 _ALPHA = Parameter(
     "pressure_viscosity_coefficient",
     "1/Pa",
-    title="pressure-viscosity coefficient",
-    symbol=r"$\alpha$",
-    meaning=r"$\alpha$, the slope of $\ln\eta$ at zero pressure; for Roelands and Barus",
     least=1e-11,
     most=2e-7,
     reason="an oil has 5 to 40 1/GPa",
@@ -255,9 +252,6 @@ _ALPHA = Parameter(
 _ROELANDS_Z = Parameter(
     "roelands_z",
     "",
-    title="Roelands' exponent",
-    symbol="$z$",
-    meaning="Roelands' exponent $z$",
     least=0.01,
     most=2.0,
     reason="an oil has 0.3 to 1",

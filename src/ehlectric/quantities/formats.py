@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
-from ehlectric.quantities.units import unit_for
+from ehlectric.quantities.units import printed, unit_for
 
 # Zero point of the scale of Celsius [K].
 _CELSIUS = 273.15
@@ -178,9 +178,9 @@ def suited(value: float, unit: str) -> tuple[float, str]:
     ((1.0, 'kg/m³'), (1000000000000.0, 'pF'))
     """
     if not unit or "**" in unit or unit.startswith(("kg", "1/", "K", "deg", "rad")):
-        return 1.0, printed_unit(unit)
+        return 1.0, printed(unit)
     factor, prefixed = unit_for(abs(value), unit, least=0.1 if unit in ("m", "V/m") else 1.0)
-    return round(factor, 12), printed_unit(prefixed)
+    return round(factor, 12), printed(prefixed)
 
 
 # Units without prefixes: none, angles, absolute temperatures and their inverse, and events per second.
@@ -209,7 +209,7 @@ def scale_for(largest: float, unit: str) -> Scale:
         if UNITS[own][0] == unit:
             return Scale(UNITS[own][1], own)
     if unit.startswith("kg"):
-        return Scale(1.0, printed_unit(unit))  # it has a prefix
+        return Scale(1.0, printed(unit))  # it has a prefix
     if unit.startswith("1/"):
         # The prefix belongs to the unit in the denominator.
         factor, prefixed = unit_for(1.0 / largest, unit[2:], least=0.001)
@@ -218,7 +218,7 @@ def scale_for(largest: float, unit: str) -> Scale:
     if unit == "s":
         largest = min(largest, 1.0)
     factor, prefixed = unit_for(largest ** (1.0 / power), base)
-    return Scale(round_factor(factor) ** power, printed_unit(prefixed) + {1: "", 2: "²", 3: "³"}[power])
+    return Scale(round_factor(factor) ** power, printed(prefixed) + {1: "", 2: "²", 3: "³"}[power])
 
 
 def round_factor(factor: float) -> float:
@@ -230,14 +230,3 @@ def round_factor(factor: float) -> float:
     1000000.0
     """
     return float(f"{factor:.9g}")
-
-
-def printed_unit(unit: str) -> str:
-    """Unit in the notation of pint as printed text.
-
-    Examples
-    --------
-    >>> printed_unit("kg/m**3"), printed_unit("Pa*s"), printed_unit("ohm")
-    ('kg/m³', 'Pa s', 'Ω')
-    """
-    return unit.replace("**3", "³").replace("**2", "²").replace("*", " ").replace("ohm", "Ω")

@@ -27,6 +27,8 @@ _ANGLE = re.compile("rad|rpm|rev|turn|deg")
 # Superscript exponents as in GPa⁻¹, and the minus sign that is no hyphen.
 _SUPERSCRIPT = re.compile("[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
 _PLAIN = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+_RAISED = str.maketrans("+-0123456789", "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_WORD = re.compile(r"[A-Za-z°µμΩ]+")
 
 # Revolutions per minute as catalogues and machines print them, in small letters and without spaces.
 _TURNS = ("rpm", "r/min", "rev/min", "u/min", "1/min", "/min", "min^-1", "min-1", "min**-1")
@@ -41,40 +43,44 @@ _HINTS = {
 # Units of an absolute temperature, and the zero point of each unit [K].
 _ZEROS = {"K": 0.0, "degC": 273.15, "°C": 273.15, "C": 273.15}
 
-# Factors of the units of most files, by written unit and SI unit: pint takes half a second to load.
-FREQUENT = {
-    ("mm", "m"): 1e-3,
-    ("um", "m"): 1e-6,
-    ("nm", "m"): 1e-9,
-    ("inch", "m"): 0.0254,
-    ("deg", "rad"): 0.017453292519943295,
-    ("N", "N"): 1.0,
-    ("kN", "N"): 1e3,
-    ("kN/m", "N/m"): 1e3,
-    ("MN/m", "N/m"): 1e6,
-    ("m/s", "m/s"): 1.0,
-    ("rpm", ROTATION): 0.10471975511965977,  # as pint rounds it
-    ("GPa", "Pa"): 1e9,
-    ("MPa", "Pa"): 1e6,
-    ("1/GPa", "1/Pa"): 1e-9,
-    ("mPa s", "Pa*s"): 1e-3,
-    ("Pa s", "Pa*s"): 1.0,
-    ("mm^2/s", "m**2/s"): 1e-6,
-    ("kg/m^3", "kg/m**3"): 1.0,
-    ("1/K", "1/K"): 1.0,
-    ("s", "s"): 1.0,
-    ("ms", "s"): 1e-3,
-    ("us", "s"): 1e-6,
-    ("ns", "s"): 1e-9,
-    ("V", "V"): 1.0,
-    ("mV", "V"): 1e-3,
-    ("kV", "V"): 1e3,
-    ("V/um", "V/m"): 1e6,
-    ("A", "A"): 1.0,
-    ("pF", "F"): 1e-12,
-    ("nF", "F"): 1e-9,
-    ("pS/m", "S/m"): 1e-12,
+# Units that are read without pint, which takes half a second to load: factor to SI units as a number times a
+# power of ten, and the exponents of m, kg, s, A, K, rad and mol. Those of the first table take prefixes.
+_PREFIXED: dict[str, tuple[float, int, tuple[int, ...]]] = {
+    "m": (1.0, 0, (1, 0, 0, 0, 0, 0, 0)),
+    "g": (1.0, -3, (0, 1, 0, 0, 0, 0, 0)),
+    "s": (1.0, 0, (0, 0, 1, 0, 0, 0, 0)),
+    "A": (1.0, 0, (0, 0, 0, 1, 0, 0, 0)),
+    "K": (1.0, 0, (0, 0, 0, 0, 1, 0, 0)),
+    "rad": (1.0, 0, (0, 0, 0, 0, 0, 1, 0)),
+    "mol": (1.0, 0, (0, 0, 0, 0, 0, 0, 1)),
+    "N": (1.0, 0, (1, 1, -2, 0, 0, 0, 0)),
+    "Pa": (1.0, 0, (-1, 1, -2, 0, 0, 0, 0)),
+    "bar": (1.0, 5, (-1, 1, -2, 0, 0, 0, 0)),
+    "J": (1.0, 0, (2, 1, -2, 0, 0, 0, 0)),
+    "W": (1.0, 0, (2, 1, -3, 0, 0, 0, 0)),
+    "C": (1.0, 0, (0, 0, 1, 1, 0, 0, 0)),
+    "V": (1.0, 0, (2, 1, -3, -1, 0, 0, 0)),
+    "F": (1.0, 0, (-2, -1, 4, 2, 0, 0, 0)),
+    "H": (1.0, 0, (2, 1, -2, -2, 0, 0, 0)),
+    "S": (1.0, 0, (-2, -1, 3, 2, 0, 0, 0)),
+    "ohm": (1.0, 0, (2, 1, -3, -2, 0, 0, 0)),
+    "Ω": (1.0, 0, (2, 1, -3, -2, 0, 0, 0)),
+    "Hz": (1.0, 0, (0, 0, -1, 0, 0, 0, 0)),
+    "P": (1.0, -1, (-1, 1, -1, 0, 0, 0, 0)),
+    "St": (1.0, -4, (2, 0, -1, 0, 0, 0, 0)),
 }
+_PLAIN_NAMES: dict[str, tuple[float, int, tuple[int, ...]]] = {
+    "inch": (0.0254, 0, (1, 0, 0, 0, 0, 0, 0)),
+    "in": (0.0254, 0, (1, 0, 0, 0, 0, 0, 0)),
+    "min": (60.0, 0, (0, 0, 1, 0, 0, 0, 0)),
+    "h": (3600.0, 0, (0, 0, 1, 0, 0, 0, 0)),
+    "deg": (math.pi / 180.0, 0, (0, 0, 0, 0, 0, 1, 0)),
+    "rpm": (RPM, 0, (0, 0, -1, 0, 0, 1, 0)),
+}
+_POWERS = {"G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "µ": -6, "n": -9, "p": -12}
+
+# Sign, name and exponent of each factor of a unit.
+_FACTOR = re.compile(r"([*/·\s]*)([A-Za-zµΩ]+)(?:(?:\*\*|\^)?([-+]?[1-9]))?")
 
 # Prefixes by their factor.
 _PREFIXES = {1e9: "G", 1e6: "M", 1e3: "k", 1.0: "", 1e-3: "m", 1e-6: "µ", 1e-9: "n", 1e-12: "p"}
@@ -101,7 +107,7 @@ def rpm_text(speed: float) -> str:
     >>> rpm_text(144.38)
     '1380'
     """
-    return f"{float(f'{rpm(speed):.3g}'):.10g}"
+    return rounded(rpm(speed))
 
 
 @cache
@@ -144,25 +150,57 @@ def comma_advice(text: str) -> str | None:
     return f"decimal comma: write {short(f'{whole}.{part}{rest}')}{thousand}"
 
 
+def known_factor(written: str, unit: str) -> float | None:
+    """Factor from one written unit to another; None where this module does not know both, or they differ.
+
+    Examples
+    --------
+    >>> known_factor("kN/mm", "MN/m"), known_factor("r/min", "rpm"), known_factor("furlong", "m")
+    (1.0, 1.0, None)
+    """
+    if unit in (ROTATION, "rpm") and written.replace(" ", "").lower() in _TURNS:
+        written = "rpm"
+    found, wanted = _known(written), _known(unit)
+    if found is None or wanted is None or found[2] != wanted[2]:
+        return None
+    # A power of ten is read from its text, which rounds it once.
+    return found[0] / wanted[0] * float(f"1e{found[1] - wanted[1]}")
+
+
+@cache
+def _known(unit: str) -> tuple[float, int, tuple[int, ...]] | None:
+    """Number, power of ten and dimensions of a unit in SI units; None where a name in it is not known."""
+    text = plain(unit).replace("μ", "µ").strip()
+    if _UNIT.fullmatch(text) is None:
+        return None
+    number, power = 1.0, 0
+    dimensions: tuple[int, ...] = (0,) * 7
+    for sign, name, raised in _FACTOR.findall(text):
+        found = _named(name)
+        if found is None:
+            return None
+        exponent = int(raised or 1) * (-1 if "/" in sign else 1)
+        number *= found[0] ** exponent
+        power += found[1] * exponent
+        dimensions = tuple(a + exponent * b for a, b in zip(dimensions, found[2], strict=True))
+    return number, power, dimensions
+
+
+def _named(name: str) -> tuple[float, int, tuple[int, ...]] | None:
+    """Entry of a name of a unit, with its prefix."""
+    if name in _PLAIN_NAMES or name in _PREFIXED:
+        return _PLAIN_NAMES.get(name) or _PREFIXED[name]
+    if name[1:] not in _PREFIXED or name[0] not in _POWERS:
+        return None
+    number, power, dimensions = _PREFIXED[name[1:]]
+    return number, power + _POWERS[name[0]], dimensions
+
+
 def factor(written: str, unit: str) -> float:
     """Factor that converts a value from the unit ``written`` to the SI unit ``unit``.
 
-    Parameters
-    ----------
-    written : str
-        Unit that a user wrote, with superscripts replaced by ``plain``.
-    unit : str
-        SI unit of the quantity, as pint writes it.
-
-    Returns
-    -------
-    float
-        Factor, in ``unit`` per ``written``.
-
-    Raises
-    ------
-    ValueError
-        If the text is not a unit, or not one of this quantity; the message says why.
+    Units that this module does not know are read by pint. A ValueError says why a text is not a unit, or not
+    one of this quantity.
 
     Examples
     --------
@@ -171,15 +209,15 @@ def factor(written: str, unit: str) -> float:
     >>> round(factor("min^-1", "rad/s"), 6)
     0.10472
     """
-    known = FREQUENT.get((written, unit))
-    if known is not None:
-        return known
-    import pint
-
     if unit == ROTATION:
         written = _rotation(written)
+    known = known_factor(written, unit)
+    if known is not None:
+        return known
     if _UNIT.fullmatch(written) is None:
         raise ValueError(f"{shown(written)} is not a unit")
+    import pint
+
     named = _EXPONENT.sub(r"**\1", written).removeprefix("1").lstrip()
     expression = f"1{named}" if named.startswith("/") else named
     try:
@@ -295,22 +333,7 @@ def unit_for(largest: float, unit: str, *, least: float = 0.1) -> tuple[float, s
 def to_si(text: str, unit: str) -> float:
     """Convert a string such as "1.57 MN/m" to a value in an SI unit.
 
-    Parameters
-    ----------
-    text : str
-        Number and unit.
-    unit : str
-        SI unit of the quantity, as pint writes it.
-
-    Returns
-    -------
-    float
-        Value in ``unit``.
-
-    Raises
-    ------
-    ValueError
-        If the string is not a number with a unit of the right dimension; the message says why.
+    A ValueError says why a string is not a number with a unit of the right dimension.
 
     Examples
     --------
@@ -320,6 +343,7 @@ def to_si(text: str, unit: str) -> float:
     number, written = _split(text)
     if not written:
         raise ValueError("it has no unit")
+    written = plain(written)
     if unit == "K":
         return absolute(number, written)
     ratio = factor(written, unit)
@@ -332,30 +356,99 @@ def _split(text: str, otherwise: str = "it is not a number with a unit") -> tupl
     """Number and unit in a text; raises ValueError, with advice or the given words, if it has none."""
     if len(text) > LONGEST:
         raise ValueError(f"it has {len(text)} characters, which is too long")
-    found = _NUMBER_AND_UNIT.fullmatch(plain(text).strip())
+    found = _NUMBER_AND_UNIT.fullmatch(text.replace("\N{MINUS SIGN}", "-").strip())
     advice = comma_advice(text)
     if found is None or advice:
         raise ValueError(advice or otherwise)
     return float(found[1]), found[2]
 
 
+def split(text: str) -> tuple[float, str] | None:
+    """Number and unit of a text, the unit as it is written; None where it is no number.
+
+    Examples
+    --------
+    >>> split("1.8 kN"), split("46 mm²/s"), split("1,8 kN")
+    ((1.8, 'kN'), (46.0, 'mm²/s'), None)
+    """
+    try:
+        return _split(text)
+    except ValueError:
+        return None
+
+
+def in_unit(text: str, unit: str) -> float | None:
+    """Number of a text in a unit; None where it is no number, or has a unit that is not known here.
+
+    Examples
+    --------
+    >>> in_unit("1.8 kN", "N"), in_unit("343.15 K", "degC"), in_unit("1800", "N")
+    (1800.0, 70.0, None)
+    """
+    found = split(text)
+    if found is None or not found[1]:
+        return None
+    number, written = found
+    if written == unit:
+        return number
+    if unit in _ZEROS:
+        zero = _ZEROS.get(written)
+        return None if zero is None else float(f"{number + zero - _ZEROS[unit]:.12g}")
+    ratio = known_factor(written, unit)
+    return None if ratio is None else float(f"{number * ratio:.12g}")
+
+
+def si_unit(unit: str) -> str:
+    """SI unit, without prefixes, in which a bare number stands for the same quantity.
+
+    Examples
+    --------
+    >>> si_unit("mm^2/s"), si_unit("degC"), si_unit("V/um"), si_unit("rpm")
+    ('m^2/s', 'K', 'V/m', 'rad/s')
+    """
+    names = {**dict.fromkeys(_ZEROS, "K"), "rpm": ROTATION, "deg": "rad"}
+    return names.get(unit) or _WORD.sub(lambda found: _si_name(found[0]), unit)
+
+
+def _si_name(name: str) -> str:
+    base = name if name in _PREFIXED or name[1:] not in _PREFIXED else name[1:]
+    return "kg" if base == "g" else base
+
+
+def printed(unit: str) -> str:
+    """Unit with the signs that people print, in place of those of a keyboard.
+
+    Examples
+    --------
+    >>> printed("mm^2/s"), printed("V/um"), printed("degC"), printed("1/m**2"), printed("Pa*s")
+    ('mm²/s', 'V/µm', '°C', '1/m²', 'Pa s')
+    """
+    raised = _EXPONENT.sub(lambda found: found[1].translate(_RAISED), unit)
+    return _WORD.sub(lambda found: _sign(found[0]), raised.replace("*", " "))
+
+
+def _sign(name: str) -> str:
+    if name == "degC":
+        return "°C"
+    name = name.removesuffix("ohm") + "Ω" if name.endswith("ohm") else name
+    return f"µ{name[1:]}" if name[0] == "u" and name[1:] in _PREFIXED else name
+
+
+def rounded(value: float, digits: int = 3) -> str:
+    """Number as text with a few digits, and without an exponent that nobody needs.
+
+    Examples
+    --------
+    >>> rounded(12345.0), rounded(0.0312345), rounded(2.0), rounded(1732.050807, 8)
+    ('12300', '0.0312', '2', '1732.0508')
+    """
+    return f"{float(f'{value:.{digits}g}'):.12g}"
+
+
 def to_fraction(text: str) -> float:
-    """Convert a string in percent to a fraction.
+    """Convert a string in percent to a fraction; a ValueError says that it is no number in percent.
 
-    Parameters
-    ----------
-    text : str
-        Number, followed by "%" or "percent".
-
-    Returns
-    -------
-    float
-        Fraction, dimensionless.
-
-    Raises
-    ------
-    ValueError
-        If the string is not a number in percent. Other dimensionless units, such as rad, are refused.
+    Other dimensionless units, such as rad, are refused.
 
     Examples
     --------

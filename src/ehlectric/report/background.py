@@ -13,10 +13,11 @@ from itertools import groupby
 
 from ehlectric.cases.drives.case import BOTH, ENDS
 from ehlectric.cases.drives.swept import SweptCase
-from ehlectric.cases.input_keys import describe, end_and_key, of_both_ends
+from ehlectric.cases.input_keys import describe, of_both_ends
 from ehlectric.cases.library.sources import Source
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.quantities.drive_results import NAMES_OF_ENDS
+from ehlectric.quantities.inputs import end_and_key
 from ehlectric.report.content import Block, Cell, Link, Section, Table, Text
 from ehlectric.report.limits import Limit, Reference
 from ehlectric.report.origins import WORDS, Input, input_text, inputs_of, material_sources, replaced_by

@@ -13,11 +13,12 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
 from ehlectric.cases.drives.swept import SweptCase
-from ehlectric.cases.input_keys import end_and_key, input_field, kind_of
+from ehlectric.cases.input_keys import input_field, kind_of
 from ehlectric.cases.library.sources import KINDS, Source, sources_of
 from ehlectric.cases.oils.properties import Properties
 from ehlectric.errors import InputError, printable
 from ehlectric.figures.names import with_units_kept
+from ehlectric.quantities.inputs import end_and_key
 from ehlectric.runtime.values import is_number
 from ehlectric.tables.html import input_row
 

@@ -28,7 +28,7 @@ SCHEMAS: Mapping[str, type[Table]] = MappingProxyType(
 # How pydantic names a schema of what is read.
 _Mode = Literal["validation", "serialization"]
 
-# Kind of which keys.toml describes the keys under its own name.
+# Kind whose keys the book of inputs describes under its own name.
 _SWEEP = "sweep"
 
 # Tables of bearing files whose keys have the texts of a table of contacts.
@@ -126,7 +126,7 @@ def _says_something(default: Any) -> bool:
 
 
 def _describe(table: dict[str, Any], name: str) -> None:
-    """Put the descriptions of keys.toml before what the keys take."""
+    """Put the descriptions of the book of inputs before what the keys take."""
     for key in descriptions(name):
         if key in table.get("properties", {}):
             own = table["properties"][key]

@@ -10,13 +10,12 @@ from ehlectric.arrays import Array
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import SweptCase
-from ehlectric.cases.input_keys import end_and_key, kind_of, unit_of
-from ehlectric.cases.keywords.names import INPUT_NAMES
-from ehlectric.cases.oils.laws import law_parameters
+from ehlectric.cases.input_keys import input_of, kind_of, unit_of
 from ehlectric.quantities.bearing_results import BEARING_KEYS
 from ehlectric.quantities.contact_results import CONTACT_KEYS
 from ehlectric.quantities.drive_results import DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.formats import Scale, scale_for
+from ehlectric.quantities.inputs import end_and_key
 from ehlectric.quantities.motion_results import MOTION_KEYS
 from ehlectric.quantities.quantity import Keys, key_of
 
@@ -67,13 +66,14 @@ def label_of(key: str, case: SweptCase) -> Label:
         unit.
     """
     own = _counted_from_one(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
-    end, input_key = end_and_key(own)
-    if kind_of(own) is not None or input_key in INPUT_NAMES:
-        return _of_input(input_key, unit_of(own), NAMES_OF_ENDS.get(end, ""))
-    if own != key:
-        return Label(key, "", unit_of(own))
-    result = key_of(result_keys(case), key)
-    return Label(key, "", "") if result is None else Label(result.label or key, result.symbol, result.unit)
+    result, entry = key_of(result_keys(case), key), input_of(own)
+    # A number of the case that is in the summary, too, is the input.
+    if result is not None and (entry is None or (result.label and kind_of(own) is None)):
+        return Label(result.label or key, result.symbol, result.unit)
+    end = NAMES_OF_ENDS.get(end_and_key(own)[0], "")
+    if entry is None:
+        return Label(key, "", "" if own == key else unit_of(own))
+    return Label(f"{entry.label}, {end}" if end else entry.label, entry.symbol, entry.unit)
 
 
 def _counted_from_one(key: str) -> str:
@@ -81,16 +81,6 @@ def _counted_from_one(key: str) -> str:
     table, _, rest = key.partition(".")
     number, dot, name = rest.partition(".")
     return f"{table}.{int(number) + 1}.{name}" if table == "roughness" and dot and number.isdecimal() else key
-
-
-def _of_input(key: str, unit: str, end: str) -> Label:
-    """Label of an input, with the end of a drive at which its bearing is."""
-    parameter = law_parameters().get(key.removeprefix("lubricant."))
-    if parameter is not None and parameter.title:
-        name, symbol = parameter.title, parameter.symbol
-    else:
-        name, symbol = INPUT_NAMES.get(key, (key, ""))
-    return Label(f"{name}, {end}" if end else name, symbol, unit)
 
 
 def result_keys(case: SweptCase) -> Keys:

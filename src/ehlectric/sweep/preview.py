@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.input_keys import end_and_key
 from ehlectric.drive.quick import quick_drive
 from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import end_and_key
 from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.plan import Planned
 

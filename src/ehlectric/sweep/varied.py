@@ -8,9 +8,10 @@ from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
 from ehlectric.cases.drives.swept import SweptCase
-from ehlectric.cases.input_keys import end_and_key, input_field, is_of_drive
+from ehlectric.cases.input_keys import input_field, is_of_drive
 from ehlectric.cases.table import Table, nearest_key
 from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import end_and_key
 
 # Keys of a bearing file that a key of a drive replaces at both ends.
 _REPLACED = {

@@ -3,30 +3,27 @@
 import pytest
 
 from ehlectric.app.catalogue import choices
-from ehlectric.app.fields.amounts import in_unit, si_unit
 from ehlectric.app.fields.defaults import default_of
 from ehlectric.app.fields.drive import DRIVE_GROUPS, OTHER
 from ehlectric.app.fields.drive_rules import (
-    DESCRIBED,
     HALF,
-    MEASURED,
     PRESETS,
     changes_of,
     remedies_of,
     with_remedy,
     without_remedy,
 )
-from ehlectric.app.fields.ends import ENDS, bearing_at, end_and_key
+from ehlectric.app.fields.ends import bearing_at, end_and_key
 from ehlectric.app.fields.memory import Memory
 from ehlectric.app.fields.rules import changed, is_own, own_values
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.pages.starts import BEARING, DRIVE, drive_with
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.drives import case as drive_case
-from ehlectric.cases.drives import source as drive_source
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.input_keys import describe, input_field, number_of
 from ehlectric.quantities import units
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.units import in_unit, si_unit
 from tests.helpers.each import each
 
 FIELDS = {field.key: field for group in DRIVE_GROUPS for field in group.fields}
@@ -36,12 +33,6 @@ NUMBERS = [key for key in KEYS if FIELDS[key].kind in ("number", "count")]
 
 def drive(**changes):
     return DriveCase.from_written(DRIVE.changed(changes).table)
-
-
-def test_names_of_tables_are_those_of_the_cases():
-    assert ENDS == drive_case.ENDS
-    assert set(DESCRIBED) == set(drive_source.DESCRIBED)
-    assert set(MEASURED) == set(drive_source.MEASURED)
 
 
 @each("key", KEYS)

@@ -5,10 +5,11 @@ import tomllib
 import pytest
 
 from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.fields.bearing import OIL
 from ehlectric.app.fields.contact import groups_of
 from ehlectric.app.fields.defaults import default_of
 from ehlectric.app.fields.memory import Memory
-from ehlectric.app.fields.oil import EXPANSION, OIL, assumed
+from ehlectric.app.fields.oil import EXPANSION, assumed
 from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.any_case import case_of_dict

@@ -6,13 +6,11 @@ import pytest
 
 from ehlectric.app.catalogue import choices
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.rules import ALTERNATIVES, DIMENSIONS, OF_GEOMETRY, ONLY, changed, own_values
+from ehlectric.app.fields.rules import changed, own_values
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.any_case import case_of_dict
-from ehlectric.cases.bearings import case as bearing_case
-from ehlectric.cases.contact import CONTACT_ALTERNATIVES
-from ehlectric.cases.contact import ONLY as CASE_ONLY
 from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ONLY
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
 
@@ -45,21 +43,6 @@ def test_a_viscosity_takes_the_place_of_the_data_sheet():
     found = changed(EXAMPLE, {"lubricant.viscosity": "20 mPa s"})
     assert found.value("lubricant") == {"base": "paper", "viscosity": "20 mPa s"}
     case(found)
-
-
-def test_lists_are_those_of_the_cases():
-    """Every alternative that the cases know is one here; keys are dotted here."""
-    rows = {frozenset(group) for group in (*ALTERNATIVES, *OF_GEOMETRY["line"], *OF_GEOMETRY["point"])}
-    for table in ("bearing", "discharge"):
-        for group in bearing_case._ALTERNATIVES[table]:
-            assert frozenset(tuple(f"{table}.{key}" for key in row) for row in group) in rows
-    for geometry, groups in CONTACT_ALTERNATIVES.items():
-        radii, moduli, _, _ = groups
-        for group in (radii, moduli):
-            dotted = frozenset(tuple(f"contact.{key}" for key in row) for row in group)
-            assert dotted in {frozenset(one) for one in OF_GEOMETRY[geometry]}
-    assert {geometry: tuple(f"contact.{key}" for key in keys) for geometry, keys in CASE_ONLY.items()} == ONLY
-    assert DIMENSIONS == bearing_case._DIMENSIONS
 
 
 @each("choice", choices()["bearing.base"], ids=lambda choice: choice.name)
@@ -130,7 +113,7 @@ def test_another_geometry_of_a_contact_drops_keys_of_this_one():
     line = Inputs(tomllib.loads(example_text("line_contact")))
     point = changed(line, {"contact.geometry": "point"})
     flat = point.flat()
-    assert not any(key in flat for key in ONLY["line"])
+    assert not any(f"contact.{key}" in flat for key in ONLY["line"])
     assert "grid.error" in line.flat()
     assert not {"grid.nodes", "grid.error"} & set(flat)
 

@@ -6,13 +6,13 @@ import tomllib
 import pytest
 
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.amounts import in_unit, si_unit
-from ehlectric.app.fields.words import in_field_unit, shown_text, with_signs, written_text
+from ehlectric.app.fields.words import in_field_unit, shown_text, written_text
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.any_case import case_of_dict
 from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.errors import InputError
+from ehlectric.quantities.units import in_unit, printed, si_unit
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each
 
@@ -41,7 +41,7 @@ def test_bounds_of_an_error_are_in_the_unit_of_the_field(field):
     known = [end for end in (kind.above, kind.least, kind.below, kind.most) if abs(end) < float("inf")]
     assert len(told) == len(known)
     for (number, unit), end in zip(told, known, strict=True):
-        assert unit == with_signs(field.unit)
+        assert unit == printed(field.unit)
         expected = in_unit(f"{end:.15g} {si_unit(field.unit)}", field.unit)
         assert float(number) == pytest.approx(expected, rel=1e-4, abs=1e-9)
     assert "string" not in in_field_unit(field, error.value.text)
@@ -55,11 +55,11 @@ def test_a_text_in_a_box_is_written_back_as_it_was(field):
 
 
 @each("field", WITH_UNIT, ids=by_key)
-def test_units_with_signs_are_taken(field):
+def test_units_printed_are_taken(field):
     kind = number_of(input_field(field.key))
     assert isinstance(kind, Amount)
     text = field.from_slider(0.6)
-    assert kind.parse(text.replace(field.unit, with_signs(field.unit))) == kind.parse(text)
+    assert kind.parse(text.replace(field.unit, printed(field.unit))) == kind.parse(text)
 
 
 @each(

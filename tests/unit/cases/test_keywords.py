@@ -9,10 +9,10 @@ import pint
 import pytest
 
 from ehlectric import BearingCase, Case, InputError, LineCase, PointCase
-from ehlectric.cases.bearings.bearing import Bearing
-from ehlectric.cases.contact import ONLY, Contact
-from ehlectric.cases.keywords.constructors import keys_of
-from ehlectric.cases.keywords.types import BearingKeys, LineKeys, PointKeys
+from ehlectric.cases.bearings.bearing import Bearing, BearingKeys
+from ehlectric.cases.contact import Contact, LineKeys, PointKeys
+from ehlectric.cases.keywords import keys_of
+from ehlectric.quantities.alternatives import ONLY
 from tests.helpers.each import each
 
 LINE = {

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from ehlectric import Case, InputError
 from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.quantities.units import FREQUENT, comma_advice, plain
+from ehlectric.quantities import units
+from ehlectric.quantities.units import comma_advice, plain
 from ehlectric.sweep.inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
 from tests.helpers.each import each
@@ -327,8 +328,24 @@ def test_viscosity_grades(grade):
     assert (measured.at_40(), measured.at_100(), measured.viscosity_index) == (46e-6, 7e-6, None)
 
 
-@each("written, unit", FREQUENT)
-def test_frequent_units_are_those_of_pint(written, unit):
-    """Factors that are not asked of pint; pint is the reference."""
-    factor = UNITS.Quantity(1.0, UNITS.parse_units(written)).to(unit).magnitude
-    assert FREQUENT[written, unit] == pytest.approx(factor, rel=4e-16)
+# Names of units that are read without pint, with every prefix, and compound units of files and forms.
+NAMES = [f"{prefix}{name}" for prefix in ("", *units._POWERS) for name in units._PREFIXED]
+COMPOUND = [
+    *("kN/m", "MN/m", "V/um", "kV/mm", "pS/m", "W/m/K", "J/kg/K", "mm**2/s", "kg/m**3", "g/cm**3", "mPa s"),
+    *("Pa s", "ohm m", "ohm m**2", "GJ/m**3", "MJ/m**3/K", "A/mm**2", "kJ/mol", "1/GPa", "1/mm**2", "1/K"),
+]
+
+
+@each("written", sorted({*NAMES, *units._PLAIN_NAMES, *COMPOUND} - {"C"}))
+def test_units_that_are_read_without_pint_are_those_of_pint(written):
+    """Pint is the reference; it rounds products of prefixes. C alone may also be a degree Celsius."""
+    quantity = UNITS.Quantity(1.0, written).to_base_units()
+    found = units.known_factor(written, units.si_unit(written))
+    si = UNITS.Quantity(1.0, units.si_unit(written)).to_base_units()
+    assert quantity.dimensionality == si.dimensionality
+    assert found == pytest.approx(quantity.magnitude / si.magnitude, rel=1e-15)
+
+
+@each("written, unit", [("kN", "N/m"), ("1/s", "rad/s"), ("Hz", "rad/s"), ("furlong", "m"), ("", "m")])
+def test_units_of_other_quantities_are_left_to_pint(written, unit):
+    assert units.known_factor(written, unit) is None

@@ -7,8 +7,6 @@ import pytest
 
 from ehlectric import Case, solve
 from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.input_keys import input_field
-from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
@@ -119,12 +117,6 @@ def test_units_are_those_of_the_list():
     known = {kind: case_of(kind) for kind in {row["kind"] for row in rows}}
     found = {(row["kind"], row["key"]): label_of(row["key"], known[row["kind"]]).unit for row in rows}
     assert found == {(row["kind"], row["key"]): row["unit"] for row in rows}
-
-
-@each("key", INPUT_NAMES)
-def test_inputs_with_a_name_are_keys_of_a_case(key):
-    """``input_field`` refuses a key that no case has."""
-    assert input_field(key) is not None
 
 
 def test_lists_of_a_case_have_their_unit():

@@ -118,7 +118,7 @@ def test_temperatures_are_in_degrees_celsius():
     assert [text.get_text() for text in named.get_texts()] == ["130", "70", "20"]
     assert (
         held_text(found, take(found, SPEED, None, "bearing.first_break", {TEMPERATURE: "343"}))
-        == "temperature = 70 °C"
+        == "temperature of the oil = 70 °C"
     )
 
 

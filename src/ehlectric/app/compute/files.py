@@ -20,13 +20,13 @@ from ehlectric.app.answers.files import (
 )
 from ehlectric.app.compute.cases import kind_of, names_in, run_case_of, sweep_of, with_names
 from ehlectric.app.compute.warnings import told_of
-from ehlectric.app.fields.ends import ENDS
 from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.uploads import MOST_TOGETHER, SURFACES
 from ehlectric.cases.table import tables_of_text
 from ehlectric.errors import InputError, shown
 from ehlectric.motion.stored_run import MOTION, read_motion
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runs.by_kind import RUNS
 from ehlectric.runs.folders import stored_result
 from ehlectric.runs.results import load

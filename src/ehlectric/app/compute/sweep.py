@@ -13,7 +13,6 @@ from ehlectric.app.compute import cases
 from ehlectric.app.compute.cases import run_case_of
 from ehlectric.app.compute.drives import swept
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.amounts import in_unit, split
 from ehlectric.app.inputs import Inputs
 from ehlectric.app.ranges import number_of_text
 from ehlectric.bearing.quick.ways import is_quick
@@ -23,9 +22,9 @@ from ehlectric.cases.changes import flattened, set_keys
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.cases.drives.swept import SweptCase, swept_case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
-from ehlectric.cases.keywords.names import INPUT_NAMES
 from ehlectric.errors import InputError
-from ehlectric.quantities.units import rpm
+from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.units import in_unit, rpm, split
 from ehlectric.runs.by_kind import run_sweep
 from ehlectric.runtime.values import is_number
 from ehlectric.sweep.breakdown_keys import breakdown_of, ranked_value
@@ -145,7 +144,7 @@ def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
 
     def rank(key: str) -> tuple[int, int, int]:
         common = _COMMON.index(key) if key in _COMMON else len(_COMMON)
-        return common, key not in written, key not in INPUT_NAMES
+        return common, key not in written, input_at(key) is None
 
     for key in sorted(numbers, key=rank):
         slider, text = fields.get(key), str(written.get(key, ""))
@@ -153,8 +152,7 @@ def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
             slider = None
         ends = _ends(text, resolved[key], key)
         if ends is not None:
-            label = slider.label if slider else named(key, case)
-            yield Variable(key, label, *ends, log=slider is not None and slider.log)
+            yield Variable(key, named(key, case), *ends, log=slider is not None and slider.log)
 
 
 def named(key: str, case: SweptCase) -> str:

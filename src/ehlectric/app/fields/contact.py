@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from typing import Any
 
-from ehlectric.app.fields.field import Field, Group, Way
-from ehlectric.app.fields.heat import HEAT, HEAT_OF_CONTACT
-from ehlectric.app.fields.oil import OIL as OIL_OF_BEARING
+from ehlectric.app.fields.field import Field, Group, Way, always, fields_of, never
+from ehlectric.app.fields.heat import HEAT_OF_CONTACT, heat
+from ehlectric.app.fields.oil import oil
 from ehlectric.app.fields.rules import changed
 from ehlectric.app.inputs import Inputs
+from ehlectric.quantities.inputs import form
 
 _MODULUS, _RATIO = "youngs_modulus", "poissons_ratio"
-
-
-def _no(_: Inputs) -> bool:
-    return False
+_ELASTIC = tuple(f"contact.body_{k}.{key}" for k in (1, 2) for key in (_MODULUS, _RATIO))
 
 
 def _no_sheet(inputs: Inputs) -> bool:
@@ -23,308 +21,109 @@ def _no_sheet(inputs: Inputs) -> bool:
 
 
 def _bodies(inputs: Inputs) -> bool:
-    keys = (f"contact.body_{number}.{key}" for number in (1, 2) for key in (_MODULUS, _RATIO))
-    return any(inputs.value(key) is not None for key in keys)
+    return any(inputs.value(key) is not None for key in _ELASTIC)
 
 
-def _body(number: int, what: str, label: str, unit: str, ends: tuple[float, float]) -> Field:
-    """Field of an elastic constant of a body."""
-    key = f"contact.body_{number}.{what}"
-    return Field(key, f"{label}, surface {number}", unit, *ends, log=bool(unit), when=_bodies)
-
-
-# Steel, as both bodies of the examples have it; an assumption.
-_STEEL = {
-    f"contact.body_{k}.{key}": value for k in (1, 2) for key, value in ((_MODULUS, "206 GPa"), (_RATIO, 0.3))
-}
-
-_MATERIALS = Group(
-    "Materials",
-    (
-        Field(
-            "contact.way_modulus",
-            "Elasticity given as",
-            kind="ways",
-            ways=(
-                Way("Reduced modulus", {"contact.reduced_modulus": "226 GPa"}, "contact.reduced_modulus"),
-                Way("Both materials", _STEEL),
-            ),
-        ),
-        Field("contact.reduced_modulus", "Reduced modulus E'", "GPa", 10.0, 500.0, log=True, when=_no),
-        _body(1, _MODULUS, "Young's modulus", "GPa", (10.0, 500.0)),
-        _body(1, _RATIO, "Poisson's ratio", "", (0.0, 0.5)),
-        _body(2, _MODULUS, "Young's modulus", "GPa", (10.0, 500.0)),
-        _body(2, _RATIO, "Poisson's ratio", "", (0.0, 0.5)),
-    ),
-    opened=False,
-)
-
-_SPEEDS = (
-    Field(
-        "contact.way_speed",
-        "Speeds given as",
-        kind="ways",
-        ways=(
-            Way("Mean of both", {"contact.entrainment_speed": "2 m/s"}, "contact.entrainment_speed"),
-            Way("Speed of each surface", {"contact.speed_1": "2 m/s", "contact.speed_2": "2 m/s"}),
-        ),
-    ),
-    Field(
-        "contact.entrainment_speed",
-        "Entrainment speed",
-        "m/s",
-        0.05,
-        20.0,
-        log=True,
-        note="(u1 + u2)/2",
-        when=_no,
-    ),
-    Field(
-        "contact.slide_to_roll_ratio",
-        "Slide-to-roll ratio",
-        "",
-        -2.0,
-        2.0,
-        note="(u1 - u2)/mean",
-        when=lambda inputs: inputs.value("contact.entrainment_speed") is not None,
-    ),
-    Field("contact.speed_1", "Speed of surface 1, u1", "m/s", 0.05, 20.0, log=True, when=_no),
-    Field("contact.speed_2", "Speed of surface 2, u2", "m/s", 0.05, 20.0, log=True, when=_no),
-    Field(
-        "contact.temperature",
-        "Temperature of the oil",
-        "degC",
-        0.0,
-        120.0,
-        note="of an oil that depends on it",
-    ),
-    Field(
-        "contact.boundary_film",
-        "Boundary film",
-        "nm",
-        0.5,
-        5.0,
-        note="gap at which the surfaces touch",
-        optional=True,
-    ),
-    Field(
-        "contact.hardness",
-        "Hardness of the surfaces",
-        "GPa",
-        1.0,
-        20.0,
-        log=True,
-        note="none: elastic",
-        optional=True,
-    ),
-    Field(
-        "contact.boundary_friction",
-        "Friction of boundary films",
-        "",
-        0.01,
-        0.3,
-        note="coefficient where the surfaces touch and slide",
-        optional=True,
-    ),
-    Field(
-        "inlet.oil_layer",
-        "Layer of oil at the inlet",
-        "um",
-        0.01,
-        10.0,
-        log=True,
-        note="on both surfaces together; none: flooded",
-        optional=True,
-    ),
-)
-
-_PRESSURE = Field("contact.max_hertz_pressure", "Hertz pressure", "GPa", 0.2, 4.0, when=_no)
-
-
-def _load(load: Field, first: str) -> tuple[Field, ...]:
-    """Fields of the load, which is given as such or by its Hertz pressure."""
-    ways = (
-        Way(load.label, {load.key: first}, load.key),
-        Way("Hertz pressure", {_PRESSURE.key: "1 GPa"}),
-    )
-    return (
-        Field("contact.way_load", "Load given as", kind="ways", ways=ways),
-        replace(load, when=_no),
-        _PRESSURE,
-    )
-
-
-_LINE = Group(
-    "Contact",
-    (
-        Field(
-            "contact.way_radius",
-            "Radius given as",
-            kind="ways",
-            ways=(
-                Way("Reduced radius", {"contact.reduced_radius": "10 mm"}, "contact.reduced_radius"),
-                Way("Both radii", {"contact.radius_1": "20 mm", "contact.radius_2": "20 mm"}),
-            ),
-        ),
-        Field("contact.reduced_radius", "Reduced radius", "mm", 1.0, 100.0, log=True, when=_no),
-        Field("contact.radius_1", "Radius of surface 1", "mm", 1.0, 1000.0, log=True, when=_no),
-        Field("contact.radius_2", "Radius of surface 2", "mm", 1.0, 1000.0, log=True, when=_no),
-        *_load(Field("contact.load_per_length", "Load per length", "MN/m", 0.01, 5.0, log=True), "0.5 MN/m"),
-        *_SPEEDS,
-    ),
-)
-
-_POINT = Group(
-    "Contact",
-    (
-        Field("contact.radius_x", "Radius along entrainment", "mm", 1.0, 100.0, log=True),
-        Field("contact.radius_y", "Radius across entrainment", "mm", 1.0, 1000.0, log=True),
-        *_load(Field("contact.load", "Load", "N", 1.0, 2000.0, log=True), "20 N"),
-        *_SPEEDS,
-    ),
-)
-
-_BASE, *_SHEET = OIL_OF_BEARING.fields
-_PERMITTIVITY = "lubricant.relative_permittivity"
-_COEFFICIENT = "lubricant.pressure_viscosity_coefficient"
-# In the form of a contact it stands with the other inputs of the heat.
-_OF_HEAT = "lubricant.heat_capacity"
-
-_OIL = replace(
-    OIL_OF_BEARING,
-    fields=(
-        replace(_BASE, own="Own values"),
-        Field(
-            "lubricant.viscosity",
-            "Viscosity at ambient pressure",
-            "Pa s",
-            0.002,
-            2.0,
-            log=True,
-            when=_no_sheet,
-        ),
-        Field(_COEFFICIENT, "Pressure-viscosity coefficient", "1/GPa", 5.0, 40.0),
-        Field(_PERMITTIVITY, "Relative permittivity", "", 1.8, 8.0),
-        *(field for field in _SHEET if field.key not in (_PERMITTIVITY, _COEFFICIENT, _OF_HEAT)),
-    ),
-)
-
-_FIELD = Group(
-    "Voltage and breakdown",
-    (
-        Field("electric.potential_1", "Potential of surface 1", "V", -50.0, 50.0),
-        Field("electric.potential_2", "Potential of surface 2", "V", -50.0, 50.0),
-        Field(
-            "discharge.dielectric_strength",
-            "Dielectric strength",
-            "V/um",
-            1.0,
-            100.0,
-            log=True,
-            note="an assumption; none is published for films",
-        ),
-        Field(
-            "electric.resistivity",
-            "Resistivity of the bodies",
-            "ohm m",
-            1e-8,
-            1e-5,
-            log=True,
-            note="of spots where the surfaces touch",
-            optional=True,
-        ),
-        Field(
-            "electric.mean_free_path",
-            "Mean free path of electrons",
-            "nm",
-            0.0,
-            100.0,
-            note="matters for spots of that size",
-            optional=True,
-        ),
-        Field(
-            "electric.tribofilm_resistance",
-            "Resistance of a tribofilm times its area",
-            "ohm m^2",
-            1e-12,
-            1e-3,
-            log=True,
-            note="resistivity times thickness",
-            optional=True,
-        ),
-    ),
-)
-
-# Spots of a line contact are strips, whose resistance depends on their length.
-_FIELD_OF_LINE = replace(
-    _FIELD,
-    fields=(
-        *_FIELD.fields,
-        Field(
-            "discharge.length",
-            "Length of the contact",
-            "mm",
-            0.1,
-            100.0,
-            log=True,
-            note="for the resistance of strips that touch",
-            optional=True,
-        ),
-    ),
-)
-
-_IN_WIDTHS = "in half-widths of the dry contact; without ends and sides the domain suits the film"
-
-
-_SIDE = Field(
-    "grid.side",
-    "Distance of the sides",
-    "",
-    1.5,
-    10.0,
-    note="in semi-axes of the dry contact, across; without ends and sides the domain suits the film",
-    optional=True,
-)
+def _mean_speed(inputs: Inputs) -> bool:
+    return inputs.value("contact.entrainment_speed") is not None
 
 
 def _refined(inputs: Inputs) -> bool:
     return inputs.value("grid.nodes") is None and inputs.value("motion") is None
 
 
-def _grid(label: str, ends: tuple[float, float], nodes: int, *more: Field) -> Group:
-    ways = (
-        Way(label, {"grid.nodes": nodes}, "grid.nodes"),
-        Way("Error of the film", {"grid.nodes": None}),
+# Steel, as both bodies of the examples have it; an assumption.
+_STEEL = dict(zip(_ELASTIC, 2 * ("206 GPa", 0.3), strict=True))
+
+
+def _alternatives(key: str, label: str, *ways: Way) -> Field:
+    return Field(key, label, kind="ways", ways=ways)
+
+
+def _load_ways(key: str, label: str, first: str) -> Field:
+    """Load as such, or by its Hertz pressure."""
+    return _alternatives(
+        "contact.way_load",
+        "Load given as",
+        Way(label, {key: first}, key),
+        Way("Hertz pressure", {"contact.max_hertz_pressure": "1 GPa"}),
     )
-    return Group(
-        "Grid",
-        (
-            Field("grid.way_nodes", "Grid given by", kind="ways", ways=ways),
-            Field("grid.nodes", label, "", *ends, log=True, kind="count", when=_no),
-            Field(
-                "grid.error",
-                "Error of the film",
-                "%",
-                0.1,
-                5.0,
-                log=True,
-                note="the grid is refined until its estimate is below this",
-                when=_refined,
-            ),
-            Field("grid.inlet", "Start of the domain", "", -10.0, -2.0, note=_IN_WIDTHS, optional=True),
-            Field("grid.outlet", "End of the domain", "", 1.2, 4.0, note=_IN_WIDTHS, optional=True),
-            *more,
+
+
+# Lists of alternatives, by the key before which they stand.
+_WAYS = {
+    "contact.reduced_radius": _alternatives(
+        "contact.way_radius",
+        "Radius given as",
+        Way("Reduced radius", {"contact.reduced_radius": "10 mm"}, "contact.reduced_radius"),
+        Way("Both radii", {"contact.radius_1": "20 mm", "contact.radius_2": "20 mm"}),
+    ),
+    "contact.load_per_length": _load_ways("contact.load_per_length", "Load per length", "0.5 MN/m"),
+    "contact.load": _load_ways("contact.load", "Load", "20 N"),
+    "contact.entrainment_speed": _alternatives(
+        "contact.way_speed",
+        "Speeds given as",
+        Way("Mean of both", {"contact.entrainment_speed": "2 m/s"}, "contact.entrainment_speed"),
+        Way("Speed of each surface", {"contact.speed_1": "2 m/s", "contact.speed_2": "2 m/s"}),
+    ),
+    "contact.reduced_modulus": _alternatives(
+        "contact.way_modulus",
+        "Elasticity given as",
+        Way("Reduced modulus", {"contact.reduced_modulus": "226 GPa"}, "contact.reduced_modulus"),
+        Way("Both materials", _STEEL),
+    ),
+}
+
+# Keys of which one of several is given: a field is shown with its value only.
+_ALTERNATIVES = (
+    *("contact.reduced_radius", "contact.radius_1", "contact.radius_2", "contact.load_per_length"),
+    *("contact.load", "contact.max_hertz_pressure", "contact.entrainment_speed", "contact.speed_1"),
+    *("contact.speed_2", "contact.reduced_modulus", "grid.nodes"),
+)
+_SHOWN: dict[str, dict[str, Any]] = {
+    **{key: {"when": never} for key in _ALTERNATIVES},
+    **{key: {"when": _bodies} for key in _ELASTIC},
+    "contact.slide_to_roll_ratio": {"when": _mean_speed},
+    "discharge.dielectric_strength": {"note": "an assumption; none is published for films"},
+    "grid.error": {"when": _refined},
+}
+
+
+def _groups(name: str, nodes: str, first: int, ends: tuple[float, float]) -> tuple[Group, ...]:
+    """Groups of the form of a geometry, with the label, the first value and the slider of its nodes."""
+    groups = form(name)
+    ways = _WAYS | {
+        "grid.nodes": _alternatives(
+            "grid.way_nodes",
+            "Grid given by",
+            Way(nodes, {"grid.nodes": first}, "grid.nodes"),
+            Way("Error of the film", {"grid.nodes": None}),
+        )
+    }
+    shown = _SHOWN | {"grid.nodes": {"when": never, "low": ends[0], "high": ends[1]}}
+
+    def group(title: str, *, opened: bool = True) -> Group:
+        return Group(title, fields_of(groups[title], shown, ways), opened=opened)
+
+    return (
+        group("Contact"),
+        oil(
+            groups["Oil"],
+            base={"own": "Own values"},
+            viscosity={"when": _no_sheet},
+            pressure_viscosity_coefficient={"when": always, "note": ""},
+            relative_permittivity={"when": always, "high": 8.0},
         ),
-        opened=False,
+        group("Voltage and breakdown"),
+        heat(groups["Heat and shear"]),
+        group("Materials", opened=False),
+        group("Grid", opened=False),
     )
 
 
 _GROUPS: Mapping[str, tuple[Group, ...]] = {
-    "line": (_LINE, _OIL, _FIELD_OF_LINE, HEAT, _MATERIALS, _grid("Nodes", (201.0, 12801.0), 3201)),
-    "point": (
-        *(_POINT, _OIL, _FIELD, HEAT, _MATERIALS),
-        _grid("Nodes along each side", (65.0, 513.0), 257, _SIDE),
-    ),
+    "line": _groups("line", "Nodes", 3201, (201, 12801)),
+    "point": _groups("point", "Nodes along each side", 257, (65, 513)),
 }
 
 # Tables and keys that line and point contacts share, which a change from one to the other keeps.

@@ -5,25 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ehlectric.app.fields.amounts import rounded, split
 from ehlectric.app.inputs import Inputs
-
-# Keys of a described and of a measured source.
-DESCRIBED = (
-    *("dc_link", "modulation", "switching_frequency", "fundamental_frequency", "modulation_index"),
-    *("pole_pairs", "base_frequency", "rise_time", "ringing_frequency", "overshoot", "ringing_time"),
-)
-MEASURED = (*("file", "column", "time_column", "step", "time_unit", "value_unit", "scale", "resample"),)
+from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED, dotted
+from ehlectric.quantities.units import rounded, split
 
 # Groups of alternatives of a drive: inputs have the keys of one row of each.
 DRIVE_ALTERNATIVES = (
-    (tuple(f"source.{key}" for key in DESCRIBED), tuple(f"source.{key}" for key in MEASURED)),
-    (("source.fundamental_frequency",), ("source.pole_pairs",)),
-    (("breakdown.extinction_current",), ("breakdown.extinction_voltage",)),
+    *dotted("source", ((DESCRIBED, MEASURED), *ALTERNATIVES["source"])),
+    *dotted("breakdown", ALTERNATIVES["breakdown"]),
 )
 
 # Keys of a described source that six-step modulation has not, with first values of those that others need.
-_OF_CARRIER = {"switching_frequency": "10 kHz", "modulation_index": 0.9, "base_frequency": None}
+OF_CARRIER = {"switching_frequency": "10 kHz", "modulation_index": 0.9, "base_frequency": None}
 
 SWITCHING = "source.switching_frequency"
 
@@ -58,12 +51,12 @@ def fitted_to_source(inputs: Inputs) -> dict[str, Any]:
     {'source.modulation_index': None}
     """
     modulation = inputs.value("source.modulation")
-    given = {key: inputs.value(f"source.{key}") for key in _OF_CARRIER}
+    given = {key: inputs.value(f"source.{key}") for key in OF_CARRIER}
     if modulation == "six-step":
         return {f"source.{key}": None for key, value in given.items() if value is not None}
     if modulation is None:
         return {}
-    lacking = {key: first for key, first in _OF_CARRIER.items() if given[key] is None and first is not None}
+    lacking = {key: first for key, first in OF_CARRIER.items() if given[key] is None and first is not None}
     return {f"source.{key}": first for key, first in lacking.items()}
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 from ehlectric.app.fields.field import Field, Group, Way, When
 from ehlectric.app.inputs import Inputs
+from ehlectric.quantities.inputs import ENDS
 
-# Tables of the bearings of a drive file; the cases have the same names, which load the physics.
-DRIVE_END, NON_DRIVE_END = ENDS = ("drive_end", "non_drive_end")
+DRIVE_END, NON_DRIVE_END = ENDS
 
 
 def end_and_key(key: str) -> tuple[str, str]:

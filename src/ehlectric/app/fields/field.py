@@ -1,14 +1,15 @@
-"""Fields of the forms: keys of an input file with their units and the reach of their sliders, as data."""
+"""Fields of the forms as data: inputs of the book, and when they are shown."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from ehlectric.app.fields.amounts import in_unit, rounded, si_unit, split
 from ehlectric.app.inputs import Inputs
+from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.units import in_unit, rounded, si_unit, split
 
 When = Callable[[Inputs], bool]
 
@@ -16,6 +17,11 @@ When = Callable[[Inputs], bool]
 def always(_: Inputs) -> bool:
     """Whether a field is shown that belongs to all inputs."""
     return True
+
+
+def never(_: Inputs) -> bool:
+    """Whether a field is shown that appears only with a value, such as the one of an alternative."""
+    return False
 
 
 def _nothing(_: Inputs) -> str:
@@ -178,6 +184,49 @@ class Field:
     def way(self, inputs: Inputs) -> int:
         """Number of the way that the inputs take."""
         return next((place for place, way in enumerate(self.ways) if way.taken(inputs)), 0)
+
+
+def field_of(key: str, **more: Any) -> Field:
+    """Field of an input as the book has it; ``more`` says when it is shown, and what its list needs.
+
+    Examples
+    --------
+    >>> field_of("bearing.radial_load").label, field_of("bearing.radial_load").high
+    ('Radial load', 10000)
+    """
+    entry = input_at(key)
+    if entry is None:
+        raise KeyError(key)
+    own = {
+        "label": entry.label[0].upper() + entry.label[1:],
+        "unit": entry.shown,
+        "low": entry.slider[0],
+        "high": entry.slider[1],
+        **{name: getattr(entry, name) for name in ("log", "kind", "choices", "note", "optional")},
+    }
+    return Field(key, **(own | more))
+
+
+def fields_of(
+    keys: Iterable[str], shown: Mapping[str, Mapping[str, Any]], ways: Mapping[str, Field]
+) -> tuple[Field, ...]:
+    """Fields of keys in their order.
+
+    Parameters
+    ----------
+    keys : iterable of str
+        Keys of a group of a form.
+    shown : mapping
+        What ``field_of`` takes for some of the keys.
+    ways : mapping
+        Fields of kind "ways", by the key before which they stand.
+    """
+    fields: list[Field] = []
+    for key in keys:
+        if key in ways:
+            fields.append(ways[key])
+        fields.append(field_of(key, **shown.get(key, {})))
+    return tuple(fields)
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,9 @@ from typing import Any
 
 from ehlectric.app.fields.ends import at_end, bearing_at, end_and_key
 from ehlectric.app.fields.field import Field, Group
-from ehlectric.app.fields.rules import DIMENSIONS, changed, is_own, own_values
+from ehlectric.app.fields.rules import changed, is_own, own_values
 from ehlectric.app.inputs import Inputs
+from ehlectric.quantities.alternatives import DIMENSIONS
 
 # Keys of a geometry of one's own; those that a kind does not have are left out when they come back.
 _GEOMETRY = (*(f"bearing.{name}" for name in DIMENSIONS), "bearing.contact_angle")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ehlectric.app.catalogue import oil, oil_needs
-from ehlectric.app.fields.field import Field, Group, Way
+from ehlectric.app.catalogue import oil as oil_named
+from ehlectric.app.catalogue import oil_needs
+from ehlectric.app.fields.field import Field, Group, Way, fields_of, never
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.bearings.ways import FILM_FACTORS
 
@@ -14,9 +15,6 @@ _SHEET = "lubricant.temperature"
 
 # Thermal expansion of an oil whose data sheet gives none.
 EXPANSION = "6.5e-4 1/K"
-
-# Grades of ISO 3448 that oils for bearings have.
-_GRADES = ("10", "15", "22", "32", "46", "68", "100", "150", "220", "320", "460", "680", "1000")
 
 
 def _sheet(inputs: Inputs) -> bool:
@@ -39,10 +37,6 @@ def _solved_heat(inputs: Inputs) -> bool:
     return _sheet(inputs) and inputs.value("bearing.film_factor") == "solved"
 
 
-def _no(_: Inputs) -> bool:
-    return False
-
-
 def assumed(inputs: Inputs) -> str:
     """Sentence on the properties that a data sheet does not give, with the values taken in their place.
 
@@ -55,7 +49,7 @@ def assumed(inputs: Inputs) -> str:
     "Assumed, since not given: relative permittivity 2.4 of 'paper'"
     """
     given, base = inputs.value("lubricant") or {}, str(inputs.value("lubricant.base"))
-    known = oil(base)
+    known = oil_named(base)
     if not _sheet(inputs) or not known:
         return ""
     parts = []
@@ -96,94 +90,49 @@ def _assumed_with_pressure(given: Mapping[str, Any], known: Mapping[str, Any], b
 _WORDS = {"pressure_viscosity_coefficient": "pressure-viscosity coefficient", "roelands_z": "Roelands' z"}
 
 
-OIL = Group(
-    "Oil",
-    (
-        Field(
-            "lubricant.base",
-            "Oil",
-            kind="choice",
-            own="From a data sheet",
-            lacks="not in the library ({count} oils): give the values of its data sheet",
+_WAYS = {
+    f"{_SHEET}.iso_vg": Field(
+        f"{_SHEET}.way_40",
+        "At 40 °C given as",
+        kind="ways",
+        ways=(
+            Way("ISO viscosity grade", {f"{_SHEET}.iso_vg": 46}, f"{_SHEET}.iso_vg"),
+            Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_40": "46 mm^2/s"}),
         ),
-        Field(
-            f"{_SHEET}.way_40",
-            "At 40 °C given as",
-            kind="ways",
-            ways=(
-                Way("ISO viscosity grade", {f"{_SHEET}.iso_vg": 46}, f"{_SHEET}.iso_vg"),
-                Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_40": "46 mm^2/s"}),
-            ),
-            when=_sheet,
-        ),
-        Field(f"{_SHEET}.iso_vg", "ISO viscosity grade", kind="choice", choices=_GRADES, when=_no),
-        Field(
-            f"{_SHEET}.kinematic_viscosity_40",
-            "Viscosity at 40 °C",
-            "mm^2/s",
-            5.0,
-            500.0,
-            log=True,
-            when=_no,
-        ),
-        Field(
-            f"{_SHEET}.way_100",
-            "At 100 °C given as",
-            kind="ways",
-            ways=(
-                Way("Viscosity index", {f"{_SHEET}.viscosity_index": 100.0}, f"{_SHEET}.viscosity_index"),
-                Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_100": "6.8 mm^2/s"}),
-            ),
-            when=_sheet,
-        ),
-        Field(f"{_SHEET}.viscosity_index", "Viscosity index", "", 60.0, 200.0, when=_no),
-        Field(
-            f"{_SHEET}.kinematic_viscosity_100",
-            "Viscosity at 100 °C",
-            "mm^2/s",
-            1.5,
-            60.0,
-            log=True,
-            when=_no,
-        ),
-        Field(f"{_SHEET}.density_15", "Density at 15 °C", "kg/m^3", 750.0, 1100.0, when=_sheet),
-        Field(
-            f"{_SHEET}.base_oil",
-            "Type of base oil",
-            kind="choice",
-            choices=("mineral-paraffinic", "mineral-naphthenic", "pao", "ester", "polyglycol"),
-            when=_sheet,
-            optional=True,
-        ),
-        Field(
-            f"{_SHEET}.thermal_conductivity",
-            "Thermal conductivity",
-            "W/m/K",
-            0.08,
-            0.3,
-            when=_heated,
-            optional=True,
-        ),
-        Field(
-            "lubricant.heat_capacity",
-            "Heat capacity",
-            "J/kg/K",
-            1500.0,
-            2500.0,
-            when=_solved_heat,
-            optional=True,
-        ),
-        Field("lubricant.relative_permittivity", "Relative permittivity", "", 1.8, 6.0, when=_permittivity),
-        Field(
-            "lubricant.pressure_viscosity_coefficient",
-            "Pressure-viscosity coefficient",
-            "1/GPa",
-            5.0,
-            40.0,
-            note="if known",
-            when=_sheet,
-        ),
-        Field("lubricant.roelands_z", "Roelands' exponent z", "", 0.3, 1.0, when=_needs_exponent),
+        when=_sheet,
     ),
-    tells=assumed,
-)
+    f"{_SHEET}.viscosity_index": Field(
+        f"{_SHEET}.way_100",
+        "At 100 °C given as",
+        kind="ways",
+        ways=(
+            Way("Viscosity index", {f"{_SHEET}.viscosity_index": 100.0}, f"{_SHEET}.viscosity_index"),
+            Way("Kinematic viscosity", {f"{_SHEET}.kinematic_viscosity_100": "6.8 mm^2/s"}),
+        ),
+        when=_sheet,
+    ),
+}
+
+_SHOWN: dict[str, dict[str, Any]] = {
+    "lubricant.base": {
+        "own": "From a data sheet",
+        "lacks": "not in the library ({count} oils): give the values of its data sheet",
+    },
+    f"{_SHEET}.iso_vg": {"when": never},
+    f"{_SHEET}.kinematic_viscosity_40": {"when": never},
+    f"{_SHEET}.viscosity_index": {"when": never},
+    f"{_SHEET}.kinematic_viscosity_100": {"when": never},
+    f"{_SHEET}.density_15": {"when": _sheet},
+    f"{_SHEET}.base_oil": {"when": _sheet},
+    f"{_SHEET}.thermal_conductivity": {"when": _heated},
+    "lubricant.heat_capacity": {"when": _solved_heat},
+    "lubricant.relative_permittivity": {"when": _permittivity},
+    "lubricant.pressure_viscosity_coefficient": {"when": _sheet},
+    "lubricant.roelands_z": {"when": _needs_exponent},
+}
+
+
+def oil(keys: Iterable[str], **shown: Mapping[str, Any]) -> Group:
+    """Group of the oil with some keys; ``shown`` replaces what other forms say of a key, by its last name."""
+    others = {(key := f"lubricant.{name}"): {**_SHOWN.get(key, {}), **more} for name, more in shown.items()}
+    return Group("Oil", fields_of(keys, _SHOWN | others, _WAYS), tells=assumed)

@@ -10,81 +10,39 @@ from typing import Any
 
 from ehlectric.app.catalogue import bearing, coating
 from ehlectric.app.fields.drive_rules import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
-from ehlectric.app.fields.ends import ENDS, at_end, bearing_at, end_and_key
+from ehlectric.app.fields.ends import at_end, bearing_at, end_and_key
 from ehlectric.app.fields.kinds import fitted_to_kind
 from ehlectric.app.inputs import Inputs
 from ehlectric.cases.bearings.ways import FILM_FACTORS
+from ehlectric.quantities import alternatives
+from ehlectric.quantities.alternatives import (
+    CONTACT_ALTERNATIVES,
+    DIMENSIONS,
+    GRID_OF_ANY,
+    ONLY,
+    Rows,
+    dotted,
+)
+from ehlectric.quantities.inputs import ENDS
 
-# Groups of alternatives: inputs have the keys of one row of each.
-Rows = tuple[tuple[str, ...], ...]
-
-_SPEEDS: Rows = (("contact.slide_to_roll_ratio",), ("contact.speed_1", "contact.speed_2"))
-_BODIES = ("contact.body_1", "contact.body_2")
-_ELASTIC = tuple(f"{body}.{key}" for body in _BODIES for key in ("youngs_modulus", "poissons_ratio"))
-
+# Alternatives of the checks, and those of an oil of one's own and of tables that exclude each other.
+_TABLES = ("bearing", "lubricant", "discharge", "meter", "inlet", "motion", "grid", "contact")
 ALTERNATIVES: tuple[Rows, ...] = (
-    (("bearing.radial_clearance",), ("bearing.clearance_class",), ("bearing.fits.unmounted_clearance",)),
-    (("bearing.radial_clearance",), ("bearing.fits",)),
-    (("bearing.coating.strength",), ("bearing.coating.breakdown_voltage",)),
-    (("bearing.summits.height_deviation",), ("bearing.summits.bandwidth",)),
+    *(group for table in _TABLES for group in dotted(table, alternatives.ALTERNATIVES[table])),
     (("lubricant.viscosity",), ("lubricant.temperature",), ("lubricant.atmospheric_law",)),
     (("lubricant.density",), ("lubricant.temperature",)),
-    (("lubricant.temperature.kinematic_viscosity_40",), ("lubricant.temperature.iso_vg",)),
-    (("lubricant.temperature.kinematic_viscosity_100",), ("lubricant.temperature.viscosity_index",)),
     (("lubricant.relative_permittivity",), ("lubricant.permittivity_table",)),
     (("lubricant.conductivity", "lubricant.conductivity_law"), ("lubricant.conductivity_table",)),
-    (
-        ("discharge.dielectric_strength",),
-        ("discharge.strength_table", "discharge.temperature"),
-        ("discharge.weibull",),
-    ),
-    (
-        ("discharge.strength_table.pressure",),
-        ("discharge.strength_table.temperature", "discharge.temperature"),
-    ),
-    (("meter.fill",), ("meter.oil_radius",)),
-    (("inlet.oil_layer",), ("inlet.layer_table",), ("inlet.film_ratio",)),
     (("inlet",), ("film", "meter")),
     (("inlet.film_ratio",), ("motion",)),
-    (("motion.passes",), ("motion.duration",)),
-    (("grid.error",), ("grid.nodes", "grid.nodes_y", "grid.refine")),
     (("grid.error", "grid.refine", "grid.most_nodes"), ("motion",)),
     *DRIVE_ALTERNATIVES,
-    _SPEEDS,
-    (("contact.entrainment_speed",), ("contact.speed_1", "contact.speed_2")),
-    (("contact.load", "contact.load_per_length"), ("contact.max_hertz_pressure",)),
 )
 
 # Alternatives that are others for a line contact and for a point contact.
 OF_GEOMETRY: Mapping[str, tuple[Rows, ...]] = {
-    "line": (
-        (("contact.reduced_radius",), ("contact.radius_1", "contact.radius_2")),
-        (("contact.reduced_modulus",), _ELASTIC),
-    ),
-    "point": (
-        (
-            ("contact.radius_x", "contact.radius_y"),
-            tuple(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
-        ),
-        (("contact.reduced_modulus",), _ELASTIC),
-    ),
+    geometry: dotted("contact", groups) for geometry, groups in CONTACT_ALTERNATIVES.items()
 }
-
-# Keys that only contacts of one geometry have.
-ONLY: Mapping[str, tuple[str, ...]] = {
-    "line": tuple(f"contact.{key}" for key in ("reduced_radius", "radius_1", "radius_2", "load_per_length")),
-    "point": (
-        *(f"contact.{key}" for key in ("radius_x", "radius_y", "load")),
-        *(f"{body}.{key}" for body in _BODIES for key in ("radius_x", "radius_y")),
-    ),
-}
-_GRID_OF_ANY = ("grid.wedge", "grid.field_degree", "grid.refine")
-
-# Dimensions of a bearing, which belong to its base.
-DIMENSIONS = (
-    *("kind", "elements", "bore", "outer_diameter", "width", "element_diameter", "pitch_diameter"),
-    *("inner_groove", "outer_groove", "roller_length", "profile", "shoulder_height"),
-)
 
 
 def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
@@ -214,9 +172,9 @@ def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
     geometry = inputs.value("contact.geometry") or "line"
     wanted = given.get("contact.geometry", geometry)
     if wanted != geometry:
-        yield from ONLY.get(geometry, ())
+        yield from (f"contact.{key}" for key in ONLY.get(geometry, ()))
         yield from ("discharge.length", "meter.length")
-        yield from (key for key in _within(inputs, "grid") if key not in _GRID_OF_ANY)
+        yield from (key for key in _within(inputs, "grid") if key.partition(".")[2] not in GRID_OF_ANY)
     for rows in (*ALTERNATIVES, *OF_GEOMETRY.get(str(wanted), ())):
         yield from _of_other_rows(rows, new)
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from ehlectric.app.fields.drive_rules import SWITCHING
-from ehlectric.app.fields.field import Field, Group, Way
+from ehlectric.app.fields.drive_rules import OF_CARRIER, SWITCHING
+from ehlectric.app.fields.field import Field, Group, Way, fields_of
 from ehlectric.app.inputs import Inputs
-
-
-def _number(key: str, label: str, unit: str, ends: tuple[float, float], **more: object) -> Field:
-    """Field of a number with the ends of its slider."""
-    return Field(key, label, unit, *ends, **more)  # type: ignore[arg-type]
+from ehlectric.quantities.alternatives import DESCRIBED, MEASURED
+from ehlectric.quantities.inputs import form
 
 
 def _measured(inputs: Inputs) -> bool:
@@ -52,100 +49,44 @@ _RINGING = {
     "source.ringing_time": "1 us",
 }
 
-SOURCE = Group(
-    "Source",
-    (
-        Field(
-            "source.way",
-            "Common-mode voltage",
-            kind="ways",
-            ways=(
-                Way("Measured waveform", {}, "source.file", listed=False),
-                Way("Described by its modulation", _SOURCE),
-            ),
-        ),
-        _number("source.dc_link", "DC link", "V", (24.0, 1500.0), log=True, when=_described),
-        Field(
-            "source.modulation",
-            "Modulation",
-            kind="choice",
-            choices=("space-vector", "sinusoidal", "six-step"),
-            when=_described,
-        ),
-        _number(SWITCHING, "Switching frequency", "kHz", (1.0, 100.0), log=True, when=_carrier),
-        Field(
-            "source.frequency_way",
-            "Fundamental frequency",
-            kind="ways",
-            ways=(
-                Way("Follows the speed", {"source.pole_pairs": 2}, "source.pole_pairs"),
-                Way("The same at all speeds", {"source.fundamental_frequency": "100 Hz"}),
-            ),
-            when=_described,
-        ),
-        Field("source.pole_pairs", "Pairs of poles", low=1, high=12, kind="count", when=_follows),
-        _number(
-            "source.fundamental_frequency",
-            "Fundamental frequency",
-            "Hz",
-            (1.0, 150.0),
-            log=True,
-            when=_fixed,
-        ),
-        _number("source.modulation_index", "Modulation index", "", (0.0, 1.15), when=_carrier),
-        _number(
-            "source.base_frequency",
-            "It holds from this frequency on",
-            "Hz",
-            (10.0, 1000.0),
-            log=True,
-            when=_carrier,
-            optional=True,
-        ),
-        _number("source.rise_time", "Rise time of an edge", "ns", (1.0, 2000.0), log=True, when=_described),
-        Field(
-            "source.ringing_way",
-            "Ringing",
-            kind="ways",
-            ways=(
-                Way("At the end of each edge", _RINGING, "source.overshoot"),
-                Way("None", dict.fromkeys(_RINGING)),
-            ),
-            when=_described,
-        ),
-        _number("source.overshoot", "Overshoot", "%", (0.0, 100.0), when=_ringing),
-        _number("source.ringing_frequency", "Ringing frequency", "MHz", (0.1, 20.0), log=True, when=_ringing),
-        _number("source.ringing_time", "Time of its decay", "us", (0.1, 20.0), log=True, when=_ringing),
-        Field("source.column", "Column of the voltage", low=1, high=8, kind="count", when=_measured),
-        Field("source.value_unit", "Unit of the voltages", kind="text", when=_measured),
-        _number("source.scale", "Factor on the voltages", "", (0.1, 1000.0), log=True, when=_measured),
-        Field(
-            "source.time_column",
-            "Column of the time",
-            low=1,
-            high=8,
-            kind="count",
-            when=_measured,
-            optional=True,
-        ),
-        Field("source.time_unit", "Unit of the times", kind="text", when=_measured, optional=True),
-        _number(
-            "source.step",
-            "Or sampling interval",
-            "ns",
-            (1.0, 1000.0),
-            log=True,
-            when=_measured,
-            optional=True,
-        ),
-        _number(
-            "source.resample",
-            "Resample to",
-            "ns",
-            (10.0, 10_000.0),
-            log=True,
-            when=_measured,
-            optional=True,
+_WAYS = {
+    "source.dc_link": Field(
+        "source.way",
+        "Common-mode voltage",
+        kind="ways",
+        ways=(
+            Way("Measured waveform", {}, "source.file", listed=False),
+            Way("Described by its modulation", _SOURCE),
         ),
     ),
-)
+    "source.pole_pairs": Field(
+        "source.frequency_way",
+        "Fundamental frequency",
+        kind="ways",
+        ways=(
+            Way("Follows the speed", {"source.pole_pairs": 2}, "source.pole_pairs"),
+            Way("The same at all speeds", {"source.fundamental_frequency": "100 Hz"}),
+        ),
+        when=_described,
+    ),
+    "source.overshoot": Field(
+        "source.ringing_way",
+        "Ringing",
+        kind="ways",
+        ways=(
+            Way("At the end of each edge", _RINGING, "source.overshoot"),
+            Way("None", dict.fromkeys(_RINGING)),
+        ),
+        when=_described,
+    ),
+}
+_SHOWN = {
+    **{f"source.{key}": {"when": _described} for key in DESCRIBED},
+    **{f"source.{key}": {"when": _measured} for key in MEASURED},
+    **{f"source.{key}": {"when": _carrier} for key in OF_CARRIER},
+    "source.pole_pairs": {"when": _follows},
+    "source.fundamental_frequency": {"when": _fixed},
+    **{key: {"when": _ringing} for key in _RINGING},
+}
+
+SOURCE = Group("Source", fields_of(form("drive")["Source"], _SHOWN, _WAYS))

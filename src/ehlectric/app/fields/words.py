@@ -4,13 +4,8 @@ from __future__ import annotations
 
 import re
 
-from ehlectric.app.fields.amounts import in_unit, rounded, si_unit, split
 from ehlectric.app.fields.field import Field
-
-_SIGNS = (("degC", "°C"), ("um", "µm"), ("us", "µs"), ("uF", "µF"), ("uA", "µA"), ("ohm", "Ω"))
-_NAME = re.compile(r"[A-Za-z°µ]+")
-_EXPONENT = re.compile(r"(?<=[A-Za-z°µ])(?:\*\*|\^)(-?\d+)")
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+from ehlectric.quantities.units import in_unit, printed, rounded, si_unit, split
 
 # Most digits of a number in a box; one with more, such as that of a point of a sweep, is rounded there.
 _MOST_DIGITS = 8
@@ -22,19 +17,6 @@ _TAKES = re.compile(
     rf"(?P<bounds>(?:,? (?:and )?(?:above|at least|below|at most) {_NUMBER}(?: rad/s)?)*)"
 )
 _BOUND = re.compile(rf"({_NUMBER})(?: rad/s)?")
-
-
-def with_signs(unit: str) -> str:
-    """Unit with the signs that people print, in place of those of a keyboard.
-
-    Examples
-    --------
-    >>> with_signs("mm^2/s"), with_signs("V/um"), with_signs("degC"), with_signs("cm^2")
-    ('mm²/s', 'V/µm', '°C', 'cm²')
-    """
-    signs = dict(_SIGNS)
-    raised = _EXPONENT.sub(lambda found: found[1].translate(_RAISED), unit)
-    return _NAME.sub(lambda found: signs.get(found[0], found[0]), raised)
 
 
 def shown_text(field: Field, text: str) -> str:
@@ -52,8 +34,8 @@ def shown_text(field: Field, text: str) -> str:
     written = text.strip().removesuffix(found[1]).strip()
     number = in_unit(text, field.unit)
     if number is not None and sum(letter.isdigit() for letter in written.split("e")[0]) > _MOST_DIGITS + 2:
-        return f"{float(f'{number:.{_MOST_DIGITS}g}'):.12g} {with_signs(field.unit)}"
-    return f"{written} {with_signs(found[1])}"
+        return f"{rounded(number, _MOST_DIGITS)} {printed(field.unit)}"
+    return f"{written} {printed(found[1])}"
 
 
 def written_text(field: Field, text: str) -> str:
@@ -65,7 +47,7 @@ def written_text(field: Field, text: str) -> str:
     '70 degC'
     """
     found = split(text)
-    if found is None or not field.unit or found[1] != with_signs(field.unit):
+    if found is None or not field.unit or found[1] != printed(field.unit):
         return text
     return f"{text.strip().removesuffix(found[1]).strip()} {field.unit}"
 
@@ -81,11 +63,11 @@ def in_field_unit(field: Field, text: str) -> str:
     """
     if not field.unit or field.unit == "%":
         return text
-    si, unit = si_unit(field.unit), with_signs(field.unit)
+    si, unit = si_unit(field.unit), printed(field.unit)
 
     def number(value: str) -> str:
         found = in_unit(f"{value} {si}", field.unit)
-        return f"{value} {si}" if found is None else f"{float(f'{found:.5g}'):.12g} {unit}"
+        return f"{value} {si}" if found is None else f"{rounded(found, 5)} {unit}"
 
     def takes(found: re.Match[str]) -> str:
         example = f"{rounded(field.at(0.5))} {unit}"

@@ -10,7 +10,7 @@ from typing import Any
 from ehlectric.bearing.margin.quick_margins import QuickMargins
 from ehlectric.cases.bearings.bearing import Bearing
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.keywords.names import INPUT_NAMES
+from ehlectric.cases.input_keys import input_of
 from ehlectric.cases.library.clearance import clearance_range
 from ehlectric.cases.oils.resolution import depends_on_temperature
 from ehlectric.discharge.verdict import STRENGTH_UNKNOWN
@@ -149,7 +149,7 @@ def _changes(
     standard = {change.key: change for change in _standard(case, table)}
     for key in dict.fromkeys([*standard, *ranges]):
         if key in ranges:
-            yield _Change(key, INPUT_NAMES.get(key, (key, ""))[0], ranges[key])
+            yield _Change(key, _label(key), ranges[key])
         else:
             yield standard[key]
 
@@ -160,46 +160,48 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
     for key in _STRENGTHS:
         strength = value_at(table, key)
         if strength is not None:
-            yield _Change(key, INPUT_NAMES[key][0], _part(strength, STRENGTH_UNKNOWN))
+            yield _Change(key, _label(key), _part(strength, STRENGTH_UNKNOWN))
     if case.discharge.strength_table is not None:
         yield _Change(OF_TABLE, "factor on the dielectric strength", _part(1.0, STRENGTH_UNKNOWN))
     if not _temperature_is_unused(case):
         yield _temperature(bearing)
     oil = case.lubricant.temperature
     if oil is not None and oil.iso_vg is not None:
-        label = f"{INPUT_NAMES[_AT_40][0]} (limits of ISO VG {oil.iso_vg})"
+        label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
         yield _Change(_AT_40, label, _part(oil.at_40(), GRADE_WIDTH))
     if bearing.unmounted_clearance is not None:
         yield _Change("bearing.fits.unmounted_clearance", *_clearance(bearing, bearing.unmounted_clearance))
     elif bearing.radial_clearance is not None:
         yield _Change("bearing.radial_clearance", *_clearance(bearing, bearing.radial_clearance))
     if bearing.contact_angle is not None:
-        yield _Change("bearing.contact_angle", "free contact angle", _around(bearing.contact_angle, ANGLE))
+        key = "bearing.contact_angle"
+        yield _Change(key, _label(key), _around(bearing.contact_angle, ANGLE))
     radial = bearing.radial_load >= bearing.axial_load
     load = bearing.radial_load if radial else bearing.axial_load
     both = min(bearing.radial_load, bearing.axial_load) > 0.0
-    name = "radial load" if radial else "axial load"
+    key = f"bearing.{'radial' if radial else 'axial'}_load"
+    name = _label(key)
     yield _Change(
-        f"bearing.{'radial' if radial else 'axial'}_load",
+        key,
         f"{name} ({'axial' if radial else 'radial'} in proportion)" if both else name,
         _part(load, LOAD),
         factor_of_load=both,
     )
     for name in ("winding_rotor", "rotor_frame"):
         key = f"motor.{name}_capacitance"
-        yield _Change(key, f"{name.replace('_', '-')} capacitance", _part(value_at(table, key), MOTOR))
+        yield _Change(key, _label(key), _part(value_at(table, key), MOTOR))
 
 
 def _temperature(bearing: Bearing) -> _Change:
     """Change of the temperature of the oil, and by the same step of all other parts that have their own."""
     keys = tuple(f"bearing.{key}" for key in bearing.all_temperatures())
-    label = "temperature" if len(keys) == 1 else "temperature (of all parts by the same)"
+    label = _label(keys[0]) + (" (of all other parts by the same)" if len(keys) > 1 else "")
     return _Change(keys[0], label, _around(bearing.oil_temperature, TEMPERATURE), shift_of=keys)
 
 
 def _clearance(bearing: Bearing, clearance: float) -> tuple[str, tuple[float, float]]:
     """Name of the clearance [m] and its two values: those of its class, or a step either way."""
-    name = "radial clearance" if bearing.fits is None else "radial clearance before mounting"
+    name = _label("bearing.radial_clearance" if bearing.fits is None else "bearing.fits.unmounted_clearance")
     if bearing.clearance_class is None or bearing.bore is None:
         return name, _around(clearance, CLEARANCE)
     limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
@@ -216,3 +218,9 @@ def _around(value: float, step: float) -> tuple[float, float]:
     if 0.0 < value <= step:
         step = RELATIVE * value
     return value - step, value + step
+
+
+def _label(key: str) -> str:
+    """Label of an input in the book; its dotted key if no file has it."""
+    entry = input_of(key)
+    return key if entry is None else entry.label

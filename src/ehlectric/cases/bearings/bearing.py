@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from difflib import get_close_matches
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, TypedDict
 
 from pydantic import AfterValidator, BeforeValidator, model_validator
 
@@ -15,6 +15,7 @@ from ehlectric.cases.bearings.coating import Coating
 from ehlectric.cases.bearings.fits import PLAY, TEMPERATURE, Fits
 from ehlectric.cases.bearings.summits import Summits
 from ehlectric.cases.bearings.ways import FILM_FACTORS
+from ehlectric.cases.keywords import Keys, Value
 from ehlectric.cases.library.clearance import (
     BORE,
     ClearanceClass,
@@ -338,3 +339,42 @@ class Bearing(Table):
             raise InputError(
                 "width", got=f"{self.width:g} m", takes=f"at least the width of an element, {across:g} m"
             )
+
+
+class BearingKeys(TypedDict, total=False):
+    """Keys of the table ``bearing``, as ``BearingCase.of`` takes them."""
+
+    base: str
+    kind: str
+    elements: int
+    bore: Value
+    outer_diameter: Value
+    width: Value
+    element_diameter: Value
+    pitch_diameter: Value
+    inner_groove: Value
+    outer_groove: Value
+    roller_length: Value
+    profile: str
+    shoulder_height: Value
+    radial_clearance: Value
+    clearance_class: str
+    contact_angle: Value
+    element_material: str
+    ring_material: str
+    element_capacitance: Value
+    radial_load: Value
+    axial_load: Value
+    inner_speed: Value
+    temperature: Value
+    inner_ring_temperature: Value
+    outer_ring_temperature: Value
+    composite_rq: Value
+    summits: Keys
+    contact_resistance: Value
+    fill: float | str
+    film_factor: float | str
+    supply: float | str
+    fits: Keys
+    parallel_capacitance: Value
+    coating: Keys

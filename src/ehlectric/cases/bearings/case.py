@@ -15,20 +15,16 @@ from pydantic import (
 )
 
 from ehlectric.cases import library
-from ehlectric.cases.bearings.bearing import Bearing
-from ehlectric.cases.bearings.coating import COATING_ALTERNATIVES
+from ehlectric.cases.bearings.bearing import Bearing, BearingKeys
 from ehlectric.cases.bearings.discharge import BearingDischarge
 from ehlectric.cases.bearings.heat import check_heat, missing_conductivity
 from ehlectric.cases.bearings.motor import Motor
 from ehlectric.cases.bearings.recognition import bearing_key
-from ehlectric.cases.bearings.summits import SUMMIT_ALTERNATIVES
 from ehlectric.cases.bearings.ways import Contacts
-from ehlectric.cases.changes import Groups, displace, flattened, nested, set_keys
+from ehlectric.cases.changes import displace, flattened, nested, set_keys
 from ehlectric.cases.depth import refuse_deep
-from ehlectric.cases.discharge import STRENGTHS, TABLES
 from ehlectric.cases.grid import Solver
-from ehlectric.cases.keywords.constructors import tables, takes
-from ehlectric.cases.keywords.types import BearingKeys, Keys
+from ehlectric.cases.keywords import Keys, tables, takes
 from ehlectric.cases.library.clearance import with_class
 from ehlectric.cases.oils.alternatives import displace_oil
 from ehlectric.cases.oils.lubricant import Lubricant
@@ -36,43 +32,15 @@ from ehlectric.cases.ranges import InputRange, ranges_of
 from ehlectric.cases.table import Table, read_toml, with_further
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.units import ROTATION, rpm
 from ehlectric.runtime.display import Tabled, headline
 from ehlectric.runtime.values import is_number
 
-# Alternative keys, by table: a key that changes replaces its alternatives.
-_ALTERNATIVES: dict[str, Groups] = {
-    "bearing": (
-        (("radial_clearance",), ("clearance_class",), ("fits.unmounted_clearance",)),
-        (("radial_clearance",), ("fits",)),
-        COATING_ALTERNATIVES,
-        SUMMIT_ALTERNATIVES,
-    ),
-    "lubricant": (
-        (("viscosity",), ("temperature",)),
-        (("temperature.kinematic_viscosity_40",), ("temperature.iso_vg",)),
-        (("temperature.kinematic_viscosity_100",), ("temperature.viscosity_index",)),
-    ),
-    "discharge": (STRENGTHS, TABLES),
-}
-
-# Dimensions of a bearing, which belong to its base.
-_DIMENSIONS = (
-    "kind",
-    "elements",
-    "bore",
-    "outer_diameter",
-    "width",
-    "element_diameter",
-    "pitch_diameter",
-    "inner_groove",
-    "outer_groove",
-    "roller_length",
-    "profile",
-    "shoulder_height",
-)
+# Tables in which a key that changes replaces its alternatives.
+_ALTERNATIVES = {table: ALTERNATIVES[table] for table in ("bearing", "lubricant", "discharge")}
 
 # Relative error by which a value that is rounded may lie outside of its range.
 _ROUNDING = 1e-9
@@ -256,7 +224,7 @@ class BearingCase(Tabled, Table):
         """Make a bearing case from the keys of its table ``bearing``.
 
         ``lubricant`` is the name of one of the library or its table. The keys of ``bearing`` are floats in SI
-        units, texts with units, or quantities of pint (``ehlectric.cases.keywords.types.BearingKeys``); all
+        units, texts with units, or quantities of pint (``ehlectric.cases.bearings.bearing.BearingKeys``); all
         others are keys and tables of a bearing file.
 
         >>> BearingCase.of(
@@ -353,7 +321,7 @@ def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
 def _drop_dimensions(bearing: dict[str, Any]) -> None:
     """Remove the dimensions of a bearing, and all else that its base in the library gives."""
     own = library.bearing(bearing["base"]) if bearing.get("base") else {}
-    for key in {*_DIMENSIONS, *own}:
+    for key in {*DIMENSIONS, *own}:
         bearing.pop(key, None)
 
 

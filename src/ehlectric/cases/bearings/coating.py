@@ -22,9 +22,6 @@ _Strength = Annotated[float, Amount("V/m", least=1e4, most=1e10, reason="of the 
 _Voltage = Annotated[float, Amount("V", above=0.0, most=1e7, reason="of the whole coating")]
 _Resistance = Annotated[float, Amount("ohm", above=0.0, most=1e18, reason="through the coating")]
 
-# Alternative keys of the coating: its breakdown voltage follows from its strength, or is given.
-COATING_ALTERNATIVES = (("coating.strength",), ("coating.breakdown_voltage",))
-
 
 def _named(name: str) -> str:
     """Name of a coating of the library that stands in place of its table."""

@@ -18,9 +18,6 @@ _Height = Annotated[float, Amount("m", above=0.0, most=1e-4, reason="of the summ
 _Highest = Annotated[float, Amount("", above=0.0, most=100.0, reason="in deviations of the heights")]
 _Bandwidth = Annotated[float, Amount("", least=1.5, most=1e6, reason="Nayak's, of a Gaussian surface")]
 
-# Alternative keys of the summits: the deviation of their heights follows from the bandwidth, or is given.
-SUMMIT_ALTERNATIVES = (("summits.height_deviation",), ("summits.bandwidth",))
-
 
 class Summits(Table):
     """Density, radius and heights of the summits of both surfaces together, at one sampling interval."""

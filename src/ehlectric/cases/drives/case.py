@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.bearings.ways import Contacts
-from ehlectric.cases.changes import flattened, set_keys
+from ehlectric.cases.changes import displace, flattened, set_keys
 from ehlectric.cases.depth import refuse_deep
 from ehlectric.cases.drives.breakdown import Breakdown
 from ehlectric.cases.drives.circuit import Circuit
@@ -19,20 +19,11 @@ from ehlectric.cases.drives.source import Source
 from ehlectric.cases.table import Table, read_toml
 from ehlectric.cases.title import Title
 from ehlectric.errors import InputError, shown
+from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.inputs import BOTH as BOTH
+from ehlectric.quantities.inputs import ENDS as ENDS
 from ehlectric.quantities.units import ROTATION, rpm
 from ehlectric.runtime.display import Tabled, headline
-
-# Tables of both bearings, and the name under which a change applies to both of them.
-ENDS = ("drive_end", "non_drive_end")
-BOTH = "bearings"
-
-# Groups of keys of which a new one replaces the others.
-_ALTERNATIVES = {
-    "breakdown.extinction_current": "breakdown.extinction_voltage",
-    "breakdown.extinction_voltage": "breakdown.extinction_current",
-    "source.fundamental_frequency": "source.pole_pairs",
-    "source.pole_pairs": "source.fundamental_frequency",
-}
 
 
 class Operation(Table):
@@ -185,9 +176,7 @@ class DriveCase(Tabled, Table):
         ends = {end: _of_end(flat, end) for end in ENDS}
         own = {key: value for key, value in flat.items() if key.partition(".")[0] not in (*ENDS, BOTH)}
         table = self.to_dict()
-        for key in own:
-            name, _, leaf = _ALTERNATIVES.get(key, "").partition(".")
-            table.get(name, {}).pop(leaf, None)
+        displace(table, own, {name: ALTERNATIVES[name] for name in ("source", "breakdown")})
         set_keys(table, own)
         for end, change in ends.items():
             try:

@@ -10,25 +10,10 @@ from pydantic import model_validator
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import DESCRIBED, MEASURED
 
 _Hertz = Amount("Hz", least=1e-3, most=1e9, reason="of an inverter")
 _Time = Amount("s", least=1e-12, most=1.0, reason="of an edge of an inverter")
-
-# Keys of a described and of a measured source.
-DESCRIBED = (
-    "dc_link",
-    "modulation",
-    "switching_frequency",
-    "fundamental_frequency",
-    "pole_pairs",
-    "modulation_index",
-    "base_frequency",
-    "rise_time",
-    "ringing_frequency",
-    "overshoot",
-    "ringing_time",
-)
-MEASURED = ("file", "column", "time_column", "step", "time_unit", "value_unit", "scale", "resample")
 
 # What a described source needs; six-step operation switches at the fundamental frequency and has no index.
 _NEEDED = ("dc_link", "modulation", "rise_time")

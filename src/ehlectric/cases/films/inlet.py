@@ -11,12 +11,10 @@ from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.contact import Contact
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ALTERNATIVES
 
 _THICKNESS = Amount("m", least=1e-9, most=1e-2, reason="of the oil on both surfaces together")
 _ACROSS = Amount("m", least=-1.0, most=1.0, reason="across entrainment, from the centre of the contact")
-
-# Alternative keys of the supply of oil. A case gives one of them.
-SUPPLIES = (("oil_layer",), ("layer_table",), ("film_ratio",))
 
 
 class LayerTable(Table):
@@ -56,7 +54,7 @@ class Inlet(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        names = [row[0] for row in SUPPLIES]
+        names = [row[0] for row in ALTERNATIVES["inlet"][0]]
         given = [name for name in names if getattr(self, name) is not None]
         if len(given) != 1:
             together = f"{' and '.join(given)} together" if given else None

@@ -9,9 +9,10 @@ from typing import Any
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.cases.changes import flattened
 from ehlectric.cases.drives.case import BOTH, ENDS, DriveCase
-from ehlectric.cases.input_keys import end_and_key, of_both_ends
+from ehlectric.cases.input_keys import of_both_ends
 from ehlectric.figures.names import with_units_kept
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.inputs import end_and_key
 from ehlectric.report.content import Section, Table, Text
 from ehlectric.report.origins import input_text, inputs_of
 

@@ -6,10 +6,10 @@ from collections import Counter
 from collections.abc import Mapping
 
 from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.cases.input_keys import end_and_key
 from ehlectric.discharge.verdict import Level, Verdict
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.quantities.formats import number_text
+from ehlectric.quantities.inputs import end_and_key
 from ehlectric.sweep.results import SweepResults
 
 # Results of both bearings, and of one of them, that a report draws and lists.

@@ -1,15 +1,39 @@
-"""Signatures and tables of the constructors of cases that take keywords."""
+"""Constructors of cases that take keywords: their signatures and tables, and types for type checkers.
+
+A value is a float in SI units, a text with a unit, or a quantity of pint. Every other value is refused when
+the case is made, by the same checks as those of a case file.
+"""
 
 from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Sequence
-from typing import Any, TypeVar, cast
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Protocol, TypeAlias, TypeVar, cast
 
 from ehlectric.errors import InputError
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+
+class HasUnit(Protocol):
+    """Number with a unit, such as a quantity of pint."""
+
+    @property
+    def magnitude(self) -> Any:
+        """Number in the unit of the quantity."""
+        ...
+
+    def to(self, other: Any = None, /) -> Any:
+        """Quantity in another unit."""
+        ...
+
+
+# Value of a key: a float in SI units, a text with a unit, or a quantity.
+Value: TypeAlias = float | str | HasUnit
+
+# Tables by key, as in a case file.
+Keys: TypeAlias = Mapping[str, Any]
 
 
 def takes(keys: type) -> Callable[[F], F]:

@@ -1,0 +1,125 @@
+"""Inputs of the files: label, symbol and meaning of every key, and fields of the app, from ``inputs.toml``.
+
+Errors, forms, axes, schemas and the documentation look inputs up here, and have no labels of their own. Units
+of SI stand with the bounds of a key in the tables of the package ``cases``.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib import resources
+from typing import Any, Literal
+
+from ehlectric.quantities.quantity import Quantity
+
+# Tables of the bearings of a drive file, and the name that stands for both.
+ENDS = ("drive_end", "non_drive_end")
+BOTH = "bearings"
+
+# Tables of the keys that stand in no table.
+_FILES = ("case_file", "bearing_file", "drive_file")
+
+# Tables that a file has several times, with the words for one of them.
+_NUMBERED = {"contact.body": "of body", "roughness": "of rough surface"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Input(Quantity):
+    """Input of a file, with its field in the app if it has one.
+
+    ``shown`` is the unit of the number in the field, as the file takes it; ``slider`` are the ends of its
+    slider in this unit, spaced by logarithms if ``log``. ``choices`` are empty where the library has them.
+    ``note`` stands beside the field, and an ``optional`` field may be left empty.
+    """
+
+    kind: Literal["number", "count", "choice", "text"] = "number"
+    slider: tuple[float, float] = (0.0, 1.0)
+    log: bool = False
+    choices: tuple[str, ...] = ()
+    note: str = ""
+    optional: bool = False
+
+
+@cache
+def _contents() -> dict[str, dict[str, Any]]:
+    text = resources.files("ehlectric.quantities").joinpath("inputs.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
+
+@cache
+def inputs() -> Mapping[str, Mapping[str, Input]]:
+    """Inputs by table and key; numbered tables, such as a body of a contact, stand there once.
+
+    Examples
+    --------
+    >>> inputs()["contact"]["load"].meaning, inputs()["contact.body"]["heat_capacity"].label
+    ('load of a point contact', 'heat capacity')
+    """
+    return {
+        name: {key: _input(key, **entry) for key, entry in table.items()}
+        for name, table in _contents().items()
+        if name != "forms"
+    }
+
+
+def _input(key: str, **entry: Any) -> Input:
+    for name in ("slider", "choices"):
+        entry[name] = tuple(entry[name]) if name in entry else getattr(Input, name)
+    return Input(**{"label": key.replace("_", " "), **entry})
+
+
+def form(name: str) -> Mapping[str, tuple[str, ...]]:
+    """Keys of the groups of a form of the app, by the titles of the groups.
+
+    Examples
+    --------
+    >>> form("line")["Materials"][0]
+    'contact.reduced_modulus'
+    """
+    return {title: tuple(keys) for title, keys in _contents()["forms"][name].items()}
+
+
+def end_and_key(key: str) -> tuple[str, str]:
+    """Name of the bearing of a drive before a dotted key, and the key in a bearing file.
+
+    Examples
+    --------
+    >>> end_and_key("drive_end.bearing.temperature"), end_and_key("source.dc_link")
+    (('drive_end', 'bearing.temperature'), ('', 'source.dc_link'))
+    """
+    first, _, rest = key.partition(".")
+    return (first, rest) if first in (*ENDS, BOTH) and rest else ("", key)
+
+
+def table_and_key(key: str) -> tuple[str, str, str]:
+    """Table and name of a dotted key in ``inputs``, and the number of the table where it is one of several.
+
+    Examples
+    --------
+    >>> table_and_key("contact.body_2.density"), table_and_key("roughness.1.rq")
+    (('contact.body', 'density', '2'), ('roughness', 'rq', '1'))
+    """
+    table, _, name = end_and_key(key)[1].rpartition(".")
+    head, _, number = table.replace("contact.body_", "contact.body.").rpartition(".")
+    return (head, name, number) if number.isdecimal() else (table, name, "")
+
+
+def input_at(key: str) -> Input | None:
+    """Input of a dotted key; None where there is no such key.
+
+    Examples
+    --------
+    >>> input_at("drive_end.bearing.radial_load").label, input_at("contact.body_2.density").label
+    ('radial load', 'density of body 2')
+    >>> input_at("film.minimum_thickness") is None
+    True
+    """
+    table, name, number = table_and_key(key)
+    places = (table,) if table else _FILES
+    found = next((inputs()[one][name] for one in places if name in inputs().get(one, {})), None)
+    if found is None or not number:
+        return found
+    return replace(found, label=f"{found.label} {_NUMBERED[table]} {number}") if table in _NUMBERED else None

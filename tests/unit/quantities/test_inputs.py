@@ -1,0 +1,100 @@
+"""Book of inputs: one label for errors, forms, axes and descriptions; entries and sliders fit the keys."""
+
+import pytest
+
+from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.fields.contact import groups_of
+from ehlectric.app.fields.drive import DRIVE_GROUPS
+from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.any_case import case_of_dict
+from ehlectric.cases.input_keys import TABLES, describe, input_field, input_of, number_of, phrase
+from ehlectric.cases.oils.laws import law_parameters
+from ehlectric.quantities.inputs import form, input_at, inputs
+from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.labels import label_of
+from tests.helpers.each import each
+from tests.helpers.moving_cases import TABLES as CONTACTS
+
+MODELS = {**TABLES, "sweep": Sweep}
+FORMS = {
+    "bearing": BEARING_GROUPS,
+    "line": groups_of("line"),
+    "point": groups_of("point"),
+    "drive": [group for group in DRIVE_GROUPS if "end" not in group.title.split(":")[0]],
+}
+FIELDS = {
+    (name, field.key): field
+    for name, groups in FORMS.items()
+    for group in groups
+    for field in group.fields
+    if field.kind != "ways"
+}
+KEYS = sorted({key for _, key in FIELDS} - {"title"})
+CASE = case_of_dict({name: table for name, table in CONTACTS["line"].items() if name != "motion"})
+
+
+@each("table", MODELS)
+def test_every_key_has_an_entry_and_every_entry_a_key(table):
+    laws = law_parameters() if table == "lubricant" else {}
+    assert set(inputs()[table]) | set(laws) == set(MODELS[table].known_keys())
+
+
+def test_every_table_of_the_book_is_one_of_a_file():
+    assert set(inputs()) == set(MODELS)
+
+
+@each("name", law_parameters())
+def test_a_parameter_of_a_law_is_described_once(name):
+    parameter = law_parameters()[name]
+    own = bool(parameter.meaning and parameter.title and parameter.symbol)
+    assert own != (name in inputs()["lubricant"])
+    assert own or not (parameter.meaning or parameter.title or parameter.symbol)
+
+
+@each("key", KEYS)
+def test_labels_of_forms_errors_axes_and_descriptions_are_the_same(key):
+    label = input_at(key).label
+    fields = [field for (_, found), field in FIELDS.items() if found == key]
+    assert {field.label for field in fields} == {label[0].upper() + label[1:]}
+    assert label_of(f"inputs.{key}", CASE).name == input_of(key).label == label
+    assert describe(key).startswith(label.partition(" of body")[0])
+
+
+@each("table", inputs())
+def test_phrases_begin_with_the_label(table):
+    for key, entry in inputs()[table].items():
+        assert phrase(table, key).startswith(entry.label)
+        assert entry.label == entry.label.strip()
+        assert entry.meaning
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_fields_are_the_keys_of_the_form_in_their_order(name):
+    listed = [key for keys in form(name).values() for key in keys]
+    shown = [field.key for group in FORMS[name] for field in group.fields if field.kind != "ways"]
+    # A drive has the title of its report in the group of a bearing.
+    assert shown == [*listed, *(["title"] if name == "drive" else [])]
+    assert len(set(listed)) == len(listed)
+
+
+def test_an_input_with_a_field_is_in_a_form():
+    sliding = {
+        f"{table}.{key}" for table, keys in inputs().items() for key, entry in keys.items() if entry.shown
+    }
+    assert sliding <= {key.replace("body_1", "body") for key in KEYS}
+
+
+@each("name, key", [place for place, field in FIELDS.items() if field.kind in ("number", "count")])
+def test_ends_of_a_slider_are_allowed_and_have_the_unit_of_the_key(name, key):
+    field = FIELDS[name, key]
+    kind = number_of(input_field(key))
+    assert field.low < field.high
+    # A share of oil may also be a word, and is no quantity for the checks.
+    if kind is not None:
+        assert isinstance(kind, Count) == (field.kind == "count")
+    for place in (0.0, 0.37, 1.0):
+        written = field.from_slider(place)
+        if isinstance(kind, Amount):
+            kind.parse(written, written=True)
+        elif kind is not None:
+            kind.parse(written)
