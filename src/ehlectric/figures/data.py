@@ -14,6 +14,9 @@ from ehlectric.arrays import Array, Mask
 # Axes and colours are logarithmic where the values differ by more than this ratio.
 WIDE = 20.0
 
+# Width of a line on the screen [pt].
+WIDTH = 1.2
+
 
 @dataclass(frozen=True)
 class Curve:
@@ -28,7 +31,7 @@ class Curve:
     y: NDArray[Any] = field(repr=False)
     colour: str
     dash: str = "solid"
-    width: float = 1.2
+    width: float = WIDTH
     marker: str = ""
 
 

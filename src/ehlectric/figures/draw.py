@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ehlectric.figures.axes import scale_axis
-from ehlectric.figures.data import Along, Area, Curve, Panel
+from ehlectric.figures.data import WIDTH, Along, Area, Curve, Panel
 
 # Dashes by their names.
 DASHES: Mapping[str, Any] = {
@@ -23,12 +24,12 @@ DASHES: Mapping[str, Any] = {
 
 _MARKERS: Mapping[str, dict[str, Any]] = {
     "dots": {"marker": "o", "ms": 3.5},
-    "ring": {"marker": "o", "ms": 5.0, "mfc": "white", "mew": 1.2, "zorder": 5.5},
+    "ring": {"marker": "o", "ms": 4.5, "mfc": "white", "mew": 1.2, "zorder": 5.5},
     "star": {"marker": "*", "ms": 12.0, "mec": "white", "zorder": 6.0},
 }
 
 
-def line_look(colour: str, dash: str = "solid", width: float = 1.2) -> dict[str, Any]:
+def line_look(colour: str, dash: str = "solid", width: float = WIDTH) -> dict[str, Any]:
     """Look of a line as Matplotlib takes it."""
     return {"color": colour, "ls": DASHES[dash], "lw": width}
 
@@ -36,8 +37,10 @@ def line_look(colour: str, dash: str = "solid", width: float = 1.2) -> dict[str,
 def draw_curves(curves: Sequence[Curve], ax: Axes) -> list[Line2D]:
     """Draw curves over each other, the last one on top."""
     lines: list[Line2D] = []
+    # Lines of a journal are thinner, by its settings of Matplotlib.
+    thinner = mpl.rcParams["lines.linewidth"] / WIDTH
     for k, curve in enumerate(curves):
-        look: dict[str, Any] = line_look(curve.colour, curve.dash, curve.width) | {"zorder": 2.0 + 0.01 * k}
+        look = line_look(curve.colour, curve.dash, thinner * curve.width) | {"zorder": 2.0 + 0.01 * k}
         if curve.marker:
             look |= {"ls": "none", **_MARKERS[curve.marker]}
         lines += ax.plot(curve.x, curve.y, label=curve.name or "_", **look)

@@ -14,7 +14,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.results import PointResult, Result
 from ehlectric.field.point import PointField
 from ehlectric.figures.contact.findings import AnyContact, strength_limit
-from ehlectric.figures.data import Curve, Panel
+from ehlectric.figures.data import WIDTH, Curve, Panel
 from ehlectric.formulas.hertz_line import line_pressure
 from ehlectric.formulas.hertz_point import point_pressure
 from ehlectric.quantities.palette import BLACK, BLUE, GREEN, LIGHT_GREY, MIDDLE_GREY, ORANGE, STRENGTH
@@ -166,7 +166,9 @@ class Line:
         pair = (x, y) if cut.along == "x" else (y, x)
         return conditions.max_pressure * point_pressure(*pair, across[0] / b)
 
-    def curve(self, name: str, values: Array, colour: str, dash: str = "solid", width: float = 1.2) -> Curve:
+    def curve(
+        self, name: str, values: Array, colour: str, dash: str = "solid", width: float = WIDTH
+    ) -> Curve:
         """Curve of an array at all nodes of the film."""
         return Curve(name, self.x, self.of(values), colour, dash, width)
 

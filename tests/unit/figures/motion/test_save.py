@@ -25,6 +25,7 @@ from ehlectric.figures.motion.save import beside_stationary, history, maps, save
 from ehlectric.figures.names import MOTION_FIGURE_FILES
 from ehlectric.motion.field_history import intervals_above
 from ehlectric.motion.stored_run import MotionRun
+from ehlectric.quantities.palette import OUT_OF_RANGE
 from tests.helpers.each import each
 from tests.helpers.titles import title_of
 
@@ -345,8 +346,8 @@ def test_maps_say_the_extremes_and_are_grey_beyond_their_colours(run):
     at = 1e3 * run.values("time")[np.argmin(run.values("minimum_thickness"))]
     assert title.startswith(f"Minimum film 0.4 µm at t = {at:.3g} ms, maximum field 5.5 V/µm at t = ")
     colours = mesh_of(motion_maps.film_map(run)).get_cmap()
-    np.testing.assert_allclose(colours(2.0), to_rgba(drawing.OUT_OF_RANGE))
-    np.testing.assert_allclose(colours(-1.0), to_rgba(drawing.OUT_OF_RANGE))
+    np.testing.assert_allclose(colours(2.0), to_rgba(OUT_OF_RANGE))
+    np.testing.assert_allclose(colours(-1.0), to_rgba(OUT_OF_RANGE))
 
 
 @pytest.mark.slow
