@@ -35,7 +35,7 @@ def bearing(page):
 
 
 def drive(page):
-    wait_for_number(page, "at-peak", AT_PEAK)
+    wait_for_number(page, "end.voltage_at_peak", AT_PEAK)
     simulate(page)
 
 

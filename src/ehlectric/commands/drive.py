@@ -75,9 +75,11 @@ def drive(
 
 
 def _tables(outcome: RunOutcome[object]) -> Iterator[Table]:
-    """Tables of a drive: both bearings side by side, and its remedies."""
-    from ehlectric.tables.drive import ends_table, remedies_table
+    """Tables of a drive: its simulation, both bearings side by side, and its remedies."""
+    from ehlectric.tables.drive import ends_table, remedies_table, whole_rows
+    from ehlectric.tables.layout import table_of
 
+    yield table_of(whole_rows(outcome.summary))
     yield ends_table(outcome.summary)
     if outcome.summary["remedies"]:
         yield remedies_table(outcome.summary)

@@ -54,3 +54,11 @@ def contact_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
         for key, about in book.items()
         if about.bound and key not in never and (ideal or key in always)
     }
+
+
+def ideal_bounds(book: Keys) -> dict[str, Bound]:
+    """Bounds of the numbers of a drive or of a contact over time, by dotted key.
+
+    Their films are ideal in any case: those of a drive are smooth, those of moving roughness isothermal.
+    """
+    return {key: about.bound for key, about in book.items() if about.bound}

@@ -116,7 +116,7 @@ USUAL: Mapping[str, str] = MappingProxyType(
 )
 
 # Number from which one with few digits has an exponent; below it the exponent only hides how large it is.
-_LARGE = 1e4
+_LARGE = 1e7
 
 
 def scale_of(unit: str) -> Scale:
@@ -135,22 +135,22 @@ def formatted(value: float, digits: str) -> str:
 
     Examples
     --------
-    >>> [formatted(value, ".2g") for value in (0.012, 98.6, 213.0, 41234.0)]
-    ['0.012', '99', '210', '4.1e+04']
+    >>> [formatted(value, ".2g") for value in (0.012, 98.6, 213.0, 41234.0, 4e7)]
+    ['0.012', '99', '210', '41000', '4e+07']
     """
     text = format(value, digits)
     return f"{float(text):.0f}" if "e+" in text and abs(value) < _LARGE else text
 
 
 def number_text(value: float) -> str:
-    """Text: number with three digits, without a power of ten up to a million.
+    """Number with three digits.
 
     Examples
     --------
     >>> number_text(29731.0), number_text(0.1234)
     ('29700', '0.123')
     """
-    return f"{float(f'{value:.3g}'):.7g}"
+    return formatted(value, ".3g")
 
 
 def amount(value: float, unit: str) -> str:

@@ -17,37 +17,48 @@ _ABOUT: Keys = {
     "inputs": Quantity("the case"),
 }
 _COURSE: Keys = {
-    "duration": Quantity("duration of all steps", "s"),
+    "duration": Quantity("duration of all steps", "s", "duration of the motion", shown="ms"),
     "steps": Quantity("number of equal steps of the case"),
     "steps_done": Quantity("number of steps in the file"),
-    "courant": Quantity("grid spacings that oil travels in a step"),
+    "courant": Quantity(
+        "grid spacings that oil travels in a step",
+        "",
+        "oil travel per time step / grid spacing",
+        digits=".3g",
+    ),
     "frames": Quantity("number of recorded instants, including the one before the motion"),
     "speed_ratio_1": Quantity("speed of surface 1 / mean speed"),
     "speed_ratio_2": Quantity("speed of surface 2 / mean speed"),
     "covered_from": Quantity(
         "time from which the moving roughness fills the Hertz zone; null if it does not during the run",
         "s",
+        "roughness fills the Hertz zone from",
+        shown="ms",
     ),
     "coincident": Quantity(
         "time at which all roughness is at its position in the case; null if the run does not reach it, or "
         "two rough surfaces move at different speeds",
         "s",
+        "roughness at its place in the case at",
+        shown="ms",
     ),
-    "newton_per_step": Quantity("mean number of Newton iterations of a time step"),
+    "newton_per_step": Quantity(
+        "mean number of Newton iterations of a time step", "", "Newton steps per time step"
+    ),
     "krylov_per_step": Quantity("mean number of GMRES iterations of a time step"),
-    "halvings": Quantity("number of halvings of time steps"),
+    "halvings": Quantity("number of halvings of time steps", "", "halvings of time steps"),
 }
 _FILM: Keys = {
-    "before": Quantity("minimum film thickness before the motion", "m"),
+    "before": Quantity("minimum film thickness before the motion", "m", "minimum film before the motion"),
     "minimum_thickness": Quantity(
-        "minimum film thickness of all steps", "m", "minimum film thickness", r"$h_\mathrm{min}$"
+        "minimum film thickness of all steps", "m", "minimum film, moving roughness", r"$h_\mathrm{min}$"
     ),
     "minimum_time": Quantity("time of minimum_thickness", "s"),
     "minimum_position": Quantity("position of minimum_thickness", "m"),
     "max_pressure": Quantity(
         "maximum pressure of all nodes and steps; a sharp pressure spike grows with the grid",
         "Pa",
-        "maximum pressure in the film",
+        "maximum pressure, moving roughness",
         r"$p_\mathrm{max}$",
     ),
     "max_pressure_time": Quantity("time of max_pressure", "s"),
@@ -55,7 +66,8 @@ _FILM: Keys = {
         "estimated relative discretisation error, of grid and time steps together: the larger of "
         "minimum_thickness_error and central_thickness_error; null if unknown, and where surfaces touch",
         "",
-        "discretisation error of the film",
+        "discretisation error in space and time",
+        shown="%",
     ),
     "minimum_thickness_error": Quantity("estimated relative error of minimum_thickness; null if unknown"),
     "central_thickness_error": Quantity(
@@ -67,25 +79,29 @@ _SUPPLIED: Keys = {
         "thickness of the oil on both surfaces together before the contact, on the centre line; if they "
         "slide, the oil that they carry over the mean speed; only with `[inlet]`",
         "m",
-        "layer of oil",
+        "layer of oil before the contact",
         r"$h_\mathrm{oil}$",
     ),
     "meniscus_before": Quantity(
         "position on the centre line from which oil fills the gap before the motion; null if the film is "
         "flooded or oil fills the gap at the inlet edge there, like the two below; only with `[inlet]`",
         "m",
+        "meniscus, where oil fills the gap",
     ),
     "meniscus_least": Quantity("minimum over time of this position; only with `[inlet]`", "m"),
     "meniscus_largest": Quantity("maximum over time of this position; only with `[inlet]`", "m"),
 }
 _FIELD: Keys = {
-    "voltage": Quantity("abs(V2 − V1)", "V", "voltage", "$V_{12}$"),
-    "before": Quantity("maximum field strength before the motion", "V/m"),
+    "voltage": Quantity("abs(V2 − V1)", "V", "voltage across the film", "$V_{12}$"),
+    "before": Quantity(
+        "maximum field strength before the motion", "V/m", "maximum field before the motion", bound="≥"
+    ),
     "max_strength": Quantity(
         "maximum field strength of the recorded instants",
         "V/m",
-        "maximum field strength",
+        "maximum field, moving roughness",
         r"$|E|_\mathrm{max}$",
+        bound="≥",
     ),
     "max_strength_time": Quantity("time of max_strength", "s"),
     "max_strength_error": Quantity(
@@ -93,12 +109,16 @@ _FIELD: Keys = {
         "of the field; null if it is unknown at one of them",
         "",
         "error of the maximum field",
+        shown="%",
     ),
     "max_strength_position": Quantity("position of max_strength", "m"),
     "max_thin_gap_strength": Quantity("voltage / minimum film thickness of all steps", "V/m"),
     "share_above_90": Quantity(
         "share of the time since `covered_from` in which the maximum field is above 90 % of its maximum over "
-        "time; between recorded instants the field is taken proportional to voltage / minimum film"
+        "time; between recorded instants the field is taken proportional to voltage / minimum film",
+        "",
+        "time above 90 % of the maximum field",
+        shown="%",
     ),
     "time_above_90": Quantity("duration of share_above_90", "s"),
     "local_maxima": Quantity(
@@ -112,21 +132,33 @@ _ASPERITIES: Keys = {
     "load_share_mean": Quantity(
         "share of asperities in the load, mean over the steps",
         "",
-        "mean load share of asperities",
+        "load share of the asperities, mean",
         r"$L_\mathrm{a}$",
+        shown="%",
+        digits=".2g",
     ),
     "load_share_mean_coarser": Quantity(
         "load_share_mean on every second node with twice the time step; null if this is not known"
     ),
-    "load_share_largest": Quantity("largest share of asperities in the load, of all steps"),
+    "load_share_largest": Quantity(
+        "largest share of asperities in the load, of all steps",
+        "",
+        "load share of the asperities, maximum",
+        shown="%",
+        digits=".2g",
+    ),
     "load_share_largest_time": Quantity("time of load_share_largest; null if nothing touches", "s"),
     "contact_area_share_mean": Quantity(
         "part of the Hertz zone in which the surfaces touch, mean over the steps",
         "",
-        "mean real contact area / Hertz area",
+        "real contact area / Hertz area, mean",
+        shown="%",
+        digits=".2g",
     ),
-    "spots_mean": Quantity("number of spots, mean over the steps", "", "mean number of spots"),
-    "time_share": Quantity("share of the steps with at least one spot", "", "share of time with a spot"),
+    "spots_mean": Quantity("number of spots, mean over the steps", "", "number of spots, mean", digits=".3g"),
+    "time_share": Quantity(
+        "share of the steps with at least one spot", "", "share of time with a spot", shown="%", digits=".3g"
+    ),
     "steps": Quantity(
         "number of time steps since `covered_from`, on which means and time_share rest; an asperity in the "
         "contact stays there for many steps, so that neighbouring steps are not independent"
@@ -134,7 +166,11 @@ _ASPERITIES: Keys = {
 }
 _DISCHARGE: Keys = {
     "breakdown_voltage": Quantity(
-        "minimum breakdown voltage of the recorded instants", "V", "breakdown voltage", r"$V_\mathrm{b}$"
+        "minimum breakdown voltage of the recorded instants",
+        "V",
+        "minimum breakdown voltage",
+        r"$V_\mathrm{b}$",
+        bound="≤",
     ),
     "breakdown_time": Quantity("time of breakdown_voltage", "s"),
     "breakdown_field_error": Quantity(
@@ -148,20 +184,27 @@ _DISCHARGE: Keys = {
         "",
         "margin (breakdown / applied voltage)",
         r"$V_\mathrm{b}/V_{12}$",
+        bound="≤",
     ),
 }
 _BESIDE: Keys = {
-    "time": Quantity("time of the compared instant", "s"),
-    "minimum_thickness": Quantity("minimum film thickness, moving", "m"),
-    "minimum_thickness_stationary": Quantity("minimum film thickness, stationary", "m"),
+    "time": Quantity("time of the compared instant", "s", "time of the same position", shown="ms"),
+    "minimum_thickness": Quantity("minimum film thickness, moving", "m", "minimum film then, moving"),
+    "minimum_thickness_stationary": Quantity(
+        "minimum film thickness, stationary", "m", "minimum film then, stationary"
+    ),
     "thickness_rms_difference": Quantity("root-mean-square difference of the film thickness", "m"),
     "thickness_largest_difference": Quantity("maximum difference of the film thickness", "m"),
     "maximum_pressure": Quantity("maximum pressure, moving", "Pa"),
     "maximum_pressure_stationary": Quantity("maximum pressure, stationary", "Pa"),
     "pressure_rms_difference": Quantity("root-mean-square difference of the pressure", "Pa"),
     "pressure_largest_difference": Quantity("maximum difference of the pressure", "Pa"),
-    "maximum_strength": Quantity("maximum field strength, moving", "V/m"),
-    "maximum_strength_stationary": Quantity("maximum field strength, stationary", "V/m"),
+    "maximum_strength": Quantity(
+        "maximum field strength, moving", "V/m", "maximum field then, moving", bound="≥"
+    ),
+    "maximum_strength_stationary": Quantity(
+        "maximum field strength, stationary", "V/m", "maximum field then, stationary", bound="≥"
+    ),
     "strength_rms_difference": Quantity("root-mean-square difference of the field strength", "V/m"),
     "strength_largest_difference": Quantity("maximum difference of the field strength", "V/m"),
 }
@@ -190,7 +233,7 @@ def _keys(capacitance: str, surface: Keys) -> Keys:
         **under("beside_stationary", _BESIDE),
         "rough": Quantity("source, size, voids and statistics after every step, for each rough surface"),
         **under("rough", surface),
-        "seconds": Quantity("computing time, without interruptions", "s"),
+        "seconds": Quantity("computing time, without interruptions", "s", "computing time", shown="s"),
     }
 
 
@@ -204,10 +247,14 @@ def _capacitances(unit: str) -> Keys:
 
 def _stationary(capacitance: str) -> Keys:
     return {
-        "minimum_thickness": Quantity("minimum film thickness", "m"),
+        "minimum_thickness": Quantity("minimum film thickness", "m", "minimum film, stationary roughness"),
         "minimum_position": Quantity("position of minimum_thickness", "m"),
-        "max_pressure": Quantity("maximum pressure of all nodes", "Pa"),
-        "max_strength": Quantity("maximum field strength", "V/m"),
+        "max_pressure": Quantity(
+            "maximum pressure of all nodes", "Pa", "maximum pressure, stationary roughness"
+        ),
+        "max_strength": Quantity(
+            "maximum field strength", "V/m", "maximum field, stationary roughness", bound="≥"
+        ),
         "capacitance": Quantity("capacitance of the field range", capacitance),
         "discretisation_error": Quantity(
             "relative discretisation error of the stationary film, null where its surfaces touch; that of "
@@ -221,3 +268,22 @@ POINT_KEYS: Keys = _keys("F", POINT_SURFACE)
 
 # Keys by the geometry of the case.
 MOTION_KEYS: dict[str, Keys] = {"line": LINE_KEYS, "point": POINT_KEYS}
+
+# Quantities that outputs show and no summary stores, or stores as items of a list.
+_SHOWN: Keys = {
+    "field.local_maxima_quantiles.1": Quantity(
+        "median of the local maxima of the field strength", "V/m", "local field maxima, median", bound="≥"
+    ),
+    "field.local_maxima_quantiles.2": Quantity(
+        "95 % quantile of the local maxima of the field strength",
+        "V/m",
+        "local field maxima, 95 % quantile",
+        bound="≥",
+    ),
+    **{
+        f"motion.speed_{k}": Quantity(f"speed of surface {k}", "m/s", f"speed of rough surface {k}")
+        for k in (1, 2)
+    },
+}
+# Everything that outputs of a contact over time show, by its geometry.
+MOTION_BOOK: dict[str, Keys] = {geometry: {**keys, **_SHOWN} for geometry, keys in MOTION_KEYS.items()}

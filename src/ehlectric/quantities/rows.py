@@ -231,6 +231,18 @@ def shown_unit(about: Quantity, value: float) -> str:
     return suited(value, about.unit)[1] if unit == "prefixed" else unit
 
 
+def head_of(about: Quantity) -> str:
+    """Head of a column: label, and the unit in which all values of the quantity are shown.
+
+    Examples
+    --------
+    >>> head_of(Quantity("", "J", "energy of a discharge", shown="nJ"))
+    'energy of a discharge [nJ]'
+    """
+    unit = shown_unit(about, 1.0)
+    return f"{about.label} [{unit}]" if unit else about.label
+
+
 def value_at(table: Summary, key: str) -> Any:
     """Value at a dotted key of nested tables and lists; None if a table of the path is None or lacks its key.
 

@@ -229,6 +229,74 @@ SPOT_CARDS = (
     "asperities.breakdown_probability",
 )
 
+# A contact with moving roughness, before its run: below the rows of its stationary contact.
+MOTION_CHECK: Sheet = (
+    Section(
+        "motion of the roughness",
+        (
+            "motion.duration",
+            "motion.courant",
+            "motion.speed_1",
+            "motion.speed_2",
+            "motion.covered_from",
+            "motion.coincident",
+        ),
+    ),
+)
+
+# A contact over time, below its operating conditions.
+MOTION: Sheet = (
+    Section("motion of the roughness", ("motion.duration",)),
+    Section(
+        "film",
+        (
+            "film.minimum_thickness",
+            "film.discretisation_error",
+            "stationary.minimum_thickness",
+            "film.before",
+            "film.max_pressure",
+            "stationary.max_pressure",
+            "film.oil_layer",
+            "film.meniscus_before",
+        ),
+    ),
+    Section(
+        "electric field",
+        (
+            "field.max_strength",
+            "field.max_strength_error",
+            "stationary.max_strength",
+            "field.before",
+            "field.share_above_90",
+            "field.local_maxima_quantiles.1",
+            "field.local_maxima_quantiles.2",
+            "discharge.breakdown_voltage",
+            "discharge.margin",
+        ),
+    ),
+    Section(
+        "asperities that touch",
+        (
+            "asperities.load_share_mean",
+            "asperities.load_share_largest",
+            "asperities.contact_area_share_mean",
+            "asperities.spots_mean",
+            "asperities.time_share",
+        ),
+    ),
+    Section(
+        "moving and stationary, same position",
+        (
+            "beside_stationary.time",
+            "beside_stationary.minimum_thickness",
+            "beside_stationary.minimum_thickness_stationary",
+            "beside_stationary.maximum_strength",
+            "beside_stationary.maximum_strength_stationary",
+        ),
+    ),
+    Section("run", ("motion.halvings", "motion.newton_per_step", "seconds")),
+)
+
 # Quantities that the page of a bearing shows large.
 BEARING_CARDS = (
     "bearing.capacitance",
@@ -238,6 +306,105 @@ BEARING_CARDS = (
     "bearing.lambda_ratio",
     "margin.critical_speed",
     "bearing.regime",
+)
+
+# Quantities of the table "end" are those of each bearing.
+_FILMS = (
+    "end.capacitance",
+    "end.breakdown_voltage",
+    "end.weibull_shape",
+    "end.renewal_time",
+    "end.touching_time_share",
+)
+# A drive before its simulation.
+DRIVE_CHECK: Sheet = (
+    Section(
+        "source and circuit",
+        (
+            "source.peak",
+            "source.edges_per_second",
+            "source.fundamental_frequency",
+            "circuit.winding_rotor_capacitance",
+            "circuit.rotor_frame_capacitance",
+            "circuit.winding_frame_capacitance",
+            "drive.duration",
+            "drive.remedies",
+        ),
+    ),
+    Section("films of the bearing", ("end.films", *_FILMS)),
+    Section("voltage across the films", ("end.voltage_ratio", "end.voltage_at_peak")),
+)
+
+DRIVE: Sheet = (
+    Section(
+        "simulation",
+        (
+            "source.peak",
+            "drive.duration",
+            "drive.periods",
+            "source.edges",
+            "source.edges_per_second",
+            "source.fundamental_frequency",
+            "source.modulation_index",
+            "drive.events",
+        ),
+    ),
+    Section("films of the bearing", _FILMS),
+    Section(
+        "voltage across the films",
+        (
+            "end.voltage_ratio",
+            "end.waveform_ratio",
+            "end.peak_voltage",
+            "end.rms_voltage",
+            "end.time_above.1",
+            "end.time_above.2",
+            "end.time_above.5",
+            "end.time_above.10",
+            "end.time_above.20",
+            "end.time_above.50",
+        ),
+    ),
+    Section(
+        "discharges",
+        (
+            "end.events",
+            "end.events_per_second",
+            "end.events_per_second_range",
+            "end.events_per_edge",
+            "end.burning_time_share",
+            "end.voltage_mean",
+            "end.voltage_high",
+            "end.voltage_largest",
+            "end.energy_mean",
+            "end.energy_high",
+            "end.energy_largest",
+            "end.charge_mean",
+            "end.peak_current_mean",
+            "end.peak_current_largest",
+            "end.time_mean",
+            "end.power",
+            "end.contact_current",
+            "end.current_density",
+            "end.element_current_density",
+            "end.real_current_density",
+        ),
+    ),
+)
+
+# A bearing of a drive, beside those of its remedies.
+REMEDIES: Sheet = (
+    Section(
+        "remedies side by side",
+        (
+            "end.events_per_second",
+            "end.events_per_second_range",
+            "end.voltage_mean",
+            "end.energy_mean",
+            "end.power",
+            "end.peak_voltage",
+        ),
+    ),
 )
 
 # Quantities that the page of a drive shows large, simulated or not.

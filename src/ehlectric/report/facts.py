@@ -61,9 +61,14 @@ def _cells(row: Row) -> Iterator[str]:
     name = printable(row.name)
     indent = "\u2003" * ((len(name) - len(name.lstrip(" "))) // 2)
     yield indent + name.strip()
-    yield printable(row.bounded).replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
+    yield unbroken(row.bounded)
     yield printable(row.unit).replace(" ", "\xa0")
     yield printable(row.note.lstrip(",; ").strip())
+
+
+def unbroken(text: str) -> str:
+    """Text of a cell whose sign of a bound stays on the line of its number."""
+    return printable(text).replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
 
 
 def cell_table(table: RichTable, caption: str, first: str) -> Table:

@@ -114,9 +114,8 @@ def _check_contact(case: Case) -> Meaning:
         summary["lambda_by_formula"] = lambda_ratio
         rows += _lambda_rows(lambda_ratio)
     if case.motion is not None:
-        schedule = TransientContact.of(case, contact.rough).schedule
-        summary["motion"] = schedule.described()
-        rows += schedule_rows(schedule, contact.conditions.entrainment_speed)
+        summary["motion"] = TransientContact.of(case, contact.rough).schedule.described()
+        rows += schedule_rows(summary)
     return Meaning(case.title, tuple(rows), summary, tuple(contact.warnings()))
 
 

@@ -2,197 +2,122 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.kinds import KINDS
 from ehlectric.contact.spots.warnings import share_text
-from ehlectric.motion.schedule import Schedule
-from ehlectric.quantities.motion_results import LINE_KEYS
-from ehlectric.quantities.quantity import Bound
-from ehlectric.quantities.rows import Row, rows_of, value_at
+from ehlectric.quantities.bounds import ideal_bounds
+from ehlectric.quantities.motion_results import MOTION_BOOK
+from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, value_at
+from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
 from ehlectric.tables.contact import condition_rows
 
-# The film is isothermal and fully flooded: real films are thinner, so that their field is higher, and they
-# break down at lower voltages.
-_AT_MOST = ("discharge.breakdown_voltage", "discharge.margin")
-_AT_LEAST = (
-    "field.max_strength",
-    "field.before",
-    "field.local_maxima_quantiles.1",
-    "field.local_maxima_quantiles.2",
-    "stationary.max_strength",
-    "beside_stationary.maximum_strength",
-    "beside_stationary.maximum_strength_stationary",
-)
-_BOUNDS: Mapping[str, Bound] = {key: "≤" if key in _AT_MOST else "≥" for key in (*_AT_MOST, *_AT_LEAST)}
 
-# Heading after whose rows those of asperities come.
-_LAST_OF_RUN = "electric field"
+def schedule_rows(summary: Summary) -> Iterator[Row]:
+    """Rows of the time steps and speeds of rough surfaces, from the summary of a case before its run."""
+    book = MOTION_BOOK[summary["inputs"]["contact"]["geometry"]]
+    return sheet_rows(MOTION_CHECK, book, summary, _WORDS)
 
 
-def schedule_rows(schedule: Schedule, entrainment_speed: float) -> Iterator[Row]:
-    """Rows of a schedule: its duration, its steps, and the speeds of the rough surfaces.
-
-    Parameters
-    ----------
-    schedule : Schedule
-        Time steps of a run.
-    entrainment_speed : float
-        Entrainment speed of the contact [m/s].
-
-    Yields
-    ------
-    Row
-        Values in SI units.
-    """
-    moments = schedule.moments()
-    yield Row("motion of the roughness")
-    yield Row("duration of the motion", schedule.end * schedule.time, "ms", f", {schedule.steps} time steps")
-    yield Row("oil travel per time step / grid spacing", schedule.courant, digits=".3g")
-    for surface in schedule.rough:
-        speed = schedule.speed_of(surface) * entrainment_speed
-        yield Row(f"speed of rough surface {surface}", speed, "m/s")
-    for name, key in (
-        ("roughness fills the Hertz zone from", "covered_from"),
-        ("roughness at its place in the case at", "coincident"),
-    ):
-        if key in moments:
-            yield Row(name, moments[key], "ms")
-
-
-def run_rows(summary: Mapping[str, Any]) -> list[Row]:
-    """Rows of the key figures of a transient run.
-
-    Parameters
-    ----------
-    summary : mapping
-        Summary of the run, as ``summary_of`` gives it.
-
-    Returns
-    -------
-    list of Row
-        Values in SI units, without numbers that are None and without the number of halvings if it is 0.
-    """
+def run_rows(summary: Summary) -> list[Row]:
+    """Rows of the key figures of a transient run, below the operating conditions of its case."""
     case = Case.from_dict(summary["inputs"])
     conditions = KINDS[case.contact.geometry].resolve(case)
-    halvings = summary["motion"]["halvings"] or None
-    shown = {**summary, "motion": {**summary["motion"], "halvings": halvings}}
-    rows = [*condition_rows(case, conditions)]
-    for heading, entries in _entries(summary):
-        found = list(rows_of(LINE_KEYS, shown, entries, _BOUNDS))
-        rows += [Row(heading), *found] if found else []
-        if heading == "film":
-            rows += _supply(summary, conditions.half_width)
-        if heading == _LAST_OF_RUN:
-            rows += _touching_rows(summary)
-    return rows
+    book = MOTION_BOOK[case.contact.geometry]
+    meniscus = partial(_meniscus, conditions.half_width)
+    words = _WORDS | Words(values={"film.meniscus_before": meniscus})
+    rows = sheet_rows(MOTION, book, summary, words, ideal_bounds(book))
+    return [*condition_rows(case, conditions), *rows]
 
 
-def _supply(summary: Mapping[str, Any], half_width: float) -> Iterator[Row]:
-    """Rows of the layer of oil of a run; none where the case gives no layer."""
+def _meniscus(half_width: float, summary: Summary) -> str | None:
+    """Where oil fills the gap before the motion and over time; None without a layer of oil."""
     film = summary["film"]
     if "oil_layer" not in film:
-        return
-    yield Row("layer of oil before the contact", film["oil_layer"], "µm", ", on both surfaces together")
+        return None
     places = [film[f"meniscus_{name}"] for name in ("before", "least", "largest")]
     if None in places:
-        yield Row("meniscus, where oil fills the gap", "none: flooded")
-        return
+        return "none: flooded"
     before, least, largest = (f"{place / half_width:.3g}" for place in places)
-    over_time = f", {least} to {largest} over time"
-    yield Row("meniscus, where oil fills the gap", f"x/b = {before} before the motion{over_time}")
+    return f"x/b = {before} before the motion, {least} to {largest} over time"
 
 
-def _entries(summary: Mapping[str, Any]) -> Iterator[tuple[str, tuple[tuple[str, ...], ...]]]:
-    """Headings of the table of a run, each with the entries of its rows as ``rows_of`` expects them."""
-    steps, peaks = summary["motion"]["steps"], summary["field"]["local_maxima"]
-    film_at, field_at = _time(summary, "film.minimum_time"), _time(summary, "field.max_strength_time")
-    breakdown_at = _time(summary, "discharge.breakdown_time")
-    if _touches(summary):
-        film_at, field_at, breakdown_at = (
-            f"{at}, in the boundary film" for at in (film_at, field_at, breakdown_at)
-        )
-    yield (
-        "motion of the roughness",
-        (("duration of the motion", "motion.duration", "ms", f", {steps} time steps"),),
-    )
-    yield (
-        "film",
-        (
-            ("minimum film, moving roughness", "film.minimum_thickness", "µm", film_at),
-            ("discretisation error in space and time", "film.discretisation_error", "%"),
-            ("minimum film, stationary roughness", "stationary.minimum_thickness", "µm"),
-            ("minimum film before the motion", "film.before", "µm"),
-            ("maximum pressure, moving roughness", "film.max_pressure", "GPa"),
-            ("maximum pressure, stationary roughness", "stationary.max_pressure", "GPa"),
-        ),
-    )
-    yield (
-        _LAST_OF_RUN,
-        (
-            ("maximum field, moving roughness", "field.max_strength", "V/µm", field_at),
-            ("error of the maximum field", "field.max_strength_error", "%"),
-            ("maximum field, stationary roughness", "stationary.max_strength", "V/µm"),
-            ("maximum field before the motion", "field.before", "V/µm"),
-            ("time above 90 % of the maximum field", "field.share_above_90", "%", " of the evaluated time"),
-            ("local field maxima, median", "field.local_maxima_quantiles.1", "V/µm", f", {peaks} maxima"),
-            ("local field maxima, 95 % quantile", "field.local_maxima_quantiles.2", "V/µm"),
-            ("minimum breakdown voltage", "discharge.breakdown_voltage", "V", breakdown_at),
-            ("margin (breakdown / applied voltage)", "discharge.margin", ""),
-        ),
-    )
-    yield (
-        "moving and stationary, same position",
-        (
-            ("time of the same position", "beside_stationary.time", "ms"),
-            ("minimum film then, moving", "beside_stationary.minimum_thickness", "µm"),
-            ("minimum film then, stationary", "beside_stationary.minimum_thickness_stationary", "µm"),
-            ("maximum field then, moving", "beside_stationary.maximum_strength", "V/µm"),
-            (
-                "maximum field then, stationary",
-                "beside_stationary.maximum_strength_stationary",
-                "V/µm",
-            ),
-        ),
-    )
-    yield (
-        "run",
-        (
-            ("halvings of time steps", "motion.halvings", ""),
-            ("Newton steps per time step", "motion.newton_per_step", ""),
-            ("computing time", "seconds", "s"),
-        ),
-    )
+def _touches(summary: Summary) -> bool:
+    """Whether the surfaces touch at one time step."""
+    return bool(summary["asperities"]["load_share_largest"] > 0.0)
 
 
-def _touches(summary: Mapping[str, Any]) -> bool:
-    """Whether the surfaces touch at one time step; summaries of earlier versions say nothing of it."""
-    return bool("asperities" in summary and summary["asperities"]["load_share_largest"] > 0.0)
+def _hidden(summary: Summary) -> frozenset[str]:
+    """Keys of the asperities, where none touches."""
+    if "asperities" not in summary or _touches(summary):
+        return frozenset()
+    return frozenset(key for section in MOTION for key in section.keys if key.startswith("asperities."))
 
 
-def _touching_rows(summary: Mapping[str, Any]) -> Iterator[Row]:
-    """Rows of the asperities that touch; none where the surfaces do not touch at any time."""
-    if not _touches(summary):
-        return
+def _time(key: str, *, boundary: bool = False) -> Callable[[Summary], str]:
+    """Note with a time of a summary, and that a value in a spot is that of the boundary film."""
+
+    def note(summary: Summary) -> str:
+        time = value_at(summary, key)
+        at = "" if time is None else f" at {1e3 * time:.4g} ms"
+        return f"{at}, in the boundary film" if boundary and _touches(summary) else at
+
+    return note
+
+
+def _speed(surface: int) -> Callable[[Summary], float | None]:
+    """Speed of a surface [m/s]; None of a smooth one."""
+
+    def value(summary: Summary) -> float | None:
+        inputs = summary["inputs"]
+        if surface not in (table["surface"] for table in inputs["roughness"]):
+            return None
+        ratio = summary["motion"][f"speed_ratio_{surface}"]
+        return float(ratio * inputs["contact"]["entrainment_speed"])
+
+    return value
+
+
+def _load_share(summary: Summary) -> tuple[str, str]:
+    """Mean load share with no more digits than its change from a coarser grid leaves."""
     found = summary["asperities"]
-    share, coarser = found["load_share_mean"], found["load_share_mean_coarser"]
-    on_half = ", not known on a coarser grid"
-    if coarser is not None:
-        on_half = f", {share_text(coarser, share)} % on half the nodes"
-    name, largest_at = "load share of the asperities", _time(summary, "asperities.load_share_largest_time")
-    yield Row("asperities that touch")
-    yield Row(f"{name}, mean", share_text(share, coarser), "%", on_half)
-    yield Row(f"{name}, largest", found["load_share_largest"], "%", largest_at, digits=".2g")
-    of = ", of the Hertz zone"
-    yield Row("real contact, mean", found["contact_area_share_mean"], "%", of, digits=".2g")
-    yield Row("number of spots, mean", found["spots_mean"], digits=".3g")
-    of = f" of {found['steps']} evaluated time steps"
-    yield Row("time with at least one spot", found["time_share"], "%", of, digits=".3g")
+    return share_text(found["load_share_mean"], found["load_share_mean_coarser"]), "%"
 
 
-def _time(summary: Mapping[str, Any], key: str) -> str:
-    """Note with a time of a summary; empty where the summary has none."""
-    time = value_at(summary, key)
-    return "" if time is None else f" at {1e3 * time:.4g} ms"
+def _coarser_share(summary: Summary) -> str:
+    found = summary["asperities"]
+    coarser = found["load_share_mean_coarser"]
+    if coarser is None:
+        return ", not known on a coarser grid"
+    return f", {share_text(coarser, found['load_share_mean'])} % on half the nodes"
+
+
+def _halvings(summary: Summary) -> Any:
+    return summary["motion"]["halvings"] or None
+
+
+_WORDS = Words(
+    notes={
+        "motion.duration": lambda s: f", {s['motion']['steps']} time steps",
+        "film.minimum_thickness": _time("film.minimum_time", boundary=True),
+        "film.oil_layer": lambda _: ", on both surfaces together",
+        "field.max_strength": _time("field.max_strength_time", boundary=True),
+        "field.share_above_90": lambda _: " of the evaluated time",
+        "field.local_maxima_quantiles.1": lambda s: f", {s['field']['local_maxima']} maxima",
+        "discharge.breakdown_voltage": _time("discharge.breakdown_time", boundary=True),
+        "asperities.load_share_mean": _coarser_share,
+        "asperities.load_share_largest": _time("asperities.load_share_largest_time"),
+        "asperities.contact_area_share_mean": lambda _: ", of the Hertz zone",
+        "asperities.time_share": lambda s: f" of {s['asperities']['steps']} evaluated time steps",
+    },
+    values={
+        "motion.speed_1": _speed(1),
+        "motion.speed_2": _speed(2),
+        "motion.halvings": _halvings,
+        "asperities.load_share_mean": _load_share,
+    },
+    hidden=_hidden,
+)

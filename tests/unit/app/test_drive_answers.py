@@ -5,13 +5,11 @@ from dataclasses import asdict
 
 import pytest
 
-from ehlectric.app.answers.told import DRIVE_PLACES
 from ehlectric.app.compute.drives.answer import quick_answer, simulate
-from ehlectric.app.compute.drives.numbers import text_of
 from ehlectric.app.pages.starts import DRIVE
 from ehlectric.cases.drives.case import ENDS, DriveCase
 from ehlectric.drive.quick import expected, quick_drive
-from ehlectric.errors import CODES, InputError
+from ehlectric.errors import InputError
 from ehlectric.quantities.formats import number_text
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.meaning import check
@@ -258,9 +256,8 @@ def test_a_choke_is_simulated(tmp_path):
 
 
 def test_warnings_have_a_place():
-    assert set(DRIVE_PLACES) == set(CODES)
     answer = quick(**{"circuit.machine": None})
-    names = {one.name for one in answer.shown}
+    names = {one.key for one in answer.shown}
     assert all(set(one.beside) <= names for one in answer.warnings)
 
 
@@ -281,11 +278,3 @@ def test_estimated_capacitances_are_told_beside_them():
     assert "capacitances-estimated" in [
         one.code for one in answer.number("circuit.winding_rotor_capacitance").told
     ]
-
-
-def test_texts_of_numbers():
-    assert text_of(None, "V") == "none"
-    assert text_of(0.0, "J") == "0 J"
-    assert text_of(1.7e-8, "J") == "17 nJ"
-    assert text_of(28600.0, "1/s") == "28\u202f600"
-    assert text_of(123.4, "1/s") == "123"

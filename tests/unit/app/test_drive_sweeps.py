@@ -39,7 +39,10 @@ def test_first_inputs_and_results():
         "drive.temperature",
         "bearings.bearing.radial_load",
     ]
-    assert next(iter(found.values.items())) == ("drive.events_per_second", "Discharges per second")
+    assert next(iter(found.values.items())) == (
+        "drive.events_per_second",
+        "Discharges per second, both bearings",
+    )
     # The table of the drive gives speed and temperature of both bearings.
     keys = {one.key for one in found.variables}
     assert not keys & {"bearings.bearing.inner_speed", "bearings.bearing.temperature"}

@@ -165,10 +165,10 @@ def test_the_summary_tables_figures_and_warnings_say_it(written):
     # The minimum is the boundary film, whose error means nothing.
     assert not {"grid-far-too-coarse", "error-unknown", "stationary-error"} & set(summary["warning_codes"])
     assert summary["film"]["discretisation_error"] is None
-    rows = {row.name: row for row in run_rows(summary)}
-    assert rows["number of spots, mean"].value == found["spots_mean"]
-    assert f"of {found['steps']} evaluated time steps" in rows["time with at least one spot"].text
-    assert rows["minimum film, moving roughness"].text.endswith("in the boundary film")
+    rows = {row.key: row for row in run_rows(summary)}
+    assert rows["asperities.spots_mean"].value == found["spots_mean"]
+    assert f"of {found['steps']} evaluated time steps" in rows["asperities.time_share"].text
+    assert rows["film.minimum_thickness"].text.endswith("in the boundary film")
     moving_run = MotionRun.of(dataset)
     assert "surfaces touch" in of_history(moving_run)
     labels = [ax.get_ylabel() for ax in figure(moving_run, "motion_history.png").axes]

@@ -39,10 +39,10 @@ def test_the_summary_has_the_layer_and_the_meniscus(outcome):
 
 @pytest.mark.slow
 def test_the_table_has_the_layer_and_the_meniscus(outcome):
-    rows = {row.name: str(row.value) for row in run_rows(outcome.summary)}
-    assert float(rows["layer of oil before the contact"]) == pytest.approx(LAYER, rel=1e-12)
+    rows = {row.key: str(row.value) for row in run_rows(outcome.summary)}
+    assert float(rows["film.oil_layer"]) == pytest.approx(LAYER, rel=1e-12)
     place = outcome.summary["film"]["meniscus_before"] / resolve(CASE).half_width
-    assert f"x/b = {place:.3g} before the motion" in rows["meniscus, where oil fills the gap"]
+    assert f"x/b = {place:.3g} before the motion" in rows["film.meniscus_before"]
 
 
 @pytest.mark.slow

@@ -79,21 +79,21 @@ def test_sections_begin_with_the_answer(report):
 
 def test_numbers_of_both_ends_are_those_of_the_summary(report, drive):
     summary, found = drive.summary(), tables(report, "Key numbers")
-    events = rows(found["Discharges"])
+    events = rows(found["discharges"])
     ends = [summary[end] for end in ("drive_end", "non_drive_end")]
-    assert events["discharges in the simulated time"][:2] == tuple(str(end["events"]) for end in ends)
+    assert events["number of discharges"][:2] == tuple(str(end["events"]) for end in ends)
     bounds = [[float(end[f"events_per_second_{side}"]) for side in ("low", "high")] for end in ends]
     shown = [
-        list(map(float, text.split(" to "))) for text in events["discharges per second, bounds of 95 %"][:2]
+        list(map(float, text.split(" to "))) for text in events["discharges per second, 95 % interval"][:2]
     ]
     assert np.array(shown) == pytest.approx(np.array(bounds), rel=5e-3)
     assert events["energy of a discharge, mean"] == (
         *(f"{1e9 * end['energy_mean']:.3g}" for end in ends),
         "nJ",
     )
-    assert rows(found["Simulation"])["edges of the common-mode voltage"] == ("1200", "")
+    assert rows(found["simulation"])["edges of the source"] == ("1200", "", "")
     times = [
-        name for name in rows(found["Voltages across the films"]) if name.startswith("share of time above")
+        name for name in rows(found["voltage across the films"]) if name.startswith("share of time above")
     ]
     assert times[0] == "share of time above 1 V"
     assert len(times) < 6  # beyond the first voltage that is never reached there is nothing to say
@@ -157,8 +157,8 @@ def test_a_drive_without_discharges(drive):
     part = drive_part(DriveResult(drive.remedies[0][2]))
     assert [one.title for one in part.further] == ["Largest discharges"]
     assert [type(block) for block in part.further[0].blocks] == [Text]
-    discharges = rows(next(one for one in part.numbers if getattr(one, "caption", "") == "Discharges"))
-    assert discharges["discharges per second, bounds of 95 %"][0].startswith("at most ")
+    discharges = rows(next(one for one in part.numbers if getattr(one, "caption", "") == "discharges"))
+    assert discharges["discharges per second, 95 % interval"][0].startswith("at most ")
     assert "energy of a discharge, mean" not in discharges
     assert f"{LISTED} discharges" in next(event_blocks(drive)).text
 
@@ -238,7 +238,9 @@ def test_a_sweep_of_drives_has_a_verdict_and_its_values(swept):
     verdict = swept_verdict(results)
     assert (light.level, light.text) == (verdict.level, verdict.text)
     points = tables(report, "Points")["Points of the sweep"]
-    rates = [float(row[points.heads.index("discharges per second [1/s]")]) for row in points.rows]
+    rates = [
+        float(row[points.heads.index("discharges per second, both bearings [1/s]")]) for row in points.rows
+    ]
     assert rates == pytest.approx(results.values("drive.events_per_second"), rel=1e-3)
     # The bearings differ from point to point, so that both ends have columns.
     assert {"discharges per second, drive end [1/s]", "discharges per second, non-drive end [1/s]"} <= {

@@ -59,7 +59,8 @@ PRINTED = ("check line", "check motion", "line", "rough line", "circle", "gaussi
 def printed(moved):
     """Rows of every table that is printed, by name."""
     contact = TransientContact.of(moving())
-    schedule = schedule_rows(contact.schedule, contact.conditions.entrainment_speed)
+    summary = case_summary(contact.case, contact.conditions)
+    schedule = schedule_rows(summary | {"motion": contact.schedule.described()})
     rough = {"surface": 1, "generator": "sinusoid", "amplitude": "20 nm", "wavelength": "200 um"}
     return {
         "check line": rows_of_a_case(line()),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ehlectric.app.answers.bearing import Figure, Judged, Number, Table
+from ehlectric.app.answers.bearing import Figure, Judged, Table
 from ehlectric.app.answers.line import Line
+from ehlectric.app.answers.number import Number
 from ehlectric.app.answers.told import Told
 
 
@@ -53,6 +54,6 @@ class DriveAnswer:
     figures: Mapping[str, Figure] = field(default_factory=dict)
     seconds: float = 0.0
 
-    def number(self, name: str) -> Number | None:
-        """Number of a name; None where the answer has none."""
-        return next((one for one in self.shown if one.name == name), None)
+    def number(self, key: str) -> Number | None:
+        """Number of a key; None where the answer has none."""
+        return next((one for one in self.shown if one.key == key), None)

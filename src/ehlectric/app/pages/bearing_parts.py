@@ -7,6 +7,7 @@ from html import escape
 
 from nicegui import ui
 
+from ehlectric.app.answers import number as book
 from ehlectric.app.answers.bearing import Difference, Figure, Judged, Number, Table
 from ehlectric.app.answers.told import Told, counts
 from ehlectric.app.pages import parts
@@ -56,13 +57,14 @@ class NumberBox:
             self._note = ui.label().classes("note")
             self._told = ui.html("", sanitize=False)
 
-    def show(self, number: Number | None) -> None:
+    def show(self, number: Number | book.Number | None) -> None:
         """Show a number; None hides the one before."""
         self._box.set_visibility(number is not None)
         if number is None:
             return
         self._label.text, self._note.text = number.label, number.note
-        self._value.text = f"{number.bound} {number.text}".strip()
+        unit = number.unit if isinstance(number, book.Number) else ""
+        self._value.text = " ".join(filter(None, [number.bound, number.text, unit]))
         self._value.classes(replace="value" if number.known else "value unknown")
         self._told.content = "".join(map(_told, number.told))
 

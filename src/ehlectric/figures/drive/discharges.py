@@ -15,15 +15,11 @@ from ehlectric.figures.axes import scale_axis
 from ehlectric.figures.data import is_wide
 from ehlectric.figures.drive.looks import COLOURS, NAMES, events_of, number_of_events
 from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.quantities.drive_results import EVENT_KEYS
 from ehlectric.quantities.units import unit_for
 
-# Quantities of a discharge: name, column of a record, and unit.
-QUANTITIES = (
-    ("voltage at breakdown", VOLTAGE, "V"),
-    ("charge", CHARGE, "C"),
-    ("energy in the arc", ENERGY, "J"),
-    ("peak current", PEAK, "A"),
-)
+# Quantities of a discharge, and their columns of a record.
+QUANTITIES = (("voltage", VOLTAGE), ("charge", CHARGE), ("energy", ENERGY), ("peak_current", PEAK))
 
 # Number of bins of a distribution, and values outside of which lie too few discharges to be seen [%].
 _LEAST, _MOST = 8, 40
@@ -52,10 +48,11 @@ def distribution(result: DriveResult, ax: Axes | None = None, *, quantity: int =
         by more than a factor of 20; the outer ones hold what lies beyond.
     """
     ax = axes_or_new(ax)
-    name, column, unit = QUANTITIES[quantity]
+    name, column = QUANTITIES[quantity]
+    about = EVENT_KEYS[name]
     values = [np.abs(events_of(result, b)[:, column]) for b in range(2)]
     edges, log = bins_of(np.concatenate(values))
-    factor, prefixed = unit_for(float(edges[-1]), unit, least=1.0)
+    factor, prefixed = unit_for(float(edges[-1]), about.unit, least=1.0)
     edges = factor * edges
     for b, own in enumerate(values):
         if not own.size:
@@ -65,7 +62,7 @@ def distribution(result: DriveResult, ax: Axes | None = None, *, quantity: int =
         if b == 0:
             ax.stairs(share, edges, color=COLOURS[b], fill=True, alpha=0.35, lw=0.0, label=_label(result, b))
         ax.stairs(share, edges, color=COLOURS[b], lw=1.1, label="_" if b == 0 else _label(result, b))
-    scale_axis(ax.xaxis, f"{name} [{prefixed}]", values=edges, log=log)
+    scale_axis(ax.xaxis, f"{about.label} [{prefixed}]", values=edges, log=log)
     if not log:
         ax.xaxis.set_major_locator(MaxNLocator(5))
     ax.set_xlim(edges[0], edges[-1])

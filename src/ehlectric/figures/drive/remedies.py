@@ -17,6 +17,7 @@ from ehlectric.drive.summary import end_summary
 from ehlectric.figures.drive.looks import COLOURS, NAMES
 from ehlectric.figures.names import literal
 from ehlectric.figures.style import axes_or_new, legend_above
+from ehlectric.quantities.drive_results import DRIVE_BOOK
 from ehlectric.quantities.palette import GREY
 from ehlectric.quantities.units import unit_for
 
@@ -68,7 +69,7 @@ def rates(result: DriveResult, ax: Axes | None = None) -> Axes:
                 ax.plot([bottom, high], [at, at], ls=":", **look)
                 ax.plot([high], [at], marker="<", ms=5.5, mfc="white", **look)
     _log_axis(ax, bottom, 2.0 * max(highest))
-    ax.set_xlabel("discharges per second")
+    ax.set_xlabel(DRIVE_BOOK["end.events_per_second"].label)
     _rows(ax, [name for name, _ in rows])
     return ax
 
@@ -108,7 +109,7 @@ def energies(result: DriveResult, ax: Axes | None = None) -> Axes:
         _log_axis(ax, 0.5 * min(positive), 2.0 * max(positive))
     else:
         ax.set_xlim(0.0, 1.15 * max(positive, default=1.0))
-    ax.set_xlabel(f"mean energy of a discharge [{unit}]")
+    ax.set_xlabel(f"{DRIVE_BOOK['end.energy_mean'].label} [{unit}]")
     _rows(ax, [name for name, _ in rows])
     ax.tick_params(labelleft=False)
     return ax

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ehlectric.drive.result import DriveResult
-from ehlectric.quantities.drive_results import EVENT_COLUMNS, NAMES_OF_ENDS
+from ehlectric.quantities.drive_results import EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.formats import number_text
 from ehlectric.quantities.units import unit_for
 from ehlectric.report.content import Block, Table, Text
@@ -19,7 +19,6 @@ LISTED = 20
 _DIGITS = 6
 
 _SHARES = (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
-_NAMES = {"time": "time of the breakdown", "peak_current": "peak current"}
 
 
 def event_blocks(result: DriveResult) -> Iterator[Block]:
@@ -44,10 +43,10 @@ def event_blocks(result: DriveResult) -> Iterator[Block]:
         "duration follow from the given resistance and extinction of an arc. events.csv has the others."
     )
     scales = {
-        name: unit_for(max(abs(row[name]) for row in listed), unit, least=1.0)
-        for name, unit in EVENT_COLUMNS.items()
+        name: unit_for(max(abs(row[name]) for row in listed), about.unit, least=1.0)
+        for name, about in EVENT_KEYS.items()
     }
-    heads = [f"{_NAMES.get(name, name)} [{unit}]" for name, (_, unit) in scales.items()]
+    heads = [f"{EVENT_KEYS[name].label} [{unit}]" for name, (_, unit) in scales.items()]
     digits = _decimals(max(row["time"] for row in listed) * scales["time"][0])
     cells = tuple(
         (

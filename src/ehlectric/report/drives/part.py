@@ -11,12 +11,12 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.figures.names import with_units_kept
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.units import rpm
-from ehlectric.report.content import Block, Section
+from ehlectric.report.content import Section
 from ehlectric.report.drawn import pictures_of
 from ehlectric.report.drives.assumptions import assumption_section
 from ehlectric.report.drives.events import event_blocks
 from ehlectric.report.drives.limits import drive_limits, drive_references
-from ehlectric.report.drives.numbers import end_tables, simulation_table
+from ehlectric.report.drives.numbers import number_tables
 from ehlectric.report.drives.remedies import remedy_blocks
 from ehlectric.report.part import UNSOLVED, Part, details_of
 
@@ -44,7 +44,7 @@ def drive_part(result: DriveResult) -> Part:
         verdict=replace(verdict, text=with_units_kept(verdict.text)),
         warnings=result.warnings,
         before=(assumption_section(case, summary),),
-        numbers=tuple(_numbers(summary)),
+        numbers=tuple(number_tables(summary)),
         pictures=tuple(pictures_of(result, converged=result.converged)),
         further=tuple(_sections(result, summary)),
         limits=tuple(drive_limits(case)),
@@ -73,11 +73,6 @@ def _lead(summary: Mapping[str, Any]) -> str:
         parts.append(f"{edges} edges of the common-mode voltage")
     speed, temperature = rpm(drive["speed"]), drive["temperature"] - 273.15
     return f"{speed:.4g} rpm, {temperature:.4g} °C; {', '.join(parts)}."
-
-
-def _numbers(summary: Mapping[str, Any]) -> Iterator[Block]:
-    yield simulation_table(summary)
-    yield from end_tables(summary)
 
 
 def _sections(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Section]:

@@ -12,22 +12,14 @@ from ehlectric.drive.result import DriveResult
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.errors import CODES, printable
 from ehlectric.quantities.drive_results import NAMES_OF_ENDS
+from ehlectric.quantities.sheets import REMEDIES
 from ehlectric.report.content import Block, Table, Text
-from ehlectric.report.drives.numbers import BOUNDS, value_text
+from ehlectric.report.facts import unbroken
 from ehlectric.report.light import light_of
 from ehlectric.report.origins import input_text
+from ehlectric.tables.drive import remedy_cells, remedy_heads
 
 AS_IT_IS = "as it is"
-
-# Columns of the drives side by side: head, key, and unit in which it is shown.
-_COLUMNS = (
-    ("discharges per second", "events_per_second", "1/s"),
-    ("bounds of 95 %", BOUNDS, "1/s"),
-    ("mean voltage [V]", "voltage_mean", "V"),
-    ("mean energy [nJ]", "energy_mean", "nJ"),
-    ("mean power [µW]", "power", "µW"),
-    ("largest voltage [V]", "peak_voltage", "V"),
-)
 
 
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
@@ -60,16 +52,17 @@ def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[B
     verdicts = tuple((printable(title), _words(one, own), _further(one, known)) for title, one, own in drives)
     judged = ("drive", "verdict", "further warnings")
     yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
+    keys = REMEDIES[0].keys
     rows = tuple(
         (
             printable(title),
             place,
-            *(value_text(own[end], key, unit) for _, key, unit in _COLUMNS),
+            *map(unbroken, remedy_cells(own, end, keys)),
         )
         for title, _, own in drives
         for end, place in NAMES_OF_ENDS.items()
     )
-    columns = ("drive", "bearing", *(head for head, _, _ in _COLUMNS))
+    columns = ("drive", "bearing", *remedy_heads(keys))
     yield Table(
         "Remedies side by side", columns, rows, tuple(range(2, len(columns))),
         shares=(0.2, 0.14, 0.12, 0.15, 0.1, 0.09, 0.09, 0.11),

@@ -130,7 +130,7 @@ def test_shares_of_time_are_those_of_the_summary(drive):
 def test_distributions_hold_every_discharge(drive):
     drawn = figure(drive, DISCHARGES)
     assert [ax.get_xlabel().partition(" [")[0] for ax in drawn.axes] == [
-        "voltage at breakdown", "charge", "energy in the arc", "peak current",
+        "voltage of a discharge", "charge of a discharge", "energy of a discharge", "peak arc current",
     ]  # fmt: skip
     events = drive.solution.record.events
     for ax in drawn.axes:
@@ -187,5 +187,5 @@ def test_a_drive_that_is_not_converged_says_so(drive):
 def test_a_notebook_shows_a_drive_and_its_case_as_tables(drive):
     shown = drive._repr_html_()
     assert "discharges per second" in shown
-    assert "peak current of a discharge, mean" in shown
+    assert "peak arc current, mean" in shown
     assert "source.dc_link" in drive.case._repr_html_()

@@ -10,11 +10,10 @@ from ehlectric.app.answers.drive import DriveAnswer
 from ehlectric.app.answers.told import within
 from ehlectric.app.compute.cases import drive_of
 from ehlectric.app.compute.drives.numbers import (
+    drive_numbers,
     ends_table,
     merged,
-    prepared_numbers,
     remedies_table,
-    simulated_numbers,
 )
 from ehlectric.app.compute.drives.verdict import judged_after, judged_before
 from ehlectric.app.compute.lines import lines_of
@@ -28,6 +27,7 @@ from ehlectric.drive.summary import checked_summary
 from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import bearing_warnings, machine_warnings
 from ehlectric.errors import InputError
+from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK
 from ehlectric.runs.by_kind import run_drive
 from ehlectric.runtime.parallel.workers import cores
 from ehlectric.runtime.progress import Progress
@@ -61,7 +61,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
     summary = checked_summary(ready)
     found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
     told = merged(told_of(found))
-    shown = prepared_numbers(summary, told)
+    shown = drive_numbers(summary, DRIVE_CHECK, told)
     films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}
     how = "; ".join(f"Contacts {HOW[way]}: films may be {error} off" for way, error in sorted(films))
     solved = "; the simulation solves them" if _is_solved(case) else ""
@@ -71,9 +71,9 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
         judged=judged_before(expected(case, summary)),
         how=f"{how}{solved}. By the capacitive divider, without a simulation.",
         shown=shown,
-        ends=ends_table(summary),
+        ends=ends_table(summary, DRIVE_CHECK),
         lines=lines_of(prepared_rows(summary)),
-        warnings=within(told, {one.name for one in shown}),
+        warnings=within(told, {one.key for one in shown}),
     )
 
 
@@ -113,7 +113,7 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
     outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
     summary = outcome.summary
     told = merged(told_of(outcome.warnings))
-    shown = simulated_numbers(summary, told)
+    shown = drive_numbers(summary, DRIVE, told)
     progress(0, 0, "drawing")
     return DriveAnswer(
         title=case.title,
@@ -121,9 +121,9 @@ def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Pr
         judged=judged_after(drive_verdict(case, summary, outcome.warnings)),
         how=f"Simulated in {summary['seconds']:.3g} s, as ehlectric drive does it.",
         shown=shown,
-        ends=ends_table(summary),
+        ends=ends_table(summary, DRIVE),
         lines=lines_of(drive_rows(summary)),
-        warnings=within(told, {one.name for one in shown}),
+        warnings=within(told, {one.key for one in shown}),
         remedies=remedies_table(summary),
         figures=drive_figures(outcome.result) if summary["converged"] else {},
         seconds=summary["seconds"],

@@ -1,4 +1,4 @@
-"""Numbers and tables of a drive as its page shows them, from its summary."""
+"""Numbers and tables of a drive as its page shows them, from the rows that the command prints."""
 
 from __future__ import annotations
 
@@ -6,65 +6,39 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from ehlectric.app.answers.bearing import Number, Table
+from ehlectric.app.answers.bearing import Table
+from ehlectric.app.answers.number import Number
 from ehlectric.app.answers.told import Told, beside
-from ehlectric.cases.drives.case import ENDS
-from ehlectric.quantities.drive_results import NAMES_OF_ENDS
-from ehlectric.quantities.formats import UNITS, amount, number_text
-from ehlectric.quantities.units import unit_for
-from ehlectric.tables.drive import end_cells, remedy_cells
+from ehlectric.app.compute.cards import card
+from ehlectric.quantities.drive_results import DRIVE_BOOK, NAMES_OF_ENDS
+from ehlectric.quantities.rows import Row, Sheet, Summary
+from ehlectric.quantities.sheets import DRIVE_CARDS
+from ehlectric.tables.drive import Pair, end_cells, side_by_side, whole_rows, worse_cells
 
-_NONE = "none"
+# Quantities that a card has in its note.
+_BESIDE: Mapping[str, tuple[str, ...]] = {
+    "source.peak": ("source.edges_per_second",),
+    "circuit.winding_rotor_capacitance": (
+        "circuit.rotor_frame_capacitance",
+        "circuit.winding_frame_capacitance",
+    ),
+    "end.events_per_second": ("end.events_per_second_range",),
+}
 
-
-def prepared_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tuple[Number, ...]:
-    """Numbers of a drive that is not simulated: of its source, its circuit and its films.
-
-    Parameters
-    ----------
-    summary : mapping
-        Tables of ``drive.summary.checked_summary``.
-    told : tuple of Told
-        Warnings.
-    """
-    return _told(
-        [
-            _of_ends(summary, "Bearing voltage at the peak", "voltage_at_peak", "V"),
-            _breakdown(summary),
-            _of_ends(summary, "Bearing capacitance", "capacitance", "F"),
-            _of_ends(summary, "Capacitive divider", "voltage_ratio", "%"),
-            _source(summary),
-            *_machine(summary),
-        ],
-        told,
-    )
+# Why neither bearing has a value.
+_NONE = {"end.breakdown_voltage": "ceramic elements insulate"}
 
 
-def simulated_numbers(summary: Mapping[str, Any], told: tuple[Told, ...]) -> tuple[Number, ...]:
-    """Numbers of a simulated drive.
-
-    Parameters
-    ----------
-    summary : mapping
-        Summary of a drive.
-    told : tuple of Told
-        Warnings.
-    """
-    found = [
-        _of_ends(summary, "Discharges per second", "events_per_second", "1/s", _bounds),
-        _of_ends(summary, "Largest bearing voltage", "peak_voltage", "V"),
-        _breakdown(summary),
-        _of_ends(summary, "Mean voltage of a discharge", "voltage_mean", "V"),
-        _of_ends(summary, "Mean energy of a discharge", "energy_mean", "J"),
-        _of_ends(summary, "Power of the discharges", "power", "W"),
-        _of_ends(summary, "Current density over the Hertz areas", "current_density", "A/mm²"),
-        _of_ends(summary, "Bearing capacitance", "capacitance", "F"),
-        _source(summary),
-    ]
-    if not summary["converged"]:
+def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tuple[Number, ...]:
+    """Numbers of a drive that its page shows large, of those in a sheet, with warnings."""
+    whole = {row.key: row for row in whole_rows(summary, sheet)}
+    ends = _pairs(summary, sheet)
+    keys = [key for key in DRIVE_CARDS if any(key in section.keys for section in sheet)]
+    found = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
+    if not summary.get("converged", True):
         note = "not converged: do not use this value"
         found = [replace(one, note=note, known=False) for one in found]
-    return _told(found, told)
+    return tuple(replace(one, told=beside(told, one.key)) for one in found)
 
 
 def merged(told: Iterable[Told]) -> tuple[Told, ...]:
@@ -76,95 +50,61 @@ def merged(told: Iterable[Told]) -> tuple[Told, ...]:
     return tuple(found.values())
 
 
-def ends_table(summary: Mapping[str, Any]) -> Table:
+def ends_table(summary: Summary, sheet: Sheet) -> Table:
     """Numbers of both bearings side by side, as the command prints them."""
-    rows = ((_indented(name), *cells) for name, *cells in end_cells(summary))
+    rows: list[tuple[str, ...]] = []
+    for heading, cells in end_cells(summary, sheet):
+        rows += [(heading, "", "", ""), *((f"\u2003{name}", *rest) for name, *rest in cells)]
     return Table("As the command prints them", ("", *NAMES_OF_ENDS.values(), ""), tuple(rows))
-
-
-def _indented(name: str) -> str:
-    """Name whose leading spaces a browser shows."""
-    bare = name.lstrip()
-    return "\u2003" * (len(name) > len(bare)) + bare
 
 
 def remedies_table(summary: Mapping[str, Any]) -> Table | None:
     """The drive and its remedies side by side; None without remedies."""
     if not summary["remedies"]:
         return None
-    (_, *heads), *rows = remedy_cells(summary)
+    (_, *heads), *rows = worse_cells(summary)
     return Table("Worse bearing of each", ("", *heads), tuple(rows))
 
 
-def _of_ends(summary: Mapping[str, Any], label: str, key: str, unit: str, note: Any = None) -> Number:
-    """Number of both bearings: that of the drive end, and the other one as its note where it differs."""
-    values, name = [summary[end][key] for end in ENDS], f"end.{key}"
-    texts = [text_of(value, unit) for value in values]
-    notes = [note(summary[end]) if note is not None else "" for end in ENDS]
-    first, second = NAMES_OF_ENDS.values()
-    if texts[0] == texts[1] and notes[0] == notes[1]:
-        words = "; ".join(filter(None, [notes[0], "each of both bearings"]))
-        return Number(name, label, texts[0], note=words, known=values[0] is not None)
-    own = f"{first}{', ' if notes[0] else ''}{notes[0]}"
-    other = f"{second}: {texts[1]}{', ' if notes[1] else ''}{notes[1]}"
-    return Number(name, label, texts[0], note=f"{own}; {other}", known=values[0] is not None)
+def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
+    """Rows of both bearings by key."""
+    pairs = [pair for _, found in side_by_side(summary, sheet) for pair in found]
+    return {next(row.key for row in pair if row is not None): pair for pair in pairs}
 
 
-def _bounds(end: Mapping[str, Any]) -> str:
-    low, high = (_short(end[f"events_per_second_{bound}"]) for bound in ("low", "high"))
-    return f"{low} to {high} at 95 %"
+def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
+    row = rows[key]
+    others = [rows[other] for other in _BESIDE.get(key, ()) if other in rows]
+    notes = [row.note.strip(" ,"), *(f"{other.name}: {other.amount}" for other in others)]
+    return replace(card(row), note="; ".join(filter(None, notes)))
 
 
-def _breakdown(summary: Mapping[str, Any]) -> Number:
-    found = _of_ends(summary, "Breakdown voltage", "breakdown_voltage", "V")
-    if all(summary[end]["breakdown_voltage"] is None for end in ENDS):
-        return replace(found, note="ceramic elements insulate")
-    shapes = {summary[end]["weibull_shape"] for end in ENDS} - {None}
-    scatter = " at a probability of 63.2 %" if shapes else ""
-    return replace(found, bound="≤", note=f"upper bound{scatter}, weakest position; {found.note}")
+def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
+    """Number of both bearings: that of the drive end, and the other one in its note where it differs."""
+    first, second = pairs.get(key, (None, None))
+    beside_it = [pairs[other] for other in _BESIDE.get(key, ()) if other in pairs]
+    one, other = (
+        "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
+    )
+    number = card(first) if first is not None else _unknown(key)
+    if first is None and second is None:
+        return number
+    if first is not None and second is not None and (first.text, one) == (second.text, other):
+        return replace(number, note="; ".join(filter(None, [one, "each of both bearings"])))
+    place, further = NAMES_OF_ENDS.values()
+    value = "none" if second is None else second.amount
+    own = ", ".join(filter(None, [place, one]))
+    return replace(number, note=f"{own}; {further}: {', '.join(filter(None, [value, other]))}")
 
 
-def _source(summary: Mapping[str, Any]) -> Number:
-    edges = summary["source"]["edges_per_second"]
-    note = "measured waveform" if edges is None else f"peak, {_short(edges)} edges per second"
-    return Number("source.peak", "Common-mode voltage", amount(summary["source"]["peak"], "V"), note=note)
+def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
+    """Note of a row, and the quantities beside it."""
+    if row is not None and row.note:
+        yield row.note.strip(" ,")
+    yield from (f"{other.name}: {other.amount}" for other in others if other is not None)
 
 
-def _machine(summary: Mapping[str, Any]) -> Iterator[Number]:
-    """Capacitances of the machine as one number, that of winding and rotor."""
-    circuit = summary["circuit"]
-    names = {
-        "rotor_frame_capacitance": "rotor to frame",
-        "winding_frame_capacitance": "winding to frame",
-    }
-    others = [f"{words} {amount(circuit[key], 'F')}" for key, words in names.items() if key in circuit]
-    text = amount(circuit["winding_rotor_capacitance"], "F")
-    yield Number("circuit.winding_rotor_capacitance", "Winding to rotor", text, note="; ".join(others))
-
-
-def _told(numbers: Iterable[Number], told: tuple[Told, ...]) -> tuple[Number, ...]:
-    return tuple(replace(one, told=beside(told, one.name)) for one in numbers)
-
-
-def text_of(value: float | None, unit: str) -> str:
-    r"""Value with its unit and three digits; "none" where there is none.
-
-    Examples
-    --------
-    >>> text_of(4.6321, "V"), text_of(1.7e-8, "J"), text_of(0.0461, "%"), text_of(28600.0, "1/s")
-    ('4.63 V', '17 nJ', '4.61 %', '28\u202f600')
-    """
-    if value is None:
-        return _NONE
-    if unit == "1/s":
-        return _short(value)
-    if unit in UNITS and UNITS[unit][1] != 1.0:
-        return f"{number_text(value * UNITS[unit][1])} {unit}"
-    factor, prefixed = unit_for(abs(value), unit, least=1.0) if value else (1.0, unit)
-    return f"{factor * value:.3g} {prefixed}"
-
-
-def _short(value: float) -> str:
-    """Number with three digits, and groups of three of them where it is large."""
-    rounded = float(f"{value:.3g}")
-    return f"{rounded:,.0f}".replace(",", "\u202f") if rounded >= 1000.0 else f"{rounded:.12g}"
+def _unknown(key: str) -> Number:
+    """Number that a bearing does not have."""
+    label = DRIVE_BOOK[key].label
+    return Number(key, f"{label[:1].upper()}{label[1:]}", "none", note=_NONE.get(key, ""), known=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,23 +10,23 @@ import numpy as np
 from ehlectric.app.answers.bearing import Figure, Table
 from ehlectric.app.figures.look import Plot, axis, plot, values
 from ehlectric.arrays import Array
-from ehlectric.drive.discharges.record import CHARGE, ENERGY, PEAK, VOLTAGE
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.summary import end_summary
 from ehlectric.figures.drive import findings
-from ehlectric.figures.drive.discharges import bins_of
+from ehlectric.figures.drive.discharges import QUANTITIES, bins_of
 from ehlectric.figures.drive.looks import COLOURS, NAMES, events_of, number_of_events
+from ehlectric.quantities.drive_results import EVENT_KEYS, STATISTICS
+from ehlectric.quantities.formats import formatted
 from ehlectric.quantities.palette import BLUE, faint
 from ehlectric.quantities.units import unit_for
 
-# Quantities of a discharge by the names of their figures: words, column, unit, and name in the summary.
-QUANTITIES = {
-    "discharge-voltage": ("Voltage of a discharge", VOLTAGE, "V", "voltage"),
-    "discharge-energy": ("Energy of a discharge", ENERGY, "J", "energy"),
-    "discharge-charge": ("Charge of a discharge", CHARGE, "C", "charge"),
-    "discharge-current": ("Peak current of a discharge", PEAK, "A", "peak_current"),
+# Quantities of a discharge by the names of their figures.
+_FIGURES = {
+    "discharge-voltage": "voltage",
+    "discharge-energy": "energy",
+    "discharge-charge": "charge",
+    "discharge-current": "peak_current",
 }
-_STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "largest"}
 
 _HEIGHT = 300
 
@@ -34,16 +35,17 @@ def distributions(result: DriveResult) -> dict[str, Figure]:
     """Figures of the discharges by their names; none without a discharge."""
     if not len(result.solution.record.events):
         return {}
-    return {name: _distribution(result, name) for name in QUANTITIES}
+    return {name: _distribution(result, key) for name, key in _FIGURES.items()}
 
 
-def _distribution(result: DriveResult, name: str) -> Figure:
-    words, column, unit, key = QUANTITIES[name]
+def _distribution(result: DriveResult, key: str) -> Figure:
+    about, column = EVENT_KEYS[key], dict(QUANTITIES)[key]
+    words = f"{about.label[:1].upper()}{about.label[1:]}"
     own = [np.abs(events_of(result, b)[:, column]) for b in range(2)]
     edges, log = bins_of(np.concatenate(own))
-    factor, prefixed = unit_for(float(edges[-1]), unit, least=1.0)
+    factor, prefixed = unit_for(float(edges[-1]), about.unit, least=1.0)
     data = [_bars(factor * edges, part, factor, b, prefixed) for b, part in enumerate(own) if part.size]
-    title = f"{words.lower()} [{prefixed}]"
+    title = f"{about.label} [{prefixed}]"
     layout: dict[str, Any] = {
         "xaxis": axis(title, **(_decades() if log else {"range": [factor * edges[0], factor * edges[-1]]})),
         "yaxis": axis("discharges [%]", rangemode="tozero"),
@@ -51,8 +53,8 @@ def _distribution(result: DriveResult, name: str) -> Figure:
     }
     ends = [end_summary(result.solution, b) for b in range(2)]
     rows = [
-        (name, *(f"{factor * end[f'{key}_{short}']:.4g}" if end["events"] else "none" for end in ends))
-        for short, name in _STATISTICS.items()
+        (name, *(_cell(end, f"{key}_{short}", factor, about.digits) for end in ends))
+        for short, name in STATISTICS.items()
     ]
     caption = ", ".join(f"{NAMES[b]}: {number_of_events(result, b)} discharges" for b in range(2))
     lead = caption
@@ -62,11 +64,15 @@ def _distribution(result: DriveResult, name: str) -> Figure:
     heads = ("", *(f"{name} [{prefixed}]" for name in NAMES))
     return Figure(
         words,
-        f"Distribution of the {words.lower()}; {lead}",
+        f"Distribution of the {about.label}; {lead}",
         plot(data, height=_HEIGHT, **layout),
         Table(words, heads, tuple(rows)),
         caption,
     )
+
+
+def _cell(end: Mapping[str, Any], key: str, factor: float, digits: str) -> str:
+    return formatted(factor * end[key], digits) if end["events"] else "none"
 
 
 def _decades() -> Plot:

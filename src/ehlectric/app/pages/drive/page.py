@@ -177,8 +177,8 @@ class DrivePage:
 
     def _put(self, answer: DriveAnswer) -> None:
         self.view.show(answer)
-        named = [one for one in answer.shown if one.name in _SHORT and one.known]
-        texts = [" ".join(filter(None, [one.label, one.bound, one.text])) for one in named]
+        named = [one for one in answer.shown if one.key in _SHORT and one.known]
+        texts = [" ".join(filter(None, [one.label, one.bound, one.text, one.unit])) for one in named]
         self._strip.show(answer.judged.level, answer.judged.lead, texts)
 
     def _dim(self, *, dimmed: bool) -> None:
