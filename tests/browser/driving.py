@@ -50,7 +50,7 @@ def field(page, key):
 
 
 def number(page, name):
-    """Number that the page shows under a name, such as ``capacitance``; None where there is none yet."""
+    """Number that the page shows of a key, such as ``bearing.capacitance``; None where there is none yet."""
     try:
         texts = page.get_by_test_id(f"number-{name}").all_inner_texts()
     except Exception as error:

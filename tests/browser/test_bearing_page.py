@@ -41,13 +41,13 @@ ROLLERS = {
 def wait_for_command(page, summary):
     """Wait until the page shows the numbers that the command gives."""
     found = summary["bearing"]
-    wait_for_number(page, "capacitance", 1e12 * found["capacitance"], digits=4)
-    wait_for_number(page, "lambda", found["lambda_ratio"])
+    wait_for_number(page, "bearing.capacitance", 1e12 * found["capacitance"], digits=4)
+    wait_for_number(page, "bearing.lambda_ratio", found["lambda_ratio"])
     if found["shaft_first_break"]:
-        wait_for_number(page, "first-break", found["shaft_first_break"], digits=4)
+        wait_for_number(page, "bearing.first_break", found["shaft_first_break"], digits=4)
     if found["shaft_voltage"]:
-        wait_for_number(page, "shaft-voltage", found["shaft_voltage"], digits=4)
-        wait_for_number(page, "margin", found["margin"])
+        wait_for_number(page, "bearing.shaft_voltage", found["shaft_voltage"], digits=4)
+        wait_for_number(page, "bearing.margin", found["margin"])
 
 
 def text_of(page, key):
@@ -56,14 +56,14 @@ def text_of(page, key):
 
 @pytest.mark.slow
 def test_keys_and_a_mouse_on_a_slider_change_the_answer(page, tmp_path):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     slider = page.get_by_test_id("slider-bearing-radial_load")
     slider.focus()
     for _ in range(3):
         before = text_of(page, LOAD)
         page.keyboard.press("ArrowRight")
         assert wait_until(lambda before=before: text_of(page, LOAD) != before)
-    wait_for_number(page, "capacitance", capacitance(text_of(page, LOAD)), digits=4)
+    wait_for_number(page, "bearing.capacitance", capacitance(text_of(page, LOAD)), digits=4)
     slider.scroll_into_view_if_needed()
     box = slider.bounding_box()
     middle = box["y"] + box["height"] / 2
@@ -81,7 +81,7 @@ def test_keys_and_a_mouse_on_a_slider_change_the_answer(page, tmp_path):
 
 @pytest.mark.slow
 def test_another_bearing_of_the_catalogue_and_one_s_own_geometry(page, tmp_path):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     box = field(page, "bearing.base")
     box.click()
     box.fill("nu-205")
@@ -95,10 +95,11 @@ def test_another_bearing_of_the_catalogue_and_one_s_own_geometry(page, tmp_path)
     field(page, "bearing.elements").wait_for()
     # The values of the catalogue are the first ones, so the answer stays until one changes.
     wait_for_command(page, bearing_by_command(page, tmp_path / "own"))
-    before = number(page, "capacitance")
+    before = number(page, "bearing.capacitance")
     type_into(page, "bearing.elements", "11")
     page.wait_for_function(
-        "before => !document.querySelector('[data-testid=number-capacitance]').innerText.includes(before)",
+        "before => !document.querySelector('[data-testid=\"number-bearing.capacitance\"]')"
+        ".innerText.includes(before)",
         arg=f"{before:g}",
     )
     summary = bearing_by_command(page, tmp_path / "fewer")
@@ -112,7 +113,7 @@ def test_another_bearing_of_the_catalogue_and_one_s_own_geometry(page, tmp_path)
     [(LOAD, "-5 N"), (LOAD, "5 kg"), ("bearing.inner_speed", "fast"), ("bearing.composite_rq", "-1 um")],
 )
 def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key, wrong):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     type_into(page, key, wrong)
     error = page.get_by_test_id(f"error-{key.replace('.', '-')}")
     error.wait_for()
@@ -133,11 +134,11 @@ def test_a_wrong_value_has_the_line_of_the_command_beside_it(page, tmp_path, key
     assert key not in notice
     page.get_by_test_id("to-field").click()
     box.and_(page.locator(":focus")).wait_for()
-    assert "being computed" not in page.get_by_test_id("number-critical-speed").inner_text()
+    assert "being computed" not in page.get_by_test_id("number-margin.critical_speed").inner_text()
     assert page.get_by_test_id("answer").get_attribute("aria-busy") == "true", "an old answer is dimmed"
     page.get_by_test_id("undo").click()
     error.wait_for(state="detached")
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
 
 
 @pytest.mark.slow
@@ -145,8 +146,8 @@ def test_solving_shows_its_progress_and_can_be_cancelled(own_server, open_page):
     # Its balls take half a minute of a processor, far longer than it takes to cancel them.
     server = own_server()
     page = open_page(server)
-    wait_for_any_number(page, "capacitance")
-    formula = number(page, "capacitance")
+    wait_for_any_number(page, "bearing.capacitance")
+    formula = number(page, "bearing.capacitance")
     before = set(server.started())
     page.get_by_test_id("solve").click()
     bar = seen(page, "progress")
@@ -157,7 +158,7 @@ def test_solving_shows_its_progress_and_can_be_cancelled(own_server, open_page):
     page.get_by_test_id("solve-message").filter(has_text="Cancelled").wait_for()
     assert wait_until(lambda: not any(map(alive, started)))
     assert page.get_by_test_id("answer").get_attribute("data-contacts") == "atlas"
-    assert number(page, "capacitance") == formula
+    assert number(page, "bearing.capacitance") == formula
 
 
 @pytest.mark.slow
@@ -182,32 +183,32 @@ def test_solved_contacts_replace_the_formula_and_say_by_how_much(open_page, app_
 
 @pytest.mark.slow
 def test_undo_and_redo_by_buttons_and_keys(page):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     assert page.get_by_test_id("undo").is_disabled()
     for load in ("900 N", "2700 N"):
         type_into(page, LOAD, load)
-        wait_for_number(page, "capacitance", capacitance(load))
+        wait_for_number(page, "bearing.capacitance", capacitance(load))
     page.get_by_test_id("undo").click()
-    wait_for_number(page, "capacitance", capacitance("900 N"))
+    wait_for_number(page, "bearing.capacitance", capacitance("900 N"))
     assert text_of(page, LOAD) == "900 N"
     # The focus is on a button, so that the keys are not those of a text.
     page.keyboard.press("Control+z")
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     assert text_of(page, LOAD) == "1800 N"
     page.get_by_test_id("redo").click()
-    wait_for_number(page, "capacitance", capacitance("900 N"))
+    wait_for_number(page, "bearing.capacitance", capacitance("900 N"))
     page.keyboard.press("Control+Shift+z")
-    wait_for_number(page, "capacitance", capacitance("2700 N"))
+    wait_for_number(page, "bearing.capacitance", capacitance("2700 N"))
     wait_for_address(page, "2700")
 
 
 @pytest.mark.slow
 def test_a_link_shows_the_same_in_another_browser(page, open_page, app_server, tmp_path):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     type_into(page, LOAD, "1234.5 N")
     page.locator("[data-testid=group-title] > summary").click()
     type_into(page, "title", "Müller & Søn: 'fan' #2")
-    wait_for_number(page, "capacitance", capacitance("1234.5 N"), digits=4)
+    wait_for_number(page, "bearing.capacitance", capacitance("1234.5 N"), digits=4)
     page.get_by_test_id("copy-link").click()
     link = page.get_by_test_id("link")
     box = link if link.evaluate("box => box.matches('input')") else link.locator("input")
@@ -215,7 +216,7 @@ def test_a_link_shows_the_same_in_another_browser(page, open_page, app_server, t
     address = box.input_value()
     assert address.startswith(f"http://{page.watch.host}/?")
     other = open_page(app_server, address.removeprefix(f"http://{page.watch.host}"))
-    wait_for_number(other, "capacitance", capacitance("1234.5 N"), digits=4)
+    wait_for_number(other, "bearing.capacitance", capacitance("1234.5 N"), digits=4)
     files = []
     for name, tab in (("first", page), ("second", other)):
         (tmp_path / name).mkdir()
@@ -250,7 +251,7 @@ def test_the_answer_is_read_and_solved_by_the_keyboard_alone(open_page, app_serv
 @pytest.mark.parametrize("colors", ["light", "dark"])
 def test_the_page_is_read_on_a_narrow_screen_and_in_both_colours(open_page, app_server, colors):
     page = open_page(app_server, width=400, height=800, color_scheme=colors)
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     assert fits(page)
     back, front = page.evaluate(
         "() => ['backgroundColor', 'color'].map(name => getComputedStyle(document.body)[name]"

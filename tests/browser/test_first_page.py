@@ -23,7 +23,7 @@ def capacitance(load="1800 N"):
 
 @pytest.mark.slow
 def test_the_first_page_has_its_answer(page, screenshot):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     assert page.get_by_test_id("verdict").inner_text().strip()
     hosts = {url.split("/")[2] for url in page.watch.requests if "://" in url}
     assert hosts == {page.watch.host}
@@ -32,11 +32,11 @@ def test_the_first_page_has_its_answer(page, screenshot):
 
 @pytest.mark.slow
 def test_two_tabs_are_independent(page, open_page, app_server):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     other = open_page(app_server)
     type_into(other, LOAD, "900 N")
-    wait_for_number(other, "capacitance", capacitance("900 N"))
-    assert number(page, "capacitance") == pytest.approx(capacitance(), rel=1e-3)
+    wait_for_number(other, "bearing.capacitance", capacitance("900 N"))
+    assert number(page, "bearing.capacitance") == pytest.approx(capacitance(), rel=1e-3)
     assert field(page, LOAD).input_value() == "1800 N"
 
 
@@ -44,11 +44,11 @@ def test_two_tabs_are_independent(page, open_page, app_server):
 def test_a_token_opens_the_pages_of_a_server_for_others(own_server, open_page):
     server = own_server("--host", "0.0.0.0")
     page = open_page(server)
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     connected(page)
     assert "token" not in page.url
     page.reload()
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     stranger = open_page(server, "/?bearing.base=%276208%27")
     assert "token" in stranger.inner_text("body")
     # The refusals stand in its console, some of them later than its text; a closed page has no more.
@@ -62,13 +62,13 @@ def test_a_tab_comes_back_with_its_inputs_after_the_server_was_killed(own_server
         server = own_server("--port", str(port))
         page = open_page(server)
         type_into(page, LOAD, "900 N")
-        wait_for_number(page, "capacitance", capacitance("900 N"))
+        wait_for_number(page, "bearing.capacitance", capacitance("900 N"))
         wait_until_again = loaded_again(page)
         server.stop(signal.SIGKILL)
         page.locator("#popup[aria-hidden=false]").filter(has_text="Connection lost").wait_for()
         own_server("--port", str(port))
     wait_until_again()
-    wait_for_number(page, "capacitance", capacitance("900 N"))
+    wait_for_number(page, "bearing.capacitance", capacitance("900 N"))
     assert field(page, LOAD).input_value() == "900 N"
     # The browser tells that the server was gone.
     page.watch.wrong.clear()
@@ -78,7 +78,7 @@ def test_a_tab_comes_back_with_its_inputs_after_the_server_was_killed(own_server
 def test_a_closed_tab_ends_its_job(own_server, open_page):
     server = own_server(away=20.0)
     page = open_page(server)
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     before = set(server.started())
     page.get_by_test_id("solve").click()
     assert wait_until(lambda: set(server.processes()) > before)
@@ -99,20 +99,20 @@ def test_twenty_sessions_at_once_within_their_memory(own_server, open_page):
     for page, load in zip(pages, loads, strict=True):
         expected = capacitance(f"{load} N")
         try:
-            wait_for_number(page, "capacitance", expected, digits=4)
+            wait_for_number(page, "bearing.capacitance", expected, digits=4)
         except AssertionError:
             # A page that got no time for so long that its session ended comes back with the inputs of its
             # address. Where it still shows what was typed, its answer is missing.
             assert field(page, LOAD).input_value() != f"{load} N"
             type_into(page, LOAD, f"{load} N")
-            wait_for_number(page, "capacitance", expected, digits=4)
+            wait_for_number(page, "bearing.capacitance", expected, digits=4)
     # The server, the process that the others are forked from, and those of quick answers [bytes].
     assert server.memory() < 1e9
 
 
 @pytest.mark.slow
 def test_a_keyboard_is_enough(page):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     box = field(page, LOAD)
     for _ in range(80):
         page.keyboard.press("Tab")
@@ -126,4 +126,4 @@ def test_a_keyboard_is_enough(page):
     page.keyboard.press("Control+A")
     page.keyboard.type("900 N")
     page.keyboard.press("Tab")
-    wait_for_number(page, "capacitance", capacitance("900 N"))
+    wait_for_number(page, "bearing.capacitance", capacitance("900 N"))

@@ -38,7 +38,7 @@ def test_a_bearing_is_found_by_the_names_of_makers(page):
 
 @pytest.mark.slow
 def test_values_of_a_group_and_an_own_oil_come_back(page):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     type_into(page, "motor.common_mode_voltage", "123 V")
     type_into(page, "lubricant.relative_permittivity", "2.2")
     page.get_by_test_id("tells-oil").filter(has_text="Roelands", has_not_text="permittivity").wait_for()
@@ -123,7 +123,7 @@ def test_messages_do_not_move_the_page(page):
 )
 def test_a_browser_that_takes_its_time_over_the_link(page, writes, text):
     """As one that draws figures without a graphics card, or asks its user first."""
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     page.evaluate(f"() => {{ navigator.clipboard.writeText = () => new Promise((done) => {{ {writes} }}) }}")
     page.get_by_test_id("copy-link").click()
     page.get_by_test_id("toast").filter(has_text=text).wait_for()

@@ -30,9 +30,9 @@ def open_changed(open_page, app_server, kind):
     """Page of a bearing or a contact with an input that is not that of its start."""
     if kind == "bearing":
         page = open_page(app_server)
-        wait_for_number(page, "capacitance", capacitance())
+        wait_for_number(page, "bearing.capacitance", capacitance())
         type_into(page, LOAD, "1234.5 N")
-        wait_for_number(page, "capacitance", capacitance("1234.5 N"), digits=4)
+        wait_for_number(page, "bearing.capacitance", capacitance("1234.5 N"), digits=4)
         return page
     page = open_page(app_server, address_of("/contact", example("discharge", grid__nodes=801)))
     wait_until_solved(page)
@@ -201,14 +201,14 @@ def test_a_case_with_a_measured_surface_is_downloaded_with_its_file_and_runs(ope
 
 @pytest.mark.slow
 def test_a_downloaded_case_is_opened_again(page, open_page, app_server, tmp_path):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     type_into(page, LOAD, "900 N")
-    wait_for_number(page, "capacitance", capacitance("900 N"))
+    wait_for_number(page, "bearing.capacitance", capacitance("900 N"))
     case = downloaded(page, "download-toml", tmp_path)
     other = open_page(app_server)
-    wait_for_number(other, "capacitance", capacitance())
+    wait_for_number(other, "bearing.capacitance", capacitance())
     other.get_by_test_id("upload-case").locator("input[type=file]").set_input_files(case)
-    wait_for_number(other, "capacitance", capacitance("900 N"))
+    wait_for_number(other, "bearing.capacitance", capacitance("900 N"))
     bad = tmp_path / "bad.toml"
     bad.write_text("[bearing]\nradial_load = \n", encoding="utf-8")
     other.get_by_test_id("upload-case").locator("input[type=file]").set_input_files(bad)
@@ -216,4 +216,4 @@ def test_a_downloaded_case_is_opened_again(page, open_page, app_server, tmp_path
     _, told = command("bearing", bad, folder=tmp_path, status=2)
     words = " ".join(other.get_by_test_id("error-file").inner_text().split())
     assert words.partition("bad.toml")[2] in " ".join(told.split())
-    wait_for_number(other, "capacitance", capacitance("900 N"))
+    wait_for_number(other, "bearing.capacitance", capacitance("900 N"))

@@ -52,7 +52,7 @@ def test_a_server_that_is_killed_during_a_job_leaves_no_process(own_server, open
     with kept_port() as port:
         server = own_server("--port", str(port))
         page = open_page(server)
-        wait_for_number(page, "capacitance", capacitance())
+        wait_for_number(page, "bearing.capacitance", capacitance())
         before = set(server.started())
         page.get_by_test_id("solve").click()
         assert wait_until(lambda: set(server.processes()) > before)
@@ -62,7 +62,7 @@ def test_a_server_that_is_killed_during_a_job_leaves_no_process(own_server, open
         assert wait_until(lambda: not any(map(alive, every)))
         own_server("--port", str(port))
     wait_until_again()
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     # The browser tells that the server was gone.
     page.watch.wrong.clear()
 
@@ -73,11 +73,11 @@ def test_a_page_answers_while_others_compute(own_server, open_page):
     tabs = [open_page(server) for _ in range(4)]
     asking = open_page(server)
     for tab in (asking, *tabs):
-        wait_for_number(tab, "capacitance", capacitance())
+        wait_for_number(tab, "bearing.capacitance", capacitance())
     for tab in tabs:
         tab.get_by_test_id("solve").click()
     type_into(asking, LOAD, "900 N")
-    wait_for_number(asking, "capacitance", capacitance("900 N"))
+    wait_for_number(asking, "bearing.capacitance", capacitance("900 N"))
     # Jobs beyond the number that may run wait, and say so.
     assert wait_until(lambda: any("wait" in tab.inner_text("body").lower() for tab in tabs))
     for tab in tabs:
@@ -93,7 +93,7 @@ def test_a_sweep_and_a_bearing_of_two_tabs_do_not_mix(open_page, app_server, tmp
         tab.get_by_test_id("plan").filter(has_text=f"{count} points").wait_for()
         run(tab)
     bearing = open_page(app_server)
-    wait_for_number(bearing, "capacitance", capacitance())
+    wait_for_number(bearing, "bearing.capacitance", capacitance())
     for tab, count in ((first, 4), (second, 9)):
         wait_for_points(tab, f"{count} solved")
         lines = downloaded(tab, "download-csv", tmp_path).read_text("utf-8").splitlines()

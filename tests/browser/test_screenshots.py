@@ -30,7 +30,7 @@ def folder(tmp_path):
 
 
 def bearing(page):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     complete(page)
 
 
@@ -119,7 +119,7 @@ def test_pictures_of_a_page(open_page, app_server, folder, name):
 
 @pytest.mark.slow
 def test_picture_of_a_report(page, browser, folder, tmp_path):
-    wait_for_number(page, "capacitance", capacitance())
+    wait_for_number(page, "bearing.capacitance", capacitance())
     report = downloaded(page, "download-report-html", tmp_path)
     # The report is one file that needs no server.
     context = browser.new_context(viewport={"width": 1280, "height": 900}, offline=True)

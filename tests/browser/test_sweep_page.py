@@ -159,8 +159,8 @@ def test_a_point_opens_its_case_with_the_same_numbers(open_page, app_server, tmp
     link.wait_for()
     opened = open_page(app_server, link.get_attribute("href"))
     row = table[2]
-    wait_for_number(opened, "capacitance", 1e12 * float(row["bearing.capacitance [F]"]), digits=4)
-    wait_for_number(opened, "margin", float(row["bearing.margin [-]"]))
+    wait_for_number(opened, "bearing.capacitance", 1e12 * float(row["bearing.capacitance [F]"]), digits=4)
+    wait_for_number(opened, "bearing.margin", float(row["bearing.margin [-]"]))
     case = downloaded(opened, "download-toml", tmp_path)
     numbers = json.loads(command("bearing", case, "--json", "--no-plots", "-o", "out", folder=tmp_path)[0])
     assert numbers["bearing"]["capacitance"] == float(row["bearing.capacitance [F]"])
@@ -185,7 +185,7 @@ def test_a_click_on_the_map_opens_the_point_in_a_new_tab(open_page, app_server):
 
     assert wait_until(clicked)
     opened = page.context.pages[1]
-    opened.get_by_test_id("number-capacitance").wait_for()
+    opened.get_by_test_id("number-bearing.capacitance").wait_for()
     assert "/?" in opened.url
 
 

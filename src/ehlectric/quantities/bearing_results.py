@@ -54,22 +54,23 @@ def _of_ring(name: str) -> dict[str, Quantity]:
             f"hydrodynamic rolling force on one surface over the load, of the {most}, solved with heat in "
             f"pure rolling; {_NULL}",
             "",
-            f"coefficient of rolling friction{at}",
+            f"rolling coefficient, {name} ring",
         ),
         f"{name}_contact_power_loss": Quantity(
-            f"power that rolling takes in the {most}; {_NULL}", "W", f"power loss of a contact{at}"
+            f"power that rolling takes in the {most}; {_NULL}", "W", f"power loss, most loaded {name} contact"
         ),
         f"{name}_inlet_temperature_rise": Quantity(
             f"largest temperature at mid-film from the inlet to the middle of the {most}, less that of the "
             f"ring; {_NULL}",
             "K",
-            f"temperature rise in the inlet{at}",
+            f"inlet temperature rise, {name} contact",
+            digits=".2g",
         ),
         f"{name}_max_temperature_rise": Quantity(
             f"largest temperature at mid-film in the {most}, less that of the ring: mostly a peak at the "
             f"pressure spike, which grows with the grid; {_NULL}",
             "K",
-            f"largest temperature rise at mid-film{at}",
+            f"maximum temperature rise{at}",
         ),
         f"{name}_temperature_rise_error": Quantity(
             f"estimated error of {name}_max_temperature_rise by the grid; null if unknown",
@@ -91,6 +92,8 @@ FRICTION_KEYS: Keys = {
         f"rolling_power_loss over the speed of the inner ring; {_NULL}",
         "N*m",
         "hydrodynamic rolling moment",
+        shown="N mm",
+        digits=".3g",
     ),
     **_of_ring("inner"),
     **_of_ring("outer"),
@@ -119,7 +122,7 @@ DUTY_KEYS: Keys = {
     "touching_time_share": Quantity(
         "share of time in which at least one element touches both rings, whether or not it conducts",
         "",
-        "share of time in which an element touches both rings",
+        "share of time an element touches",
     ),
     "clarke_time_share": Quantity(
         "touching_time_share with Clarke's 1 - erf(λ) for each contact; with `[bearing.summits]` beside the "
@@ -134,13 +137,13 @@ DUTY_KEYS: Keys = {
     "inner_lambda_ratio": Quantity(
         "minimum film of the loaded contacts with the inner ring / composite_rq",
         "",
-        "minimum film / roughness, inner ring",
+        "minimum lambda ratio, inner ring",
         r"$\lambda_\mathrm{i}$",
     ),
     "outer_lambda_ratio": Quantity(
         "minimum film of the loaded contacts with the outer ring / composite_rq",
         "",
-        "minimum film / roughness, outer ring",
+        "minimum lambda ratio, outer ring",
         r"$\lambda_\mathrm{o}$",
     ),
     "inner_contact_time_share": Quantity(
@@ -157,13 +160,15 @@ DUTY_KEYS: Keys = {
         "maximum share of a contact's load that asperities carry, after Patir and Cheng's exp(-1.8 λ^1.2) "
         "with the λ of the central film",
         "",
-        "asperity load share",
+        "asperity load share, Patir and Cheng",
     ),
     "asperity_share_low": Quantity(
-        "least share of that contact by the published laws, each within its range", "", "asperity load share"
+        "least share of that contact by the published laws, each within its range",
+        "",
+        "asperity load share, lowest law",
     ),
     "asperity_share_high": Quantity(
-        "largest share of that contact by the published laws", "", "asperity load share"
+        "largest share of that contact by the published laws", "", "asperity load share, highest law"
     ),
     "expected_spots": Quantity(
         "maximum expected number of simultaneous spots in a contact; null without `[bearing.summits]`",
@@ -201,17 +206,20 @@ MARGIN_KEYS: Keys = {
         "where the margin does not cross 1 between `lowest_speed` and `highest_speed`",
         "rad/s",
         "critical speed",
+        bound="≥",
     ),
     "upper_critical_speed": Quantity(
         "speed of the inner ring above which the margin is below 1 again, up to `highest_speed`; null where "
         "it is not",
         "rad/s",
         "upper critical speed",
+        bound="≤",
     ),
     "touching_speed": Quantity(
         "speed of the inner ring below which the surfaces touch; null where they do not in that range",
         "rad/s",
         "speed below which surfaces touch",
+        bound="≥",
     ),
     "capacitive_speed": Quantity(
         "speed of the inner ring from which the bearing is capacitive at its temperature: it conducts at "
@@ -219,7 +227,8 @@ MARGIN_KEYS: Keys = {
         "the speed of the file; null where it becomes so nowhere from a 27th to 27 times that speed, and for "
         "ceramic elements and a coating",
         "rad/s",
-        "speed from which the bearing is capacitive",
+        "lowest speed of the capacitive regime",
+        bound="≥",
     ),
     "lowest_speed": Quantity("lower end of the speeds that were searched", "rad/s"),
     "highest_speed": Quantity("upper end of the speeds that were searched", "rad/s"),
@@ -227,14 +236,16 @@ MARGIN_KEYS: Keys = {
         "margin with all inputs of `[ranges]` at their unfavourable ends, 0 where the surfaces touch; null "
         "without ranges",
         "",
-        "margin, inputs at their unfavourable ends",
+        "margin, inputs at unfavourable ends",
+        bound="≤",
     ),
     "high": Quantity(
         "margin with all inputs of `[ranges]` at their favourable ends; null without ranges",
         "",
-        "margin, inputs at their favourable ends",
+        "margin, inputs at favourable ends",
+        bound="≤",
     ),
-    "effects": Quantity("list of the effects of single inputs on the margin, the largest first"),
+    "effects": Quantity("list of the effects of single inputs on the margin, the largest first", bound="≤"),
     "left_out": Quantity("list of what could not be computed, and why"),
 }
 
@@ -252,7 +263,7 @@ METER_KEYS: Keys = {
         "capacitance of the films with the roughness `composite_rq` in their Hertz areas; null where a "
         "loaded contact has a central film below 2 composite_rq, and for ceramic elements",
         "F",
-        "capacitance of the bearing, rough films",
+        "capacitance, rough films",
     ),
     "roughness_factor": Quantity(
         "capacitance_rough / capacitance; null as capacitance_rough is",
@@ -277,12 +288,13 @@ METER_KEYS: Keys = {
         "share of the shaft voltage across the films by the capacitive divider of films and coating; 1 "
         "without a coating; null where surfaces touch, and for ceramic elements without element_capacitance",
         "",
-        "share of the shaft voltage across the films",
+        "voltage share of the films",
     ),
     "coating_share": Quantity(
         "share of the shaft voltage across the coating; null without one and as film_share is",
         "",
-        "share of the shaft voltage across the coating",
+        "voltage share of the coating",
+        shown="%",
     ),
     "parallel_capacitance": Quantity(
         "capacitance of cage, shields and wiring; 0 where none is given", "F", "parallel capacitance"
@@ -292,6 +304,7 @@ METER_KEYS: Keys = {
         "the shaft voltage is computed",
         "F",
         "capacitance from shaft to housing",
+        bound="≤",
     ),
     "meter_capacitance": Quantity(
         "capacitance that a meter reads from shaft to housing, the same with rough films; null as "
@@ -304,16 +317,19 @@ METER_KEYS: Keys = {
         "minimum over the positions; first_break without a coating; null as first_break is",
         "V",
         "shaft voltage of the first breakdown",
+        bound="≤",
     ),
     "shaft_through_breakdown": Quantity(
         "shaft voltage of the ring-to-ring breakdown; through_breakdown without a coating; null likewise",
         "V",
-        "shaft voltage of the ring-to-ring breakdown",
+        "shaft voltage, ring-to-ring breakdown",
+        bound="≤",
     ),
     "film_voltage": Quantity(
         "part of the shaft voltage across the films, from ring to ring; null as shaft_voltage is",
         "V",
         "voltage across the films",
+        bound="≤",
     ),
     "film_time_constant": Quantity(
         "time constant with which the voltage across the films decays right after an edge of the inverter; "
@@ -330,7 +346,7 @@ METER_KEYS: Keys = {
         "voltage across the films that is left after a period of the inverter; null as "
         "shaft_voltage_after_period is",
         "V",
-        "voltage across the films after a period of the inverter",
+        "voltage across the films after a period",
     ),
 }
 
@@ -388,19 +404,26 @@ _LUBRICANT: Keys = {
         "that name",
         "K",
         "temperature of the oil",
+        shown="°C",
     ),
     "inner_temperature": Quantity(
-        "temperature of the inner ring and of the oil in its contacts", "K", "temperature of the inner ring"
+        "temperature of the inner ring and of the oil in its contacts",
+        "K",
+        "temperature of the inner ring",
+        shown="°C",
     ),
     "inner_viscosity": Quantity(
-        "viscosity of the oil in the inner contacts", "Pa*s", "viscosity at the inner ring"
+        "viscosity of the oil in the inner contacts", "Pa*s", "viscosity at the inner ring", shown="mPa s"
     ),
     "inner_film_factor": Quantity("film factor of the inner contacts", "", "film factor at the inner ring"),
     "outer_temperature": Quantity(
-        "temperature of the outer ring and of the oil in its contacts", "K", "temperature of the outer ring"
+        "temperature of the outer ring and of the oil in its contacts",
+        "K",
+        "temperature of the outer ring",
+        shown="°C",
     ),
     "outer_viscosity": Quantity(
-        "viscosity of the oil in the outer contacts", "Pa*s", "viscosity at the outer ring"
+        "viscosity of the oil in the outer contacts", "Pa*s", "viscosity at the outer ring", shown="mPa s"
     ),
     "outer_film_factor": Quantity("film factor of the outer contacts", "", "film factor at the outer ring"),
     "expansion": Quantity(
@@ -424,19 +447,22 @@ _LUBRICANT: Keys = {
     ),
 }
 _CAPACITANCES: Keys = {
-    "contacts": Quantity('how films and fields were obtained: "solved", "atlas" or "formula"'),
+    "contacts": Quantity(
+        'how films and fields were obtained: "solved", "atlas" or "formula"', "", "films of the contacts"
+    ),
     "capacitance": Quantity(
         "capacitance of the smooth films from ring to ring, mean over the positions of the cage, with `fill` "
         "around the films; of ceramic elements an upper bound, or what the file gives",
         "F",
         "capacitance of the bearing",
         "$C$",
+        bound="≤",
     ),
     "capacitance_oil": Quantity(
-        "capacitance with oil around the films", "F", "capacitance of the bearing, all in oil"
+        "capacitance with oil around the films", "F", "capacitance, oil in all gaps", bound="≤"
     ),
     "capacitance_air": Quantity(
-        "capacitance with air around the films", "F", "capacitance of the bearing, air around the films"
+        "capacitance with air around the films", "F", "capacitance, air around the films", bound="≤"
     ),
     "capacitance_plate": Quantity(
         "ε0 ε_r A_H/h(0) of the dry contacts, in series and parallel; elements without load have none; null "
@@ -450,8 +476,10 @@ _CAPACITANCES: Keys = {
     "lambda_ratio": Quantity(
         "minimum film of all loaded contacts / composite_rq",
         "",
-        "minimum film / roughness",
+        "minimum lambda ratio",
         r"$\lambda$",
+        digits=".3g",
+        bound="≤",
     ),
     "lubrication": Quantity(
         'state of lubrication: "conducting" for a lambda below 1, where contacts open and close and no '
@@ -473,9 +501,10 @@ _VOLTAGES: Keys = {
         "without a strength, for a conducting bearing and for ceramic elements",
         "V",
         "first breakdown voltage",
+        bound="≤",
     ),
     "first_break_mean": Quantity(
-        "mean of first_break over the positions", "V", "first breakdown voltage, mean over a pitch"
+        "mean of first_break over the positions", "V", "mean first breakdown voltage", bound="≤"
     ),
     "first_break_at": Quantity(
         "contact that breaks down first, or by a Weibull strength the likeliest",
@@ -487,16 +516,19 @@ _VOLTAGES: Keys = {
         "each at its own 63.2 %",
         "V",
         "ring-to-ring breakdown voltage",
+        bound="≤",
     ),
     "through_breakdown_mean": Quantity(
         "mean of through_breakdown over the positions",
         "V",
-        "ring-to-ring breakdown voltage, mean over a pitch",
+        "mean ring-to-ring breakdown voltage",
+        bound="≤",
     ),
     "margin": Quantity(
         "shaft_first_break / shaft voltage; null without a motor",
         "",
         "margin (first breakdown / shaft voltage)",
+        bound="≤",
     ),
     "breakdown_probability": Quantity(
         "probability that a contact has broken down at the shaft voltage while no metallic contact shorts "
@@ -504,36 +536,48 @@ _VOLTAGES: Keys = {
         "`insulating_time_share` is the share of time in which that is possible; null as margin is, and "
         "without this law",
         "",
-        "probability of breakdown at the shaft voltage",
+        "breakdown probability at shaft voltage",
+        shown="%",
+        digits=".2g",
+        bound="≥",
     ),
     "through_margin": Quantity(
         "shaft_through_breakdown / shaft voltage; null without a motor",
         "",
-        "margin (ring-to-ring breakdown / shaft voltage)",
+        "margin (ring-to-ring / shaft voltage)",
+        bound="≤",
     ),
     "strength_per_volt": Quantity(
         "maximum field strength of a contact / bearing voltage, maximum over the positions; null for a "
         "conducting bearing and for ceramic elements",
         "1/m",
-        "maximum field strength per volt on the bearing",
+        "maximum field per volt on the bearing",
+        bound="≥",
     ),
     "max_strength": Quantity(
         "maximum field strength at the shaft voltage, before anything has broken down; null without a motor",
         "V/m",
-        "maximum field strength",
+        "maximum field at the shaft voltage",
+        bound="≥",
     ),
     "bearing_voltage_ratio": Quantity(
         "C_wr/(C_wr + C_rf + C_DE + C_NDE); null without a motor, for a conducting bearing, and for ceramic "
         "elements without element_capacitance",
         "",
         "bearing voltage ratio",
+        shown="%",
     ),
     "shaft_voltage": Quantity(
         "bearing_voltage_ratio times the common-mode voltage, peak; capacitive alone; null as that ratio is",
         "V",
         "shaft voltage",
+        bound="≤",
     ),
-    "relaxation_time": Quantity("charge relaxation time ε0 ε_r/σ; null without a conductivity", "s"),
+    "relaxation_time": Quantity(
+        "charge relaxation time ε0 ε_r/σ; null without a conductivity",
+        "s",
+        "charge relaxation time of the oil",
+    ),
     "shaft_time_constant": Quantity(
         "time constant with which the shaft voltage decays through the oil of both bearings, right after an "
         "edge of the inverter; null without a conductivity or a motor, for a conducting bearing and for "
@@ -545,13 +589,13 @@ _VOLTAGES: Keys = {
         "shaft voltage that is left after a period of the inverter; null without `motor.switching_frequency` "
         "and as shaft_time_constant is",
         "V",
-        "shaft voltage after a period of the inverter",
+        "shaft voltage after a period",
     ),
     "shaft_voltage_after_rise": Quantity(
         "shaft voltage at the end of an edge of the inverter, with leakage through the oil; null without "
         "`motor.rise_time` and as shaft_time_constant is",
         "V",
-        "shaft voltage after an edge of the inverter",
+        "shaft voltage after an edge",
     ),
     "discharged_capacitance": Quantity(
         "capacitance that a discharge empties: bearing, winding and frame to rotor, and second bearing, or "
@@ -570,12 +614,13 @@ _VOLTAGES: Keys = {
         "energy C V²/2 in discharged_capacitance at the shaft voltage, with V = film_voltage; null without a "
         "motor",
         "J",
-        "energy of a discharge at the shaft voltage",
+        "discharge energy at the shaft voltage",
     ),
     "breakdown_energy": Quantity(
         "energy C V²/2 in discharged_capacitance at the first breakdown; null as either is",
         "J",
-        "energy of a discharge at the first breakdown",
+        "discharge energy at the first breakdown",
+        bound="≤",
     ),
     "pit_volume": Quantity(
         "volume of one surface that discharge_energy melts; null without `[discharge.pit]`",
@@ -585,12 +630,15 @@ _VOLTAGES: Keys = {
     "pit_diameter": Quantity(
         "diameter of a hemisphere of that volume; null as pit_volume is",
         "m",
-        "diameter of the pit",
+        "pit diameter at the shaft voltage",
+        shown="prefixed",
     ),
     "breakdown_pit_diameter": Quantity(
         "diameter of the hemisphere that breakdown_energy melts; null without `[discharge.pit]`",
         "m",
-        "diameter of the pit at the first breakdown",
+        "pit diameter at the first breakdown",
+        shown="prefixed",
+        bound="≤",
     ),
     "hertz_area": Quantity(
         "area of the smaller dry contact of each element that both rings load, added up, the cage in its "
@@ -599,13 +647,17 @@ _VOLTAGES: Keys = {
         "area of the dry contacts",
     ),
     "current_density": Quantity(
-        "peak current / hertz_area; null without `discharge.peak_current`", "A/m**2", "current density"
+        "peak current / hertz_area; null without `discharge.peak_current`",
+        "A/m**2",
+        "apparent current density",
+        digits=".3g",
     ),
     "element_current_density": Quantity(
         "peak current / area of the smaller contact of the most loaded element, as if it alone carried the "
         "current; null without `discharge.peak_current`",
         "A/m**2",
         "current density of one element",
+        digits=".3g",
     ),
     "current_density_limits": Quantity(
         "published limits of current_density: 0.1 to 0.3 A/mm² (doi:10.3390/lubricants12050148) and 0.8 "
@@ -614,15 +666,24 @@ _VOLTAGES: Keys = {
     ),
     "discretisation_error": Quantity(
         "maximum estimated error of the solved films; null where one is not known, and for contacts from the "
-        "atlas"
+        "atlas",
+        "",
+        "discretisation error of the films",
+        shown="%",
     ),
     "film_error": Quantity(
         "estimated error of the films and their interpolation over the load; for contacts from the atlas "
-        "of loads above 2 % of the largest, for contacts by formula that of the formula"
+        "of loads above 2 % of the largest, for contacts by formula that of the formula",
+        "",
+        "error of the films",
+        shown="%",
     ),
     "interpolation_error": Quantity(
         "maximum error at a load that is left out of the interpolation; of the breakdown voltage only for at "
-        "least 2 % of the largest load"
+        "least 2 % of the largest load",
+        "",
+        "interpolation error of the films",
+        shown="%",
     ),
 }
 _MECHANICS: Keys = {
@@ -643,56 +704,93 @@ _MECHANICS: Keys = {
         "maximum speed of the elements about their own axes, seen from the cage, in pure rolling", "rad/s"
     ),
     "entrainment_speed": Quantity("maximum entrainment speed, without the film factor", "m/s"),
-    "entrainment_speed_inner": Quantity("maximum entrainment speed at the inner ring", "m/s"),
+    "entrainment_speed_inner": Quantity(
+        "maximum entrainment speed at the inner ring", "m/s", "entrainment speed, inner ring"
+    ),
     "entrainment_speed_outer": Quantity(
-        "maximum entrainment speed at the outer ring; equal to that of the inner one in pure rolling", "m/s"
+        "maximum entrainment speed at the outer ring; equal to that of the inner one in pure rolling",
+        "m/s",
+        "entrainment speed, outer ring",
     ),
     "residual": Quantity("maximum unbalanced force on ring or element / (load + centrifugal force)"),
 }
 
 # Keys of a row of ``contacts``, which are also the columns of contacts.csv.
 CONTACT_KEYS: Keys = {
-    "element": Quantity("number of the element from 0, which lies on the load line"),
-    "ring": Quantity('"inner" or "outer"'),
-    "position": Quantity("angle of the element from the direction of the load", "rad"),
-    "load": Quantity("load of the contact", "N"),
-    "contact_angle": Quantity("contact angle; where there is no contact that of the narrowest place", "rad"),
-    "max_pressure": Quantity("Hertz pressure of the dry contact; null without load", "Pa"),
+    "element": Quantity("number of the element from 0, which lies on the load line", head="element"),
+    "ring": Quantity('"inner" or "outer"', head="ring"),
+    "position": Quantity(
+        "angle of the element from the direction of the load", "rad", head="position", digits=".0f"
+    ),
+    "load": Quantity("load of the contact", "N", head="load"),
+    "contact_angle": Quantity(
+        "contact angle; where there is no contact that of the narrowest place",
+        "rad",
+        head="angle",
+        digits="z.1f",  # an angle that is rounded to zero has no sign
+    ),
+    "max_pressure": Quantity(
+        "Hertz pressure of the dry contact; null without load", "Pa", head="Hertz p", digits=".3f"
+    ),
     "semi_axis_x": Quantity(
-        "semi-axis of the dry contact along entrainment, of a roller its half-width; null without load", "m"
+        "semi-axis of the dry contact along entrainment, of a roller its half-width; null without load",
+        "m",
+        head="semi-axis x",
     ),
     "semi_axis_y": Quantity(
-        "semi-axis across entrainment, of a roller half of its length; null without load", "m"
+        "semi-axis across entrainment, of a roller half of its length; null without load",
+        "m",
+        head="semi-axis y",
     ),
-    "minimum_thickness": Quantity("minimum film thickness, or the gap where there is no contact", "m"),
-    "central_thickness": Quantity("central film thickness, or the gap where there is no contact", "m"),
-    "lambda_ratio": Quantity("minimum_thickness / composite_rq"),
+    "minimum_thickness": Quantity(
+        "minimum film thickness, or the gap where there is no contact", "m", head="h_min"
+    ),
+    "central_thickness": Quantity(
+        "central film thickness, or the gap where there is no contact", "m", head="h central"
+    ),
+    "lambda_ratio": Quantity("minimum_thickness / composite_rq", head="lambda", digits=".3g"),
     "regime": Quantity(
         '"full film" from a lambda_ratio of 3 on; "partial film" below, where asperities touch at times; '
         '"touching" below 1, with contacts that open and close; "gap" without load'
     ),
     **CONTACT_DUTY_KEYS,
     "capacitance": Quantity(
-        "capacitance of the contact, with `fill` around it; null for ceramic elements", "F"
+        "capacitance of the contact, with `fill` around it; null for ceramic elements", "F", head="C"
     ),
     "voltage_share": Quantity(
-        "share of the bearing's voltage on the contact; null for ceramic elements and a conducting bearing"
+        "share of the bearing's voltage on the contact; null for ceramic elements and a conducting bearing",
+        head="V share",
+        shown="%",
+        digits=".1f",
     ),
     "strength_per_volt": Quantity(
         "maximum field strength of the contact / bearing voltage; null for a conducting bearing and for "
         "ceramic elements",
         "1/m",
+        head="E/V",
+        digits=".3g",
+        bound="≥",
     ),
-    "max_strength": Quantity("that field strength at the shaft voltage; null without a motor", "V/m"),
+    "max_strength": Quantity(
+        "that field strength at the shaft voltage; null without a motor",
+        "V/m",
+        head="E",
+        digits=".3g",
+        bound="≥",
+    ),
     "breakdown_voltage": Quantity(
         "voltage on the contact itself, not on the bearing, at which it breaks down; null without a "
         "strength, for a conducting bearing and for ceramic elements",
         "V",
+        head="breakdown",
+        digits=".3g",
+        bound="≤",
     ),
     "bearing_breakdown_voltage": Quantity(
         "bearing voltage at which the contact breaks down, breakdown_voltage / voltage_share; null as "
         "breakdown_voltage is",
         "V",
+        bound="≤",
     ),
     "solved": Quantity("whether there is a film; a gap of rigid bodies otherwise"),
 }
@@ -712,5 +810,56 @@ BEARING_KEYS: Keys = {
     **under("mechanics", _MECHANICS),
     "contacts": Quantity("list with each contact, the cage in its first position; contacts.csv has the same"),
     **under("contacts", CONTACT_KEYS),
-    "seconds": Quantity("computing time", "s"),
+    "seconds": Quantity("computing time", "s", "computing time", shown="s", digits=".3g"),
 }
+
+
+def _shown_of_ring(name: str) -> Keys:
+    """Quantities of the loaded contacts with a ring, which outputs show and no summary stores."""
+    return {
+        f"rings.{name}.load": Quantity(
+            f"load of the most loaded contact with the {name} ring", "N", f"maximum load, {name} ring"
+        ),
+        f"rings.{name}.max_pressure": Quantity(
+            f"maximum Hertz pressure of the contacts with the {name} ring",
+            "Pa",
+            f"Hertz pressure, {name} ring",
+        ),
+        f"rings.{name}.minimum_thickness": Quantity(
+            f"minimum film of the loaded contacts with the {name} ring",
+            "m",
+            f"minimum film, {name} ring",
+            bound="≤",
+        ),
+    }
+
+
+# Quantities that outputs show and no summary stores.
+_SHOWN: Keys = {
+    **_shown_of_ring("inner"),
+    **_shown_of_ring("outer"),
+    "bearing.minimum_thickness": Quantity(
+        "minimum film of all loaded contacts", "m", "minimum film thickness", bound="≤"
+    ),
+    "bearing.asperity_share_range": Quantity(
+        "asperity load share by the published laws", "", "asperity load share"
+    ),
+    "margin.range": Quantity(
+        "margin with all inputs of `[ranges]` at their unfavourable and favourable ends",
+        "",
+        "margin within the stated ranges",
+        bound="≤",
+    ),
+}
+_CONDITIONS: Keys = {
+    "inputs.bearing.inner_speed": Quantity("speed of the inner ring", "rad/s", "speed of the inner ring"),
+    "inputs.bearing.radial_load": Quantity("radial load", "N", "radial load"),
+    "inputs.bearing.axial_load": Quantity("axial load", "N", "axial load"),
+    "inputs.bearing.radial_clearance": Quantity("radial clearance", "m", "radial clearance"),
+    "inputs.bearing.contact_angle": Quantity("free contact angle", "rad", "free contact angle"),
+    "inputs.discharge.dielectric_strength": Quantity(
+        "dielectric strength of the oil", "V/m", "dielectric strength"
+    ),
+}
+# Everything that outputs of a bearing show.
+BEARING_BOOK: Keys = {**BEARING_KEYS, **_SHOWN, **_CONDITIONS}

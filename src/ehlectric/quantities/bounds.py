@@ -62,3 +62,76 @@ def ideal_bounds(book: Keys) -> dict[str, Bound]:
     Their films are ideal in any case: those of a drive are smooth, those of moving roughness isothermal.
     """
     return {key: about.bound for key, about in book.items() if about.bound}
+
+
+def ideal_bearing(summary: Summary) -> bool:
+    """Whether real films are thinner than those of a bearing: fully flooded, and smooth.
+
+    A film factor that is given stands for starvation and heat as well, and so does a supply for starvation.
+    """
+    bearing = summary["inputs"]["bearing"]
+    heated = (
+        bearing.get("film_factor") in ("inlet-shear", "solved")
+        and bearing.get("supply", "flooded") == "flooded"
+    )
+    return bool(summary["bearing"]["film_factor"] == 1.0) or heated
+
+
+def bearing_bound_words(summary: Summary) -> str:
+    """Why the breakdown voltages of a bearing are upper bounds; its smooth films always make them so.
+
+    Examples
+    --------
+    >>> bearing_bound_words({"warning_codes": ["partial-film"]})
+    'upper bound: smooth film, whose surfaces may touch'
+    """
+    codes = summary["warning_codes"]
+    films = "isothermal, fully flooded, smooth film" if "isothermal-film" in codes else "smooth film"
+    touch = ", whose surfaces may touch" if "partial-film" in codes else ""
+    scatter = ", at a probability of 63.2 %" if "weibull-voltage" in codes else ""
+    return f"upper bound: {films}{touch}{scatter}"
+
+
+# Numbers of a bearing that are bounds only where a condition holds: capacitances of ceramic elements whose
+# own capacitance is not given, voltages where the oil discharges the shaft, and ideal films.
+_CERAMIC = tuple(
+    f"bearing.{name}" for name in ("capacitance", "capacitance_oil", "capacitance_air", "shaft_capacitance")
+)
+_DISCHARGED = ("bearing.shaft_voltage", "bearing.film_voltage")
+_FILMS = (
+    *("bearing.lambda_ratio", "bearing.minimum_thickness"),
+    *("rings.inner.minimum_thickness", "rings.outer.minimum_thickness"),
+    *("margin.touching_speed", "margin.capacitive_speed"),
+)
+# Numbers that a lower shaft voltage changes the other way than a thinner film.
+_OF_SHAFT = (
+    *("bearing.max_strength", "contacts.max_strength", "bearing.breakdown_probability"),
+    *("margin.critical_speed", "margin.upper_critical_speed"),
+)
+
+
+def bearing_bounds(book: Keys, summary: Summary) -> dict[str, Bound]:
+    """Bounds of the numbers of a bearing, by dotted key.
+
+    Its films are smooth, and mostly isothermal and fully flooded: real films are thinner, break down at lower
+    voltages and higher speeds, and have higher fields. The shaft voltage falls with the film, but less than
+    it. The energy of a breakdown voltage that is an upper bound is one too, although a thinner film has a
+    higher capacitance: it grows as 1/h at most, and the square of the voltage falls as h^2.
+    """
+    codes = summary["warning_codes"]
+    leaks = "shaft-leaks" in codes
+    holds = {
+        **dict.fromkeys(_CERAMIC, "capacitance-bound" in codes),
+        **dict.fromkeys(_DISCHARGED, leaks),
+        **dict.fromkeys(_FILMS, ideal_bearing(summary)),
+        **dict.fromkeys(_OF_SHAFT, not leaks),
+    }
+    # Words in place of a number are no bound.
+    worded = [
+        key for key in ("bearing.first_break", "margin.critical_speed") if value_at(summary, key) is None
+    ]
+    return {
+        key: about.bound
+        for key, about in book.items()
+        if about.bound and holds.get(key, True) and key not in worded
+    }

@@ -79,6 +79,7 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "K": ("K", 1.0),
         "°C": ("K", 1.0),
         "N m": ("N*m", 1.0),
+        "N mm": ("N*m", 1e3),
     }
     | {
         f"{prefix}{name}": (unit, 1.0 / size)

@@ -36,6 +36,8 @@ class Quantity:
     bound : str
         What an ideal film makes of the value: "≤" for an upper bound, "≥" for a lower one. ``bounds`` says
         whether it holds for a result.
+    head : str
+        Short label at the head of a column; if it is empty, the label.
     """
 
     meaning: str
@@ -45,6 +47,7 @@ class Quantity:
     shown: str = field(default="", kw_only=True)
     digits: str = field(default=".4g", kw_only=True)
     bound: Bound = field(default="", kw_only=True)
+    head: str = field(default="", kw_only=True)
 
 
 # Keys of a summary, or of one of its tables. An item of a list has the key of the list, if it has none of its

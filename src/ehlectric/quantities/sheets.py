@@ -297,15 +297,184 @@ MOTION: Sheet = (
     Section("run", ("motion.halvings", "motion.newton_per_step", "seconds")),
 )
 
-# Quantities that the page of a bearing shows large.
-BEARING_CARDS = (
+_BEARING_CONDITIONS = Section(
+    "operating conditions",
+    (
+        "inputs.bearing.inner_speed",
+        "inputs.bearing.radial_load",
+        "inputs.bearing.axial_load",
+        "lubricant.temperature",
+        "lubricant.viscosity",
+        "lubricant.alpha_star",
+        "lubricant.inner_temperature",
+        "lubricant.inner_viscosity",
+        "lubricant.outer_temperature",
+        "lubricant.outer_viscosity",
+        "inputs.bearing.radial_clearance",
+        "bearing.unmounted_clearance",
+        "bearing.mounted_clearance",
+        "bearing.running_clearance",
+        "inputs.bearing.contact_angle",
+        "inputs.discharge.dielectric_strength",
+    ),
+)
+# Sections of a bearing that is solved, or whose films are from the atlas or by formula.
+_BEARING_OUTCOME = (
+    Section(
+        "films",
+        (
+            "bearing.contacts",
+            "bearing.minimum_thickness",
+            "bearing.lambda_ratio",
+            "bearing.film_factor",
+            "bearing.heat_factor",
+            "bearing.inlet_shear_factor",
+            "bearing.supply_factor",
+            "bearing.film_half_time",
+            "bearing.discretisation_error",
+            "bearing.interpolation_error",
+            "bearing.film_error",
+        ),
+    ),
+    Section(
+        "friction, hydrodynamic rolling alone",
+        (
+            "bearing.rolling_power_loss",
+            "bearing.rolling_moment",
+            "bearing.inner_contact_power_loss",
+            "bearing.inner_inlet_temperature_rise",
+            "bearing.outer_contact_power_loss",
+            "bearing.outer_inlet_temperature_rise",
+        ),
+    ),
+    Section(
+        "asperities",
+        (
+            "bearing.regime",
+            "bearing.inner_contact_time_share",
+            "bearing.outer_contact_time_share",
+            "bearing.clarke_time_share",
+            "bearing.insulating_time_share",
+            "bearing.asperity_share_range",
+            "margin.capacitive_speed",
+        ),
+    ),
+    Section(
+        "capacitance",
+        (
+            "bearing.capacitance",
+            "bearing.capacitance_oil",
+            "bearing.capacitance_air",
+            "bearing.capacitance_ratio",
+            "bearing.capacitance_rough",
+            "bearing.parallel_capacitance",
+            "bearing.coating_capacitance",
+            "bearing.shaft_capacitance",
+            "bearing.meter_capacitance",
+        ),
+    ),
+    Section(
+        "breakdown",
+        (
+            "bearing.bearing_voltage_ratio",
+            "bearing.shaft_voltage",
+            "bearing.strength_per_volt",
+            "bearing.max_strength",
+            "bearing.through_breakdown",
+            "bearing.through_breakdown_mean",
+            "bearing.through_margin",
+            "bearing.first_break_mean",
+            "bearing.first_break",
+            "bearing.coating_share",
+            "bearing.film_voltage",
+            "bearing.shaft_first_break",
+            "bearing.shaft_through_breakdown",
+            "bearing.coating_breakdown",
+            "bearing.lubrication",
+            "bearing.margin",
+            "bearing.breakdown_probability",
+            "margin.range",
+            "margin.critical_speed",
+            "margin.upper_critical_speed",
+            "margin.touching_speed",
+        ),
+    ),
+    Section("margin if one input changes", ("margin.effects", "margin.left_out")),
+    Section(
+        "leakage through the oil",
+        (
+            "bearing.relaxation_time",
+            "bearing.shaft_time_constant",
+            "bearing.film_time_constant",
+            "bearing.shaft_voltage_after_rise",
+            "bearing.shaft_voltage_after_period",
+        ),
+    ),
+    Section(
+        "discharge",
+        (
+            "bearing.discharge_energy",
+            "bearing.breakdown_energy",
+            "bearing.pit_diameter",
+            "bearing.breakdown_pit_diameter",
+            "bearing.current_density",
+            "bearing.element_current_density",
+        ),
+    ),
+)
+BEARING: Sheet = (_BEARING_CONDITIONS, *_BEARING_OUTCOME, Section("run", ("seconds",)))
+
+# A bearing before its contacts are solved, or two of them beside each other.
+BEARING_CHECK: Sheet = (
+    _BEARING_CONDITIONS,
+    *(
+        Section(
+            f"contacts with the {ring} ring",
+            (
+                f"rings.{ring}.load",
+                f"rings.{ring}.max_pressure",
+                f"rings.{ring}.minimum_thickness",
+                f"mechanics.entrainment_speed_{ring}",
+            ),
+        )
+        for ring in ("inner", "outer")
+    ),
+    *_BEARING_OUTCOME,
+)
+
+# Columns of the tables of all contacts of a bearing: of its loads, of its films, and on its page.
+LOAD_COLUMNS = (
+    *("element", "ring", "position", "load", "contact_angle", "max_pressure", "semi_axis_x", "semi_axis_y"),
+)
+FILM_COLUMNS = (
+    *("element", "ring", "minimum_thickness", "central_thickness", "lambda_ratio", "capacitance"),
+    *("voltage_share", "max_strength", "strength_per_volt", "breakdown_voltage"),
+)
+PAGE_COLUMNS = (
+    *("element", "ring", "position", "load", "max_pressure", "minimum_thickness", "lambda_ratio"),
+    *("capacitance", "breakdown_voltage"),
+)
+
+# Quantities that the page of a bearing shows large, each with those that stand small below it.
+BEARING_CARDS = {
+    "bearing.capacitance": ("bearing.capacitance_air", "bearing.capacitance_oil"),
+    "bearing.first_break": (),
+    "bearing.shaft_first_break": (),
+    "bearing.shaft_voltage": ("bearing.bearing_voltage_ratio",),
+    "bearing.margin": ("margin.range", "bearing.breakdown_probability"),
+    "bearing.lambda_ratio": ("bearing.minimum_thickness",),
+    "margin.critical_speed": ("margin.upper_critical_speed", "margin.touching_speed"),
+    "bearing.regime": ("margin.capacitive_speed",),
+}
+
+# Quantities by which a page says how far solved contacts differ from quick ones.
+DIFFERENCES = (
     "bearing.capacitance",
     "bearing.first_break",
+    "bearing.shaft_first_break",
     "bearing.shaft_voltage",
     "bearing.margin",
-    "bearing.lambda_ratio",
-    "margin.critical_speed",
-    "bearing.regime",
+    "bearing.minimum_thickness",
 )
 
 # Quantities of the table "end" are those of each bearing.
@@ -406,6 +575,15 @@ REMEDIES: Sheet = (
         ),
     ),
 )
+# Main results of two cases beside each other.
+COMPARED = (
+    *("bearing.capacitance", "bearing.first_break", "bearing.shaft_first_break", "bearing.shaft_voltage"),
+    *("bearing.margin", "bearing.lambda_ratio", "rings.*.max_pressure", "rings.*.minimum_thickness"),
+    *("margin.critical_speed", "hertz.max_pressure", "film_formulas.*.minimum_thickness"),
+    *("breakdown_by_formula.breakdown_voltage", "breakdown_by_formula.margin"),
+)
+# What two cases beside each other show elsewhere, among their inputs, or what is no result of either.
+NOT_COMPARED = frozenset((*_CONDITIONS.keys, *_BEARING_CONDITIONS.keys, *CHECK[-1].keys, "formula_error"))
 
 # Quantities that the page of a drive shows large, simulated or not.
 DRIVE_CARDS = (

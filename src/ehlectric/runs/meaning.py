@@ -21,7 +21,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.drives.case import DriveCase
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.contact_results import CONTACT_BOOK
-from ehlectric.quantities.rows import Row, row_of
+from ehlectric.quantities.rows import Row, Words, row_of
 from ehlectric.quantities.units import rpm
 from ehlectric.sweep.inputs import Sweep
 
@@ -196,7 +196,7 @@ def _check_bearing(case: BearingCase) -> Meaning:
     from ehlectric.bearing.accuracy import error_text
     from ehlectric.bearing.quick.ways import quick_case
     from ehlectric.bearing.solver import check_bearing
-    from ehlectric.tables.bearing import input_rows, outcome_rows
+    from ehlectric.tables.bearing import check_rows
 
     check_bearing(case)
     judged, refused = quick_case(case)
@@ -205,17 +205,17 @@ def _check_bearing(case: BearingCase) -> Meaning:
         return _without_films(case, reason)
     result = _solved_quickly(judged)
     summary = {**result.summary(), "films": judged.contacts}
-    totals = (row for row in outcome_rows(summary) if row.name != "computing time")
-    solved = (
+    heat = (
         ", heat by the formula of film_factor 'inlet-shear'" if case.bearing.film_factor == "solved" else ""
     )
-    accuracy = Row(
-        "accuracy of all that follows",
-        note=f"contacts {HOW[judged.contacts]}{solved}: films may be {error_text(result.solution)} off",
-    )
-    rows = [*input_rows(summary), *_dry(summary), accuracy, *totals]
+    accuracy = f"{heat}: films may be {error_text(result.solution)} off"
+    words = Words(notes={"bearing.contacts": lambda _: accuracy})
     if refused is not None:
-        rows.append(Row("breakdown voltage", note="needs solved contacts for this strength"))
+        words |= Words(
+            values={"bearing.first_break": lambda _: "not computed"},
+            notes={"bearing.first_break": lambda _: ", needs solved contacts for this strength"},
+        )
+    rows = check_rows(summary, words)
     return Meaning(case.title, tuple(rows), summary, result.warnings, result.verdict)
 
 
@@ -262,25 +262,6 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
     }
     rows = (*input_rows(summary), Row("films and voltages", note=reason))
     return Meaning(case.title, rows, summary, ())
-
-
-def _dry(summary: Mapping[str, Any]) -> Iterator[Row]:
-    """Rows of the most loaded dry contact with each ring, and of the speeds."""
-    how = HOW[summary["bearing"]["contacts"]]
-    for ring in ("inner", "outer"):
-        contacts = [row for row in summary["contacts"] if row["ring"] == ring]
-        most = max(contacts, key=lambda row: float(row["load"]))
-        yield Row(f"most loaded contact, {ring} ring")
-        yield Row(f"load, {ring} ring", most["load"], "N")
-        yield Row(f"Hertz pressure, {ring} ring", most["max_pressure"], "GPa")
-        yield Row(
-            f"minimum film, {ring} ring",
-            most["minimum_thickness"],
-            "µm",
-            f", {how}",
-        )
-        speed = summary["mechanics"][f"entrainment_speed_{ring}"]
-        yield Row(f"entrainment speed, {ring} ring", speed, "m/s")
 
 
 @check.register

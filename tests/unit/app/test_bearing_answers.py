@@ -7,7 +7,7 @@ import tomllib
 import pytest
 
 from ehlectric.app.answers.bearing import BearingAnswer
-from ehlectric.app.answers.told import PLACES, Told, beside, counts, elsewhere
+from ehlectric.app.answers.told import Told, beside, counts, elsewhere
 from ehlectric.app.compute.bearing import (
     answer_of,
     bearing_case,
@@ -22,6 +22,7 @@ from ehlectric.app.figures.bearing_speeds import OverSpeed, speed_rows
 from ehlectric.bearing.solver import solve_bearing
 from ehlectric.discharge.verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning
+from ehlectric.quantities.bearing_results import BEARING_BOOK
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.units import rpm
 from ehlectric.runs.by_kind import run
@@ -93,19 +94,19 @@ def test_the_whole_answer_has_the_verdict_of_the_command(whole, summary):
 @pytest.mark.slow
 def test_numbers_are_shown_with_their_units_and_bounds(quick, summary):
     totals = summary["bearing"]
-    shown = {number.name: (number.bound, number.text) for number in quick.shown}
+    shown = {number.key: (number.bound, f"{number.text} {number.unit}".strip()) for number in quick.shown}
     assert shown == {
-        "capacitance": ("", amount(totals["capacitance"], "F")),
-        "first-break": ("≤", amount(totals["first_break"], "V")),
-        "shaft-voltage": ("", amount(totals["shaft_voltage"], "V")),
-        "margin": ("≤", ratio_text(totals["margin"])),
+        "bearing.capacitance": ("", amount(totals["capacitance"], "F")),
+        "bearing.first_break": ("≤", amount(totals["first_break"], "V")),
+        "bearing.shaft_voltage": ("", amount(totals["shaft_voltage"], "V")),
+        "bearing.margin": ("≤", f"{totals['margin']:.4g}"),
         # The films are isothermal, fully flooded and smooth.
-        "lambda": ("≤", f"{totals['lambda_ratio']:.3g}"),
-        "regime": ("", totals["regime"]),
-        "critical-speed": ("", "…"),
+        "bearing.lambda_ratio": ("≤", f"{totals['lambda_ratio']:.3g}"),
+        "bearing.regime": ("", totals["regime"]),
+        "margin.critical_speed": ("", "…"),
     }
     note = quick.number("bearing.capacitance").note
-    assert note.startswith(amount(totals["capacitance_air"], "F"))
+    assert amount(totals["capacitance_air"], "F") in note
     assert amount(totals["capacitance_oil"], "F") in note
     assert "upper bound: isothermal" in quick.number("bearing.first_break").note
 
@@ -115,11 +116,12 @@ def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
     assert "capacitive" not in quick.number("bearing.regime").note
     speed = rpm(summary["margin"]["capacitive_speed"])
     # Real films are thinner than these, and touch up to higher speeds.
-    assert whole.number("bearing.regime").note.endswith(f"from ≥ {float(f'{speed:.3g}'):g} rpm")
+    assert whole.number("bearing.regime").note.endswith(f" ≥ {float(f'{speed:.3g}'):g} rpm")
     found = whole.number("margin.critical_speed")
     critical = rpm(summary["margin"]["critical_speed"])
     assert (found.known, found.bound) == (True, "≥")
-    assert float(found.text.removesuffix(" rpm")) == pytest.approx(critical, rel=5e-3)
+    assert float(found.text) == pytest.approx(critical, rel=5e-3)
+    assert found.unit == "rpm"
 
 
 @pytest.mark.slow
@@ -153,7 +155,7 @@ def test_silicon_nitride_has_an_upper_bound_and_no_voltages():
     quick = quick_answer(inputs(element_material="silicon-nitride"))
     assert quick.level == "grey"
     capacitance, shaft = quick.number("bearing.capacitance"), quick.number("bearing.shaft_voltage")
-    assert (capacitance.bound, capacitance.note.startswith("upper bound")) == ("≤", True)
+    assert (capacitance.bound, "≤" in capacitance.note) == ("≤", True)
     assert "capacitance-bound" in [told.code for told in capacitance.told]
     assert (shaft.known, shaft.text) == (False, "none")
     assert not quick.number("bearing.margin").known
@@ -171,23 +173,26 @@ def test_touching_surfaces_have_no_voltage_and_no_green():
     assert "touching" in [told.code for told in quick.number("bearing.lambda_ratio").told]
 
 
-def test_every_code_of_a_warning_has_a_place():
-    assert set(PLACES) == set(CODES)
+def test_warnings_concern_quantities_of_the_book():
+    concerned = {key for about in CODES.values() for key in about.concerns}
+    assert {key for key in concerned if key.startswith(("bearing.", "margin."))} <= {*BEARING_BOOK}
 
 
 @pytest.mark.slow
 def test_warnings_stand_beside_the_numbers_they_concern(quick):
-    found = {number.name: [told.code for told in number.told] for number in quick.shown}
-    assert found["capacitance"] == ["atlas-contacts"]
-    for name in ("first-break", "margin", "lambda"):
-        assert found[name] == ["atlas-contacts", "isothermal-film"]
+    found = {number.key: [told.code for told in number.told] for number in quick.shown}
+    assert found["bearing.capacitance"] == ["atlas-contacts"]
+    for key in ("bearing.first_break", "bearing.margin", "bearing.lambda_ratio"):
+        assert found[key] == ["atlas-contacts", "isothermal-film"]
     placed = {code for codes in found.values() for code in codes}
     assert placed | {told.code for told in elsewhere(quick.warnings)} == {t.code for t in quick.warnings}
 
 
 @pytest.mark.slow
 def test_places_are_numbers_that_the_page_shows(quick):
-    assert {name for names in PLACES.values() for name in names} <= {number.name for number in quick.shown}
+    places = {key for told in quick.warnings for key in told.beside}
+    assert places
+    assert places <= {number.key for number in quick.shown}
 
 
 def test_severe_warnings_come_first_and_each_once():
@@ -195,13 +200,13 @@ def test_severe_warnings_come_first_and_each_once():
     told = told_of(warnings)
     assert [one.code for one in told] == ["not-converged", "speed-high"]
     assert counts(told) == "1 severe warning, 1 warning"
-    assert beside(told, "margin") == told[:1]
+    assert beside(told, "bearing.margin") == told[:1]
     assert elsewhere(told) == told[1:]
 
 
 @pytest.mark.slow
 def test_films_that_are_not_converged_are_no_numbers_and_no_figures(summary):
-    told = (Told("not-converged", "severe", "no solution", PLACES["not-converged"]),)
+    told = (Told("not-converged", "severe", "no solution", CODES["not-converged"].concerns),)
     for number in shown_numbers(summary | {"converged": False}, told, whole=True):
         assert not number.known
         assert number.bound == ""
@@ -283,15 +288,15 @@ def test_a_table_without_a_bearing_is_refused():
 def test_differences_of_solved_contacts(summary):
     totals = summary["bearing"]
     thinner = {"capacitance": 1.1 * totals["capacitance"], "margin": None, "lambda_ratio": 0.8}
-    solved = summary | {"bearing": totals | thinner | {"shaft_first_break": 0.5 * totals["first_break"]}}
+    solved = summary | {"bearing": totals | thinner | {"first_break": 0.5 * totals["first_break"]}}
     quick = summary | {"bearing": totals | {"lambda_ratio": 1.0}}
     found = {one.name: one.change for one in differences(quick, solved)}
     assert found == {
-        "capacitance": "+10.0 %",
+        "capacitance of the bearing": "+10.0 %",
         "first breakdown voltage": "-50.0 %",
         "shaft voltage": "+0.0 %",
-        "margin": "only from the atlas",
-        "minimum film": "-20.0 %",
+        "margin (first breakdown / shaft voltage)": "only from the atlas",
+        "minimum film thickness": "-20.0 %",
     }
 
 
@@ -334,10 +339,11 @@ def test_the_effects_have_the_value_that_belongs_to_each_margin(whole, quick, su
 def test_a_coating_has_its_own_name_for_the_voltage_on_the_shaft():
     coated = inputs(coating=COATING)
     quick = quick_answer(coated)
-    first = quick.number("bearing.first_break")
-    assert "shaft" in first.label.lower()
-    assert first.text == amount(quick.numbers["shaft_first_break"], "V")
-    assert amount(quick.numbers["first_break"], "V") in first.note
+    films, shaft = quick.number("bearing.first_break"), quick.number("bearing.shaft_first_break")
+    assert "shaft" in shaft.label.lower()
+    assert f"{shaft.text} {shaft.unit}" == amount(quick.numbers["shaft_first_break"], "V")
+    assert f"{films.text} {films.unit}" == amount(quick.numbers["first_break"], "V")
+    assert (films.bound, shaft.bound) == ("≤", "≤")
 
 
 @pytest.mark.slow
@@ -389,4 +395,6 @@ def test_solved_contacts_are_the_result_of_the_command(tmp_path):
     contacts = [one for one in told if one[2] == "contacts"]
     assert contacts[0][0] == 0
     assert contacts[-1][0] == contacts[-1][1] > 4
-    assert {one.name for one in answer.differences} >= {"capacitance", "minimum film"}
+    assert {one.name for one in answer.differences} >= {
+        "capacitance of the bearing", "minimum film thickness"
+    }  # fmt: skip

@@ -5,13 +5,9 @@ import tomllib
 from dataclasses import replace
 
 import pytest
-from ehlectric.app.answers.contact_told import CONTACT_PLACES
 
 from ehlectric import Case
-<<<<<<< HEAD
-=======
 from ehlectric.app.compute.cards import concerned
->>>>>>> main
 from ehlectric.app.compute.contact import (
     check_contact,
     contact_case,

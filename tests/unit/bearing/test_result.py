@@ -314,7 +314,7 @@ def test_probability_of_breakdown_at_the_shaft_voltage(rollers):
     intact = np.prod([np.exp(-(part**8.0)) for part in used])
     assert 0.0 < found < 1.0
     assert found == pytest.approx(1.0 - intact, rel=1e-9, abs=0.0)
-    (row,) = (row for row in total_rows(summary) if row.name == "breakdown at the shaft voltage")
+    (row,) = (row for row in total_rows(summary) if row.key == "bearing.breakdown_probability")
     assert float(row.shown) == pytest.approx(100.0 * found, rel=0.05)
     # Without scatter, and without a voltage, there is no probability.
     assert numbers_of(rollers)["bearing"]["breakdown_probability"] is None

@@ -103,9 +103,9 @@ def test_summary_and_table_name_both_rings():
     oil = summary["lubricant"]
     assert [oil[f"{ring}_temperature"] for ring in ("inner", "outer")] == pytest.approx([363.15, 343.15])
     assert oil["inner_viscosity"] < oil["outer_viscosity"] == oil["viscosity"]
-    rows = {row.name: row.shown for row in input_rows(summary)}
-    assert (rows["temperature"], rows["temperature of the inner ring"]) == ("70", "90")
-    assert "temperature of the outer ring" not in rows
+    rows = {row.key: row.shown for row in input_rows(summary)}
+    assert (rows["lubricant.temperature"], rows["lubricant.inner_temperature"]) == ("70", "90")
+    assert "lubricant.outer_temperature" not in rows
 
 
 def test_errors_and_warnings_name_the_ring():

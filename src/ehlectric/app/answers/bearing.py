@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ehlectric.app.answers.line import Line
+from ehlectric.app.answers.number import Number
 from ehlectric.app.answers.told import Told
 from ehlectric.cases.bearings.ways import Contacts
 
@@ -46,37 +47,6 @@ class Judged:
     reasons: tuple[str, ...]
     assumptions: str
     bound: str = ""
-
-
-@dataclass(frozen=True)
-class Number:
-    """Number of an answer as it is shown.
-
-    Attributes
-    ----------
-    name : str
-        Name such as "first-break", by which warnings are placed.
-    label : str
-        Name of the quantity.
-    text : str
-        Value with its unit, or why there is none.
-    bound : str
-        "≤" where the value is an upper bound only, "≥" where it is a lower one.
-    note : str
-        What a reader must know beside it.
-    known : bool
-        Whether there is a value.
-    told : tuple of Told
-        Warnings that concern it.
-    """
-
-    name: str
-    label: str
-    text: str
-    bound: str = ""
-    note: str = ""
-    known: bool = True
-    told: tuple[Told, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -198,6 +168,6 @@ class BearingAnswer:
     differences: tuple[Difference, ...] = field(default=())
     effects: Table | None = None
 
-    def number(self, name: str) -> Number:
-        """Number of a name."""
-        return next(one for one in self.shown if one.name == name)
+    def number(self, key: str) -> Number | None:
+        """Number of a key; None where the answer has none."""
+        return next((one for one in self.shown if one.key == key), None)

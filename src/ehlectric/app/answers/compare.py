@@ -45,6 +45,8 @@ class Result:
         "≤" where the number is an upper bound only, "≥" where it is a lower one.
     main : bool
         Whether it is one of the results that decide.
+    key : str
+        Dotted key of the quantity, by which results are compared; empty for a result that has none.
     """
 
     group: str
@@ -55,6 +57,7 @@ class Result:
     note: str = ""
     bound: str = ""
     main: bool = False
+    key: str = ""
 
     @property
     def number(self) -> tuple[float | None, str]:
@@ -211,7 +214,7 @@ def _input_row(key: str, one: Mapping[str, Any], two: Mapping[str, Any]) -> Inpu
 
 def effects(first: Side, second: Side) -> list[Effect]:
     """Effects on every result, in the order of the cases, under their headings."""
-    one, two = ({(row.group, row.name): row for row in side.results} for side in (first, second))
+    one, two = ({row.key or (row.group, row.name): row for row in side.results} for side in (first, second))
     found = [_effect(one.get(key), two.get(key)) for key in {**one, **two}]
     groups = list(dict.fromkeys(effect.either.group for effect in found))
     return sorted(found, key=lambda effect: groups.index(effect.either.group))

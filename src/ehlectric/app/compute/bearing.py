@@ -201,7 +201,7 @@ def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Fig
     """Figures around the shaft."""
     rows, around = summary["contacts"], _around(result)
     rq, radial = result.case.bearing.composite_rq, result.case.bearing.radial_load > 0.0
-    table = contacts_table(rows)
+    table = contacts_table(summary)
     loaded = [row for row in rows if row["solved"]]
     most = max(loaded, key=lambda row: row["load"])
     least = min(loaded, key=lambda row: row["minimum_thickness"])

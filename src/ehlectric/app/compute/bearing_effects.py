@@ -7,6 +7,7 @@ from typing import Any
 
 from ehlectric.app.answers.bearing import Table
 from ehlectric.discharge.verdict import ratio_text
+from ehlectric.quantities.bearing_results import BEARING_BOOK
 from ehlectric.tables.bearing import input_range
 
 EFFECT_HEADS = ("one input changed", "lowest margin", "with", "highest margin", "with")
@@ -37,6 +38,7 @@ def effects_table(summary: Mapping[str, Any], level: str) -> Table | None:
 
 
 def _cells(effect: Mapping[str, Any]) -> Iterator[str]:
+    bound = BEARING_BOOK["margin.effects"].bound
     # Both values with the unit that the range has.
     low, _, rest = input_range(effect).partition(" to ")
     high, _, unit = rest.partition(" ")
@@ -46,5 +48,5 @@ def _cells(effect: Mapping[str, Any]) -> Iterator[str]:
     ]
     yield effect["label"]
     for margin, value in sorted(ends, key=lambda end: end[0]):
-        yield f"≤ {ratio_text(margin)}" if margin > 0.0 else "surfaces touch"
+        yield f"{bound} {ratio_text(margin)}" if margin > 0.0 else "surfaces touch"
         yield value

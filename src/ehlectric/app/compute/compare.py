@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
 from ehlectric.app.answers.compare import Film, Result, Side
 from ehlectric.app.compute.bearing import solved_quickly
-from ehlectric.app.compute.bearing_numbers import film_is_bound, speed_bound
 from ehlectric.app.compute.bearing_verdict import quick_verdict
 from ehlectric.app.compute.cases import case_of
 from ehlectric.app.compute.contact import verdict_by_formula
@@ -17,36 +17,12 @@ from ehlectric.app.compute.warnings import told_of
 from ehlectric.bearing.accuracy import error_text
 from ehlectric.bearing.summary import summary_of
 from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.bearings.ways import HOW, OF_CONTACTS
+from ehlectric.cases.bearings.ways import OF_CONTACTS
 from ehlectric.cases.case import Case
 from ehlectric.quantities.rows import Row
+from ehlectric.quantities.sheets import COMPARED, NOT_COMPARED
 from ehlectric.runs.meaning import check
-from ehlectric.tables.bearing import outcome_rows
-
-# Rows of what a person gave, which are among the inputs, and of the computer.
-_INPUTS = ("operating conditions", "numerical model")
-_LEFT_OUT = ("computing time", "usual difference from a solved film", "accuracy of all that follows")
-
-_SHAFT = "shaft voltage"
-
-# Rows of the breakdown of a contact, by the first words of their names.
-_OF_CONTACT = ("breakdown voltage", "margin (breakdown")
-
-# Rows that decide, by the first words of their names.
-_MAIN = (
-    "capacitance of the bearing",
-    "first breakdown voltage",
-    "shaft voltage of the first breakdown",
-    "margin (first breakdown / shaft voltage)",
-    "minimum lambda ratio",
-    "minimum film",
-    "critical speed",
-    "Hertz pressure",
-    *_OF_CONTACT,
-)
-
-# Rows of films, which are upper bounds where the films are fully flooded, smooth ones.
-_FILMS = ("minimum lambda ratio", "minimum film")
+from ehlectric.tables.bearing import check_rows
 
 
 def side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
@@ -78,13 +54,12 @@ def _bearing(case: BearingCase, *, whole: bool) -> Side:
     result = solved_quickly(case)
     verdict = result.verdict if whole else quick_verdict(result.solution)
     summary = result.summary() if whole else summary_of(result.solution)
-    codes = {warning.code for warning in result.warnings}
     return Side(
         kind="bearing",
         title=case.title,
         level=verdict.level,
         text=verdict.text,
-        results=tuple(_results([*_films(summary), *outcome_rows(summary)], _bounds_of(summary, codes))),
+        results=tuple(_results(check_rows(summary))),
         warnings=told_of(result.warnings, verdict.level),
         films=tuple(_over_position(summary)),
         method=f"{OF_CONTACTS[result.case.contacts]}: films may be {error_text(result.solution)} off",
@@ -99,7 +74,7 @@ def _contact(case: Case) -> Side:
         title=case.title,
         level=level,
         text=text,
-        results=tuple(_results(_outcomes_first(meaning.rows), lambda row: row.bound)),
+        results=tuple(_results(_outcomes_first(meaning.rows))),
         warnings=told_of(meaning.warnings),
         method="films by formula: usually up to 40 % off a solved film",
     )
@@ -108,52 +83,28 @@ def _contact(case: Case) -> Side:
 def _outcomes_first(rows: Iterable[Row]) -> list[Row]:
     """Rows of a contact, with those of the breakdown under a heading of their own before the inputs."""
     rows = list(rows)
-    broken = [row for row in rows if row.name.startswith(_OF_CONTACT)]
+    broken = [row for row in rows if row.key.startswith("breakdown_by_formula.")]
     others = [row for row in rows if row not in broken]
     return [Row("breakdown"), *broken, *others] if broken else others
 
 
-def _films(summary: Mapping[str, Any]) -> Iterator[Row]:
-    """Rows of the most loaded contact and the thinnest film with each ring."""
-    yield Row("contacts with the rings")
-    for ring in ("inner", "outer"):
-        loaded = [row for row in summary["contacts"] if row["ring"] == ring and row["max_pressure"]]
-        if loaded:
-            yield Row(f"Hertz pressure, {ring} ring", max(row["max_pressure"] for row in loaded), "GPa")
-            how = HOW[summary["bearing"]["contacts"]]
-            thinnest = min(row["minimum_thickness"] for row in loaded)
-            yield Row(f"minimum film, {ring} ring", thinnest, "µm", f", {how}")
-
-
-def _bounds_of(summary: Mapping[str, Any], codes: set[str]) -> Callable[[Row], str]:
-    """Bound of a row of a bearing: its own, or that of a film or a critical speed; empty without one."""
-    thinner, leaks = film_is_bound(summary), "shaft-leaks" in codes
-
-    def bound(row: Row) -> str:
-        if thinner and row.name.startswith(_FILMS) and isinstance(row.value, int | float):
-            return "≤"
-        return row.bound or speed_bound(row, summary, leaks=leaks)
-
-    return bound
-
-
-def _results(rows: Iterable[Row], bound: Callable[[Row], str]) -> Iterator[Result]:
+def _results(rows: Iterable[Row]) -> Iterator[Result]:
     """Results of the rows of a table; headings become groups."""
     group = ""
     for row in rows:
         if row.heading:
             group = row.name
-        elif group not in _INPUTS and row.name not in _LEFT_OUT:
-            number = float(row.value) if isinstance(row.value, int | float) else None
+        elif row.key not in NOT_COMPARED:
             yield Result(
                 group=group,
                 name=row.name,
-                value=number,
+                value=float(row.value) if isinstance(row.value, int | float) else None,
                 text=row.shown,
                 unit=row.unit,
                 note=row.note.lstrip(",;: "),
-                bound=bound(row),
-                main=row.name == _SHAFT or row.name.startswith(_MAIN),
+                bound=row.bound,
+                main=any(fnmatchcase(row.key, key) for key in COMPARED),
+                key=row.key,
             )
 
 

@@ -160,8 +160,8 @@ class BearingPage:
 
     def _put(self, answer: BearingAnswer) -> None:
         self.view.show(answer)
-        named = [(number.label, number) for number in answer.shown if number.name in _SHORT and number.known]
-        texts = [" ".join(filter(None, [label, one.bound, one.text])) for label, one in named]
+        named = [one for one in answer.shown if one.key in _SHORT and one.known]
+        texts = [" ".join(filter(None, [one.label, one.bound, one.text, one.unit])) for one in named]
         self._strip.show(answer.level, answer.judged.lead, texts, bound=answer.judged.bound)
 
     def _dim(self, *, dimmed: bool) -> None:

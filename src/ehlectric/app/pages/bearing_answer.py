@@ -31,7 +31,7 @@ class AnswerView:
             self._verdict = VerdictBox()
             self._changes = ui.html("", sanitize=False).props('data-testid="differences"')
             with ui.element("div").classes("numbers").props('data-testid="numbers" aria-live="polite"'):
-                self._numbers = {name: NumberBox(name) for name in BEARING_CARDS}
+                self._numbers = {key: NumberBox(key) for key in BEARING_CARDS}
             self._effects = ui.html("", sanitize=False).classes("effects").props('data-testid="effects"')
             self._warnings = WarningList()
             self._none = ui.label().classes("notice").props('data-testid="no-figures"')
@@ -55,12 +55,11 @@ class AnswerView:
         """Say that what was to follow is not computed, as after a wrong input."""
         if self._pending is None:
             return
-        margin, speed = (self._pending.number(name) for name in ("bearing.margin", "margin.critical_speed"))
-        if speed.text == PENDING:
-            speed = replace(speed, text="none", note="not computed", known=False)
-        note = margin.note.removeprefix(f"{RANGE_FOLLOWS}; ")
-        for number in (replace(margin, note=note), speed):
-            self._numbers[number.name].show(number)
+        for one in self._pending.shown:
+            if one.text == PENDING:
+                self._numbers[one.key].show(replace(one, text="none", note="not computed"))
+            elif one.note.startswith(RANGE_FOLLOWS):
+                self._numbers[one.key].show(replace(one, note=one.note.removeprefix(f"{RANGE_FOLLOWS}; ")))
         judged = self._pending.judged
         self._verdict.show(replace(judged, reasons=tuple(one for one in judged.reasons if one != FOLLOWS)))
         self._pending = None
@@ -80,8 +79,8 @@ class AnswerView:
         self._pending = None if answer.whole else answer
         self._changes.content = differences_html(answer.differences)
         self._changes.set_visibility(bool(answer.differences))
-        for number in answer.shown:
-            self._numbers[number.name].show(number)
+        for key, box in self._numbers.items():
+            box.show(answer.number(key))
         self._show_effects(answer)
         self._warnings.show(answer.warnings, elsewhere(answer.warnings))
         self._none.set_visibility(not answer.figures)

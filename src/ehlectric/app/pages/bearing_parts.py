@@ -7,8 +7,8 @@ from html import escape
 
 from nicegui import ui
 
-from ehlectric.app.answers import number as book
-from ehlectric.app.answers.bearing import Difference, Figure, Judged, Number, Table
+from ehlectric.app.answers.bearing import Difference, Figure, Judged, Table
+from ehlectric.app.answers.number import Number
 from ehlectric.app.answers.told import Told, counts
 from ehlectric.app.pages import parts
 from ehlectric.cases.bearings.ways import HOW
@@ -50,21 +50,20 @@ class VerdictBox:
 class NumberBox:
     """Number with its name, its bound, a note, and the warnings that concern it."""
 
-    def __init__(self, name: str) -> None:
-        with ui.element("div").classes("number").props(f'data-testid="number-{name}"') as self._box:
+    def __init__(self, key: str) -> None:
+        with ui.element("div").classes("number").props(f'data-testid="number-{key}"') as self._box:
             self._label = ui.label().classes("label")
             self._value = ui.label().classes("value").props('data-testid="value"')
             self._note = ui.label().classes("note")
             self._told = ui.html("", sanitize=False)
 
-    def show(self, number: Number | book.Number | None) -> None:
+    def show(self, number: Number | None) -> None:
         """Show a number; None hides the one before."""
         self._box.set_visibility(number is not None)
         if number is None:
             return
         self._label.text, self._note.text = number.label, number.note
-        unit = number.unit if isinstance(number, book.Number) else ""
-        self._value.text = " ".join(filter(None, [number.bound, number.text, unit]))
+        self._value.text = " ".join(filter(None, [number.bound, number.text, number.unit]))
         self._value.classes(replace="value" if number.known else "value unknown")
         self._told.content = "".join(map(_told, number.told))
 

@@ -223,11 +223,11 @@ def test_stored_friction(rollers, tmp_path):
 
 
 def test_table_says_what_the_power_is_of(rollers):
-    rows = {row.name: row.text for row in total_rows(summary_of(rollers)) if row.name}
+    rows = {row.key: row.text for row in total_rows(summary_of(rollers))}
     power = summary_of(rollers)["bearing"]["rolling_power_loss"]
-    assert rows["power loss by rolling"].startswith(f"{power:.4g} W")
+    assert rows["bearing.rolling_power_loss"].startswith(f"{power:.4g} W")
     without = summary_of(solve_bearing(case(ROLLERS, bearing__film_factor=0.9)).solution)
-    assert "power loss by rolling" not in {row.name for row in total_rows(without)}
+    assert "bearing.rolling_power_loss" not in {row.key for row in total_rows(without)}
 
 
 def film_exponent(solution, isothermal):

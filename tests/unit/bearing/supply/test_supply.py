@@ -15,7 +15,7 @@ from ehlectric.bearing.supply.warnings import film_note, supply_warnings, supply
 from ehlectric.cases.bearings.case import BearingCase
 from ehlectric.errors import InputError
 from ehlectric.formulas.replenishment import replenishment_factor
-from ehlectric.tables.bearing_films import film_factors
+from ehlectric.tables.bearing import film_factor_note
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -110,7 +110,7 @@ def test_parts_of_a_film_factor_are_all_named(factor, note, row):
     assert note in film_note(solution).text
     inputs = {"film_factor": factor, "supply": 0.8}
     summary = {"bearing": {"film_factor": 0.72}, "inputs": {"bearing": inputs}}
-    assert row in next(film_factors(summary))[3]
+    assert row in film_factor_note(summary)
 
 
 @pytest.mark.slow
