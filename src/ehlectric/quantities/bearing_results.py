@@ -717,7 +717,7 @@ _MECHANICS: Keys = {
 
 # Keys of a row of ``contacts``, which are also the columns of contacts.csv.
 CONTACT_KEYS: Keys = {
-    "element": Quantity("number of the element from 0, which lies on the load line", head="element"),
+    "element": Quantity("number of the element from 0, which lies on the load line", head="no."),
     "ring": Quantity('"inner" or "outer"', head="ring"),
     "position": Quantity(
         "angle of the element from the direction of the load", "rad", head="position", digits=".0f"

@@ -99,18 +99,19 @@ def contact_heads(summary: Summary, keys: tuple[str, ...]) -> Iterator[tuple[str
 
 
 def contact_cells(row: Mapping[str, Any], keys: tuple[str, ...]) -> list[str]:
-    """Cells of a contact: numbers without units; a place without load has a gap and no film."""
+    """Cells of a contact: numbers without units, and "gap" as the lambda ratio of a place without load."""
     return [_cell(row, key) for key in keys]
 
 
 def _cell(row: Mapping[str, Any], key: str) -> str:
     value, about = row[key], BEARING_BOOK[f"contacts.{key}"]
-    if value is None or (key == "lambda_ratio" and not row["solved"]):
+    if key == "lambda_ratio" and not row["solved"]:
+        return "gap"
+    if value is None:
         return "none"
     if isinstance(value, str):
         return value
-    text = formatted(scale_of(shown_unit(about, value)).of(value), about.digits)
-    return f"gap {text}" if key.endswith("_thickness") and not row["solved"] else text
+    return formatted(scale_of(shown_unit(about, value)).of(value), about.digits)
 
 
 def _bearing(summary: Summary) -> Mapping[str, Any]:
