@@ -272,8 +272,8 @@ def test_check_says_what_a_case_means(ehlectric, case_file):
     for text in (
         "Hertz pressure",
         "half-width",
-        "M (Moes)",
-        "L (Moes)",
+        "load parameter (Moes)",
+        "material parameter (Moes)",
         "piezoviscous-elastic",
         "parameter Λ",
     ):

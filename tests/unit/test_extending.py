@@ -128,7 +128,7 @@ def test_check_shows_formulas_and_warnings_of_a_new_law(geometry):
     assert films_of(summary) == pytest.approx(films_of(expected), rel=1e-13)
     times = summary["hertz"]["max_pressure"] / P_2
     assert f"the viscosity doubles {times:.0f} times" in list(map(str, texts))
-    assert rows(meaning)["material parameter L (Moes)"] == f"{expected['groups']['moes_l']:.4g}"
+    assert rows(meaning)["material parameter (Moes)"] == f"{expected['groups']['moes_l']:.4g}"
 
 
 @pytest.mark.usefixtures("laws")

@@ -30,7 +30,7 @@ def card(row: Row) -> Number:
 
     Examples
     --------
-    >>> found = card(Row("margin", 1.2, note=", of the film", bound="≤", key="discharge.margin"))
+    >>> found = card(Row("margin", 1.2, note=", of the film", key="discharge.margin"))
     >>> found.label, found.text, found.note
     ('Margin', '1.2', 'of the film')
     """
