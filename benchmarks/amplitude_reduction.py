@@ -21,13 +21,13 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import least_squares
 
 from ehlectric import Case
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.state import GridSolution
+from ehlectric.film.newton import GridSolution
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "docs/data/amplitude_reduction.csv"

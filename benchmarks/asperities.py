@@ -11,14 +11,20 @@ import numpy as np
 
 from benchmarks.flattened_waves import flattened, point_amplitude_ratio
 from benchmarks.load_sharing import film_under_share, load_sharing
-from ehlectric.cases.roughness import Roughness
-from ehlectric.formulas.asperities.integrals import greenwood_integral
-from ehlectric.formulas.asperities.intermittency import contact_time_share, expected_spots
-from ehlectric.formulas.asperities.shares import LOAD_SHARE, load_shares
-from ehlectric.formulas.asperities.spectrum import SpectralMoments, profile_moments
-from ehlectric.formulas.asperities.statistical import greenwood_williamson, summit_separation
+from ehlectric.cases.roughness_inputs import Roughness
+from ehlectric.formulas.asperities import (
+    LOAD_SHARE,
+    SpectralMoments,
+    contact_time_share,
+    expected_spots,
+    greenwood_integral,
+    greenwood_williamson,
+    load_shares,
+    profile_moments,
+    summit_separation,
+)
 from ehlectric.surfaces.profiles import rms
-from ehlectric.surfaces.rough_profiles import measured
+from ehlectric.surfaces.rough_surfaces import measured
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "asperities.png"
 

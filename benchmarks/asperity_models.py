@@ -26,20 +26,21 @@ from benchmarks.moving_asperities import POSED, Posed, Solved, solved, store, st
 from ehlectric.arrays import Array
 from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import PointConditions
-from ehlectric.contact.spots.mechanics import load_of
-from ehlectric.formulas.asperities.integrals import separation_of_gap
-from ehlectric.formulas.asperities.intermittency import contact_time_share, expected_spots
-from ehlectric.formulas.asperities.shares import LOAD_SHARE
-from ehlectric.formulas.asperities.spectrum import SpectralMoments
-from ehlectric.formulas.asperities.statistical import (
+from ehlectric.contact.touching import load_of
+from ehlectric.formulas.asperities import (
+    LOAD_SHARE,
     AsperityContact,
+    SpectralMoments,
     Summits,
+    contact_time_share,
+    expected_spots,
     greenwood_williamson,
+    separation_of_gap,
     summit_separation,
 )
-from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.surfaces.maps import Map
-from ehlectric.surfaces.summits import surface_moments
+from ehlectric.surfaces.surface_warnings import surface_moments
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "asperity_models.png"
 

@@ -17,12 +17,11 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.atlas_nodes import groups_of, record
-from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.case_oil import Lubricant
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.coefficient import OilGroups
-from ehlectric.film.atlas.film import atlas_film
-from ehlectric.film.atlas.groups import Groups, lubricant_coordinate
-from ehlectric.film.atlas.table import NAMES
+from ehlectric.film.atlas.atlas_films import OilGroups, atlas_film
+from ehlectric.film.atlas.atlas_groups import Groups, lubricant_coordinate
+from ehlectric.film.atlas.atlas_table import NAMES
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
 

@@ -10,13 +10,12 @@ import numpy as np
 
 from ehlectric.bearing.preparation import prepare_bearing
 from ehlectric.bearing.ring_contacts import BallContact, RollerContact
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.library.bearing_catalogue import bearing_catalogue
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.coefficient import OilGroups
-from ehlectric.film.atlas.film import atlas_film
-from ehlectric.film.atlas.groups import Groups, lubricant_coordinate
-from ehlectric.formulas.hertz_point import axis_ratio
+from ehlectric.film.atlas.atlas_films import OilGroups, atlas_film
+from ehlectric.film.atlas.atlas_groups import Groups, lubricant_coordinate
+from ehlectric.formulas.hertz import axis_ratio
 from ehlectric.lubricant.oil import Oil
 
 # Dynamic rating over load, speed of the shaft [rpm], and temperature [degC] of the operating points.

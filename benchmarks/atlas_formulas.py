@@ -12,10 +12,9 @@ import numpy as np
 from benchmarks.atlas_catalogue import catalogue_contacts
 from benchmarks.atlas_nodes import groups_of
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.film.atlas.film import atlas_film
+from ehlectric.film.atlas.atlas_films import OilGroups, atlas_film, reference_laws
 from ehlectric.formulas import film_line, film_point
-from ehlectric.lubricant.alpha import reciprocal_asymptotic_alpha
+from ehlectric.lubricant.viscosity import reciprocal_asymptotic_alpha
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "atlas_formulas.png"
 
@@ -123,7 +122,7 @@ def draw():
     mpl.use("Agg")
     import matplotlib.pyplot as plt
 
-    from ehlectric.film.atlas.table import table as atlas_table
+    from ehlectric.film.atlas.atlas_table import table as atlas_table
 
     axis = atlas_table("points").axes[0]
     loads = np.geomspace(axis[0], axis[-1], 400)

@@ -19,17 +19,15 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline, make_interp_spline
 
 from ehlectric.arrays import Array
-from ehlectric.film.accuracy.patch import Patch
-from ehlectric.film.atlas.coefficient import OilGroups, reference_laws
-from ehlectric.film.atlas.film import MOST_HERTZ
-from ehlectric.film.atlas.groups import SKEW, Groups, film_problem, lubricant_coordinate
+from ehlectric.film.atlas.atlas_films import MOST_HERTZ, OilGroups, reference_laws
+from ehlectric.film.atlas.atlas_groups import SKEW, Groups, film_problem, lubricant_coordinate
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.newton import GridSolution
+from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.state import GridSolution
-from ehlectric.formulas.hertz_line import line_gap
-from ehlectric.formulas.hertz_point import DryContact, point_deflection
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.formulas.hertz import DryContact, line_gap, point_deflection
+from ehlectric.runtime.threads import quiet_solution
 from ehlectric.version import __version__
 
 

@@ -17,9 +17,9 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from benchmarks.atlas_nodes import LINES, POINTS, Axes, rows_of
 from ehlectric.arrays import Array, Mask
-from ehlectric.film.atlas.coefficient import REFERENCE, OilGroups, reference_laws
-from ehlectric.film.atlas.groups import TOLERANCE, Groups
-from ehlectric.film.atlas.table import HALVED, NAMES
+from ehlectric.film.atlas.atlas_films import REFERENCE, OilGroups, reference_laws
+from ehlectric.film.atlas.atlas_groups import TOLERANCE, Groups
+from ehlectric.film.atlas.atlas_table import HALVED, NAMES
 from ehlectric.version import __version__
 
 # Share of solved nodes, over the largest of all planes, above which a plane serves to fill others.

@@ -10,16 +10,16 @@ from scipy.sparse.linalg import splu
 
 from ehlectric.arrays import Array
 from ehlectric.field.poisson import FieldProblem
+from ehlectric.film import film_solution as stationary
 from ehlectric.film import newton
-from ehlectric.film import solution as stationary
 from ehlectric.film.flow import Fluid
 from ehlectric.film.gap import Gap
+from ehlectric.film.isothermal_film import Film, solve_film
 from ehlectric.film.levels import Level
-from ehlectric.film.line import Film, solve_film
 from ehlectric.film.multigrid import Linearised
+from ehlectric.film.newton import Residual, State
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import ALONG, OFFSETS
-from ehlectric.film.state import Residual, State
 
 
 def dense_direction(

@@ -13,12 +13,11 @@ import time
 from pathlib import Path
 
 from benchmarks.measure import best, processor
-from ehlectric.bearing.accuracy import film_error
-from ehlectric.bearing.breakdown import breakdown_of
-from ehlectric.bearing.solution import BearingSolution, capacitance
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.bearing.solving.contacts_and_circuit import solution_of
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.bearing.bearing_discharges import breakdown_of
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.bearing.solution import BearingSolution, capacitance, film_error
+from ehlectric.bearing.solving import solution_of
+from ehlectric.cases.bearing_case import BearingCase
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "bearing_6208.toml"
 

@@ -8,13 +8,13 @@ import numpy as np
 
 from ehlectric.cases.case import Case
 from ehlectric.contact import problems
-from ehlectric.contact.resolve import resolve, resolve_point
+from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.solver import solve
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
-from ehlectric.film.point import solve_point_film
+from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.film.problem import FilmProblem
-from ehlectric.surfaces.rough_profiles import rough_surfaces
+from ehlectric.surfaces.rough_surfaces import rough_surfaces
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 EXAMPLE = EXAMPLES / "line_contact.toml"

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 from benchmarks.measure import processor
-from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.result import DriveResult, solve_drive
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "drive.toml"

@@ -16,7 +16,7 @@ import numpy as np
 
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
-from ehlectric.formulas.hertz_point import axis_ratio
+from ehlectric.formulas.hertz import axis_ratio
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlectric.formulas.asperities.integrals import greenwood_integral
-from ehlectric.formulas.asperities.statistical import AsperityContact, Summits
+from ehlectric.formulas.asperities import AsperityContact, Summits, greenwood_integral
 
 
 def greenwood_tripp(separation: ArrayLike, summits: Summits, reduced_modulus: float) -> AsperityContact:

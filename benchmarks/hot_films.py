@@ -11,10 +11,10 @@ from time import process_time
 
 from tests.helpers.hot import ball, paper_line
 
-from ehlectric.film.accuracy.adaptive import refined_solution
-from ehlectric.film.heated.nested import film_of
-from ehlectric.film.sheared.laws import Rheology
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.film.film_solver import refined_solution
+from ehlectric.film.heated_film import film_of
+from ehlectric.film.shear_laws import Rheology
+from ehlectric.runtime.threads import quiet_solution
 
 EYRING = Rheology("eyring", {"eyring_stress": 5e6})
 ROUNDS = 3

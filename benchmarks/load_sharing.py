@@ -9,11 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.formulas.asperities.integrals import (
-    LOWEST_SEPARATION,
-    greenwood_integral,
-    separation_of_gap,
-)
+from ehlectric.formulas.asperities import LOWEST_SEPARATION, greenwood_integral, separation_of_gap
 
 # Largest number of steps to the share, and its relative tolerance. Ten steps are usual.
 _STEPS, _TOLERANCE = 100, 1e-14
@@ -152,7 +148,7 @@ def load_sharing(
     Examples
     --------
     >>> from benchmarks.greenwood_tripp import greenwood_tripp
-    >>> from ehlectric.formulas.asperities.statistical import Summits
+    >>> from ehlectric.formulas.asperities import Summits
     >>> rough = Summits(density=2e11, radius=2e-6, height_deviation=100e-9)
     >>> found = load_sharing(
     ...     film_under_share([50e-9, 100e-9, 200e-9], 0.14),

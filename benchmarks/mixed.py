@@ -27,7 +27,7 @@ from tests.helpers.places import DEKTAK, SURFACES
 
 from benchmarks.mixed_store import POINT_GRIDS, Contact, Record, records, tidy
 from benchmarks.mixed_sweep import SWEPT_LAMBDAS, converged, draw, formula_share, sweep_series
-from ehlectric.formulas.asperities.shares import LOAD_SHARE, load_shares
+from ehlectric.formulas.asperities import LOAD_SHARE, load_shares
 
 LAMBDAS = (3.0, 1.0, 0.3, 0.1, 0.03)
 

@@ -24,7 +24,7 @@ from tests.helpers.mixed_films import MixedFilm, at_film, mixed_film, rough_line
 from benchmarks.measure import ROOT, processor
 from ehlectric import Case
 from ehlectric.contact.check import check_case
-from ehlectric.contact.spots.patches import weighted_percentiles
+from ehlectric.contact.touching import weighted_percentiles
 
 DATA = Path(__file__).parent / "data" / "mixed.jsonl"
 

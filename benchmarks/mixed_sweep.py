@@ -10,7 +10,7 @@ from tests.helpers.mixed_films import at_film, gaussian, rough_point
 from benchmarks.film_mixed import RoughBodies, masjedi_khonsari_point
 from benchmarks.mixed_store import POINT_GRIDS, Contact, Record, composite_roughness
 from ehlectric.contact.check import check_case
-from ehlectric.formulas.asperities.shares import LOAD_SHARE, load_shares
+from ehlectric.formulas.asperities import LOAD_SHARE, load_shares
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "mixed_sweep.png"
 

@@ -22,10 +22,10 @@ from tests.helpers.mixed_films import at_film, gaussian, rough_point
 from ehlectric import Case
 from ehlectric.arrays import Array
 from ehlectric.contact.check import check_case
-from ehlectric.contact.spots.mechanics import hertz_weights, load_of, spots_of, weighted_rms
+from ehlectric.contact.touching import hertz_weights, load_of, spots_of, weighted_rms
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.point import PointFilm
-from ehlectric.motion.contact import TransientContact
+from ehlectric.film.isothermal_film import PointFilm
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.solver import TransientSolver
 
 DATA = Path(__file__).parent / "data" / "asperity_models.csv"

@@ -16,10 +16,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from benchmarks import cases
 from benchmarks.measure import best, command, peak_memory
-from ehlectric.field.point import PointField, solve_point_field
-from ehlectric.film.line import Film
+from ehlectric.field.point_field import PointField, solve_point_field
+from ehlectric.film.isothermal_film import Film, solve_point_film
 from ehlectric.film.newton import LINEAR_TOLERANCE
-from ehlectric.film.point import solve_point_film
 
 CONTACTS = {"20 N circle": "ball_contact", "6208 ball": "ball_bearing"}
 WEDGES = {"20 N circle": ("second-order", "first-order"), "6208 ball": ("second-order",)}

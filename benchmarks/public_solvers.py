@@ -28,8 +28,8 @@ from benchmarks import cases
 from benchmarks.measure import best
 from benchmarks.point_contacts import markdown
 from ehlectric.cases.case import Case
-from ehlectric.contact.resolve import resolve_point
-from ehlectric.film.point import solve_point_film
+from ehlectric.contact.conditions import resolve_point
+from ehlectric.film.isothermal_film import solve_point_film
 
 WORKERS = Path(__file__).with_name("public_workers.py")
 GRIDS = (65, 129)

@@ -3,7 +3,7 @@
 python -m benchmarks.reachable_errors    (half an hour)
 python -m benchmarks.reachable_errors --seed 4 --contacts 6 --most 513    (contacts from 100 on of the table)
 
-``benchmarks/data/reachable_errors.csv`` has both tables, and ``ehlectric.film.accuracy.expected`` is a fit to
+``benchmarks/data/reachable_errors.csv`` has both tables, and ``ehlectric.film.film_error`` is a fit to
 that of seed 3. The contacts have M log-uniform in [10, 3e5], a Hertz pressure log-uniform in [0.4, 3.5] GPa
 and an ellipse ratio log-uniform in [0.6, 6]; those whose L is outside [1, 25] are left out.
 """
@@ -20,11 +20,10 @@ import numpy as np
 from tests.reference.hertz_point import radii_ratio
 
 from ehlectric import Case
-from ehlectric.contact.conditions import PointConditions
+from ehlectric.contact.conditions import PointConditions, resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.contact.resolve import resolve_point
+from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.point import solve_point_film
 from ehlectric.film.problem import FilmProblem
 
 MODULUS, RADIUS, VISCOSITY, ALPHA = 226e9, 10e-3, 0.04, 22e-9

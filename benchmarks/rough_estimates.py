@@ -22,15 +22,13 @@ import numpy as np
 
 from ehlectric import Case
 from ehlectric.contact.check import check_case
-from ehlectric.contact.kinds import KINDS
-from ehlectric.film.accuracy.max_pressure import max_pressure_error
-from ehlectric.film.accuracy.rough_film import rough_film_error
-from ehlectric.film.estimates import discretisation_error
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.film.film_error import discretisation_error, max_pressure_error, rough_film_error
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.state import GridSolution
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 # Nodes along x of the finest grid and of the grids whose estimates are tested, by geometry.
 GRIDS = {"line": (12801, (801, 1601, 3201)), "point": (257, (65, 129))}

@@ -19,14 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric import Case
-from ehlectric.contact.conditions import PointConditions
+from ehlectric.contact.conditions import PointConditions, resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.contact.resolve import resolve_point
-from ehlectric.film.accuracy.starved import StarvedSolution, supplied_solution
+from ehlectric.film.film_solver import StarvedSolution, supplied_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "docs/data/starvation.csv"

@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric import Case
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
-from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.mesh import at_centre
+from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem, OilSupply
 from ehlectric.film.unsteady import History
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 ROOT = Path(__file__).parents[1]
 FILMS = ROOT / "docs/data/starved_motion.csv"

@@ -17,11 +17,10 @@ from benchmarks.cases import EXAMPLE
 from benchmarks.measure import processor
 from ehlectric import run_sweep
 from ehlectric.contact.solver import solve
-from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.plan import plan
-from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.engine import plan, solve_point
+from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.store import Store
+from ehlectric.sweep.sweep_inputs import Sweep
 
 # 500 points: the paper's contact at 25 speeds and 20 loads.
 POINTS = (25, 20)

@@ -19,12 +19,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from benchmarks import baselines, cases, point_contacts
 from benchmarks.measure import best, command, peak_memory, processor
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
-from ehlectric.contact.resolve import resolve
-from ehlectric.field.line import solve_field
-from ehlectric.film.line import solve_film
+from ehlectric.field.line_field import solve_field
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.paper import fas, sor
-from ehlectric.paper.contacts import CONTACTS
+from ehlectric.paper.paper_contacts import CONTACTS
 
 
 def paper_methods() -> list[tuple[str, ...]]:

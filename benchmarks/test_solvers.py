@@ -3,10 +3,9 @@
 import pytest
 
 from benchmarks import baselines, cases
-from ehlectric.field.line import solve_field
-from ehlectric.field.point import solve_point_field
-from ehlectric.film.line import solve_film
-from ehlectric.film.point import solve_point_film
+from ehlectric.field.line_field import solve_field
+from ehlectric.field.point_field import solve_point_field
+from ehlectric.film.isothermal_film import solve_film, solve_point_film
 
 
 @pytest.mark.parametrize("nodes", [801, 3201, 25_601, 102_401])

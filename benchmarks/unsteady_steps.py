@@ -13,11 +13,11 @@ import numpy as np
 
 from benchmarks import cases
 from benchmarks.measure import processor
-from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.mesh import at_centre
+from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.unsteady import Effort
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 # Problem, number of nodes, and number of time steps.
 CONTACTS = (

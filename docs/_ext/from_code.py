@@ -26,22 +26,19 @@ from sphinx.errors import ExtensionError
 import ehlectric
 from ehlectric import Case, solve
 from ehlectric.bearing.loads import ratings
-from ehlectric.cases import contact as contact_inputs
-from ehlectric.cases import library
-from ehlectric.cases import roughness as roughness_inputs
+from ehlectric.cases import contact_inputs, library, roughness_inputs
 from ehlectric.cases import table as validation
 from ehlectric.cases.amounts import Amount, Amounts, Count
 from ehlectric.cases.input_keys import TABLES, descriptions
 from ehlectric.cases.library.bearing_catalogue import CatalogueBearing, bearing_catalogue
-from ehlectric.cases.library.grade import Grade
-from ehlectric.cases.library.sources import Source
-from ehlectric.cases.oils.laws import LAWS
-from ehlectric.commands.app import app as commands
+from ehlectric.cases.library.library_oils import Grade, Source
+from ehlectric.cases.oil_inputs import LAWS
+from ehlectric.commands.command_line import app as commands
 from ehlectric.errors import CODES
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.quantities.units import printed
-from ehlectric.sweep import inputs as sweep_inputs
+from ehlectric.sweep import sweep_inputs
 
 _TABLES = {**TABLES, "sweep": sweep_inputs.Sweep}
 # Keys that take a name, by what the names stand in.

@@ -7,8 +7,8 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from ehlectric.cases.oils.report import oil_report
-from ehlectric.figures.oils import save_oil
+from ehlectric.cases.oil_report import oil_report
+from ehlectric.figures.oil_figures import save_oil
 from ehlectric.runtime.files import prepare
 
 

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-from ehlectric.cases.library.oils import LibraryOil, library_oils
-from ehlectric.lubricant.estimates import BASE_OILS, Gold
+from ehlectric.cases.library.library_oils import LibraryOil, library_oils
+from ehlectric.lubricant.data_sheet import BASE_OILS, Gold
 
 _DASH = "\N{EN DASH}"
 

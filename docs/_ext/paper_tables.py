@@ -13,7 +13,7 @@ from sphinx.errors import ExtensionError
 
 import ehlectric
 from ehlectric import solve
-from ehlectric.paper.contacts import CONTACTS
+from ehlectric.paper.paper_contacts import CONTACTS
 from ehlectric.paper.reproduce import reproduce
 
 

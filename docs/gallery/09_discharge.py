@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import ehlectric
-from ehlectric.discharge.laws import MEAN_PIT, WeakestLink, stored_energy
+from ehlectric.discharge.discharge_laws import MEAN_PIT, WeakestLink, stored_energy
 
 VOLTAGE = 5.0
 case = ehlectric.Case.from_dict(

@@ -7,7 +7,7 @@ carry a part of the load and conduct. ``examples/mixed_contact.toml`` is a simil
 """
 
 import ehlectric
-from ehlectric.contact.spots.warnings import share_text
+from ehlectric.contact.touching import share_text
 
 case = ehlectric.Case.from_dict(
     {

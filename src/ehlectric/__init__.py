@@ -11,34 +11,31 @@ from typing import TYPE_CHECKING, Any
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:
-    from ehlectric.bearing.result import BearingResult
-    from ehlectric.bearing.solver import solve_bearing
-    from ehlectric.cases.bearings.case import BearingCase
+    from ehlectric.bearing.result import BearingResult, solve_bearing
+    from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case, LineCase, PointCase
-    from ehlectric.cases.drives.case import DriveCase
-    from ehlectric.cases.measurements.factors import FilmFactors
-    from ehlectric.cases.oils.named import oil
-    from ehlectric.contact.results import PointResult, Result
-    from ehlectric.discharge.verdict import Verdict
+    from ehlectric.cases.case_oil import oil
+    from ehlectric.cases.drive_case import DriveCase
+    from ehlectric.cases.film_factors import FilmFactors
+    from ehlectric.contact.result import PointResult, Result
+    from ehlectric.discharge.film_verdict import Verdict
+    from ehlectric.drive.drive_netlist import write_drive_netlist
+    from ehlectric.drive.netlist_files import write_netlist
     from ehlectric.drive.result import DriveResult, solve_drive
-    from ehlectric.drive.spice.drive import write_drive_netlist
-    from ehlectric.drive.spice.files import write_netlist
     from ehlectric.errors import ConvergenceError, InputError, LostError, ResultWarning
-    from ehlectric.figures.results import figure, figure_names, save_figures
+    from ehlectric.figures.result_figures import figure, figure_names, save_figures
     from ehlectric.motion.result import MotionResult
     from ehlectric.motion.run import run_motion
     from ehlectric.motion.stored_run import read_motion
-    from ehlectric.report.files import write_report
+    from ehlectric.report.written_report import write_report
     from ehlectric.runs.example_files import example
-    from ehlectric.runs.exports.files import export
-    from ehlectric.runs.film_factors import film_factors
-    from ehlectric.runs.results import load, save
-    from ehlectric.runs.solve import solve, solve_motion
-    from ehlectric.runs.solve_many import Solved, solve_many
-    from ehlectric.sweep.inputs import Sweep
-    from ehlectric.sweep.results import SweepResults
+    from ehlectric.runs.exports import export
+    from ehlectric.runs.measured_film_factors import film_factors
+    from ehlectric.runs.solve import Solved, load, save, solve, solve_many, solve_motion
+    from ehlectric.sweep.result import SweepResults
     from ehlectric.sweep.run import run_sweep
     from ehlectric.sweep.store import read_sweep
+    from ehlectric.sweep.sweep_inputs import Sweep
 
 # In the order of their use, in which the pages of the API list them.
 __all__ = [  # noqa: RUF022
@@ -88,42 +85,42 @@ __all__ = [  # noqa: RUF022
 
 _HOMES = {
     "solve": "runs.solve",
-    "solve_many": "runs.solve_many",
-    "solve_bearing": "bearing.solver",
+    "solve_many": "runs.solve",
+    "solve_bearing": "bearing.result",
     "solve_motion": "runs.solve",
-    "film_factors": "runs.film_factors",
+    "film_factors": "runs.measured_film_factors",
     "Case": "cases.case",
     "LineCase": "cases.case",
     "PointCase": "cases.case",
-    "BearingCase": "cases.bearings.case",
-    "oil": "cases.oils.named",
+    "BearingCase": "cases.bearing_case",
+    "oil": "cases.case_oil",
     "example": "runs.example_files",
-    "Sweep": "sweep.inputs",
+    "Sweep": "sweep.sweep_inputs",
     "run_sweep": "sweep.run",
     "run_motion": "motion.run",
     "read_sweep": "sweep.store",
     "read_motion": "motion.stored_run",
-    "load": "runs.results",
-    "save": "runs.results",
-    "figure": "figures.results",
-    "figure_names": "figures.results",
-    "save_figures": "figures.results",
-    "write_report": "report.files",
-    "export": "runs.exports.files",
-    "write_drive_netlist": "drive.spice.drive",
-    "write_netlist": "drive.spice.files",
-    "Result": "contact.results",
-    "PointResult": "contact.results",
+    "load": "runs.solve",
+    "save": "runs.solve",
+    "figure": "figures.result_figures",
+    "figure_names": "figures.result_figures",
+    "save_figures": "figures.result_figures",
+    "write_report": "report.written_report",
+    "export": "runs.exports",
+    "write_drive_netlist": "drive.drive_netlist",
+    "write_netlist": "drive.netlist_files",
+    "Result": "contact.result",
+    "PointResult": "contact.result",
     "BearingResult": "bearing.result",
     "DriveResult": "drive.result",
     "solve_drive": "drive.result",
-    "DriveCase": "cases.drives.case",
+    "DriveCase": "cases.drive_case",
     "MotionResult": "motion.result",
-    "SweepResults": "sweep.results",
-    "Laws": "lubricant.own",
-    "FilmFactors": "cases.measurements.factors",
-    "Solved": "runs.solve_many",
-    "Verdict": "discharge.verdict",
+    "SweepResults": "sweep.result",
+    "Laws": "lubricant.python_laws",
+    "FilmFactors": "cases.film_factors",
+    "Solved": "runs.solve",
+    "Verdict": "discharge.film_verdict",
     "ResultWarning": "errors",
     "InputError": "errors",
     "ConvergenceError": "errors",

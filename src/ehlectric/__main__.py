@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from ehlectric.runtime.memory import in_bytes, is_out_of_memory, left_of_process, out_of_memory
-from ehlectric.runtime.parallel.workers import cores
+from ehlectric.runtime.worker_processes import cores
 
 # Memory that the libraries of every command take [bytes of address space], and that of BLAS for each core.
 # With less they do not fail in words: BLAS waits for ever, or ends the process.
@@ -20,7 +20,7 @@ def main() -> None:
         told = f"memory: got {in_bytes(max(0.0, left))}, what ulimit leaves to this process"
         sys.exit(_end(f"{told}; expected at least {in_bytes(least)}"))
     try:
-        from ehlectric.commands.app import main as run
+        from ehlectric.commands.command_line import main as run
     except KeyboardInterrupt:
         # As the commands end, which have not been loaded yet.
         sys.exit(_INTERRUPTED)

@@ -18,7 +18,7 @@ import numpy as np
 import tomli_w
 
 from ehlectric import Case
-from ehlectric.runs.kinds import kind_of_file
+from ehlectric.runs.file_kinds import kind_of_file
 from tests.attack.mutations import hostile, mutated_bytes, mutated_table, mutated_text, near, places
 from tests.attack.stock import BEARINGS, CASES, SWEEPS, Stock
 

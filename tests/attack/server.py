@@ -86,7 +86,7 @@ def _child(request: dict[str, Any]) -> int:
     changes = Path(request["changes"]).open("w", encoding="utf-8", buffering=1)  # noqa: SIM115
     _watch(lambda path: changes.write(path + "\n") and None)
     sys.argv = ["ehlectric", *request["arguments"]]
-    from ehlectric.commands.app import main
+    from ehlectric.commands.command_line import main
 
     try:
         main()
@@ -169,7 +169,7 @@ def _answer(request: dict[str, Any]) -> dict[str, Any]:
 def _hold_all() -> None:
     """Let a thread solve, draw and start a process for ever, as far as locks know."""
     from ehlectric.figures.style import style
-    from ehlectric.runtime.parallel.threads import one_blas_thread
+    from ehlectric.runtime.threads import one_blas_thread
 
     held = threading.Event()
 

@@ -2,7 +2,7 @@
 
 import json
 
-from ehlectric.app.inputs import Inputs
+from ehlectric.app.page_inputs import Inputs
 from tests.helpers.commands import run_command
 from tests.helpers.processes import PATIENCE, wait_until
 

@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.inputs import Inputs
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.quantities.formats import amount
 from tests.browser.driving import seen
 from tests.browser.outputs import address_of, summary_by_command

@@ -8,7 +8,7 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.inputs import Inputs
+from ehlectric.app.page_inputs import Inputs
 from tests.browser.driving import type_into
 from tests.browser.outputs import address_of, command, downloaded, fits, summary_by_command
 from tests.helpers.places import DEKTAK, EXAMPLES, SURFACES

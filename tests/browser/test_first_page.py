@@ -6,7 +6,7 @@ import pytest
 
 from ehlectric import solve_bearing
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from tests.browser.driving import connected, field, loaded_again, number, type_into, wait_for_number
 from tests.helpers.app_server import kept_port
 from tests.helpers.places import EXAMPLES

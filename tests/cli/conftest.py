@@ -4,7 +4,7 @@ from functools import partial
 
 import pytest
 
-from ehlectric.commands.app import _status
+from ehlectric.commands.command_line import _status
 from tests.helpers.commands import run_command
 
 CASE = """\

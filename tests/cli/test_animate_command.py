@@ -4,7 +4,7 @@ import pytest
 from click.testing import CliRunner
 from typer.main import get_command
 
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 
 
 @pytest.mark.parametrize(("words", "name"), [((), "run/motion.gif"), (("-o", "own.gif"), "own.gif")])
@@ -13,7 +13,7 @@ def test_the_animation_is_written_beside_its_run(words, name, tmp_path, monkeypa
     written = []
     monkeypatch.setattr("ehlectric.motion.stored_run.read_motion", lambda folder: folder)
     monkeypatch.setattr(
-        "ehlectric.figures.motion.animation.save_animation", lambda _, path, **__: written.append(path)
+        "ehlectric.figures.animation.save_animation", lambda _, path, **__: written.append(path)
     )
     (tmp_path / "run").mkdir()
     monkeypatch.chdir(tmp_path)

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from ehlectric.figures.names import DRIVE_FIGURE_FILES, in_formats
+from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, in_formats
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.reports import Page

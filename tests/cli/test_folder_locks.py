@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import ehlectric as package
 from ehlectric import InputError
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from ehlectric.runtime import folders
 from ehlectric.runtime.folders import FIGURE_LOCK, RESULT_LOCK, alone_in
 from tests.cli.conftest import CASE

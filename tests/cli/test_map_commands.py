@@ -9,8 +9,8 @@ import typer
 from typer.testing import CliRunner
 
 from ehlectric import InputError
-from ehlectric.commands.maps import draw_maps, sensitivity
-from ehlectric.sweep.results import Range
+from ehlectric.commands.sweep_commands import draw_maps, sensitivity
+from ehlectric.sweep.points import Range
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, grid, sobol
 

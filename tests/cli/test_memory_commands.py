@@ -14,7 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ehlectric import load
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import ROLLERS, bearing_case
 from tests.helpers.sweeps import CASE

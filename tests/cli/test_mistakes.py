@@ -10,7 +10,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from ehlectric.commands.maps import draw_maps
+from ehlectric.commands.sweep_commands import draw_maps
 from tests.cli.conftest import CASE
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from ehlectric.errors import ConvergenceError
-from ehlectric.figures.names import MOTION_FIGURE_FILES
+from ehlectric.figures.figure_names import MOTION_FIGURE_FILES
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.stored_run import MotionRun, read_motion
 from tests.helpers.commands import COMMAND, Begun, run_command

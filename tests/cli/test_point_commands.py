@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import load
-from ehlectric.figures.names import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
+from ehlectric.figures.figure_names import POINT_FIGURE_FILES, ROUGHNESS_FIGURE
 from tests.cli.test_commands import DATA, one_line
 from tests.helpers.each import each
 

@@ -19,7 +19,7 @@ import tomli_w
 from click.testing import CliRunner
 from typer.main import get_command
 
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from tests.helpers.places import ROOT
 
 # Making the command takes longer than a refusal does.

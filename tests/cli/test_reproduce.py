@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.paper.contacts import table_3
+from ehlectric.paper.paper_contacts import table_3
 from tests.helpers.commands import COMMAND
 from tests.helpers.processes import PATIENCE, alive, wait_until, workers_of
 

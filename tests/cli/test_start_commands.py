@@ -8,11 +8,11 @@ import sys
 
 import pytest
 
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from ehlectric.commands.options import files_ending
-from ehlectric.commands.start import TEMPLATES
+from ehlectric.commands.start_commands import TEMPLATES
 from ehlectric.runs.by_kind import RUNS
-from ehlectric.runs.kinds import kind_of_file
+from ehlectric.runs.file_kinds import kind_of_file
 from ehlectric.runs.meaning import check
 from tests.cli.conftest import CASE
 from tests.helpers.each import each
@@ -98,7 +98,7 @@ def test_a_shell_is_completed():
         environment = {
             "_EHLECTRIC_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1),
         }  # fmt: skip
-        program = [sys.executable, "-c", "from ehlectric.commands.app import main; main()"]
+        program = [sys.executable, "-c", "from ehlectric.commands.command_line import main; main()"]
         done = subprocess.run(program, env=os.environ | environment, capture_output=True, text=True)
         return done.stdout.split()
 
@@ -124,8 +124,8 @@ def test_varied_keys_of_a_sweep_are_completed(ehlectric, tmp_path, case_file, mo
     from typer import Context
     from typer.main import get_command
 
-    from ehlectric.commands.app import app
-    from ehlectric.commands.maps import _varied_keys
+    from ehlectric.commands.command_line import app
+    from ehlectric.commands.sweep_commands import _varied_keys
 
     case_file.write_text(CASE.replace("801", "65"))
     (tmp_path / "sweep.toml").write_text(
@@ -154,7 +154,7 @@ for module, names in lacking.items():
             delattr(module, name)
 for name in ("fcntl", "resource", "termios", "pwd", "grp", "tty", "pty"):
     sys.modules[name] = None
-from ehlectric.commands.app import main
+from ehlectric.commands.command_line import main
 sys.argv = ["ehlectric", *sys.argv[1:]]
 main()
 """

@@ -9,7 +9,7 @@ import sys
 import threading
 from contextlib import contextmanager
 
-from ehlectric.runtime.parallel.workers import cores
+from ehlectric.runtime.worker_processes import cores
 from tests.helpers.commands import COMMAND
 from tests.helpers.processes import PATIENCE, memory_of, tree, wait_until
 

@@ -3,15 +3,14 @@
 import copy
 import dataclasses
 
-from ehlectric.bearing.contacts import ContactSolution, ContactValues
-from ehlectric.bearing.kinds import kind_of
+from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.preparation import resolve_bearing
-from ehlectric.bearing.quick.dry import quick_solutions
-from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.quick_contacts import quick_solutions
+from ehlectric.bearing.ring_contacts import ContactSolution, ContactValues, RingContacts
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.grid import Solver
+from ehlectric.cases.grid_inputs import Solver
 
 OIL = {
     "base": "paper",

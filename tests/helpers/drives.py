@@ -4,15 +4,13 @@ import math
 
 import numpy as np
 
-from ehlectric.bearing.meter.path import Path
-from ehlectric.cases.drives.breakdown import Breakdown
-from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.drives.circuit import Circuit
-from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.circuit.modes import modes_of
-from ehlectric.drive.circuit.motor import states_of, voltage_nodes
+from ehlectric.bearing.circuit import Path
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.drive_inputs import Breakdown, Circuit
+from ehlectric.drive.discharges.march import Segments
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
-from ehlectric.drive.discharges.states import Segments
+from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.drive.motor_circuit import modes_of, states_of, voltage_nodes
 from tests.helpers.places import EXAMPLES
 
 MOTOR = {

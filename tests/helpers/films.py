@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem, line_domain_of
-from ehlectric.contact.resolve import resolve
 from ehlectric.film.deflection import LINE
-from ehlectric.film.line import solve_film
-from ehlectric.surfaces.rough_profiles import rough_surfaces
+from ehlectric.film.isothermal_film import solve_film
+from ehlectric.surfaces.rough_surfaces import rough_surfaces
 
 # A line contact whose surfaces do not deform.
 RIGID_LINE = replace(LINE, influence=lambda nodes, _dx, _dy: np.zeros((nodes[0], 1)))

@@ -2,23 +2,26 @@
 
 import numpy as np
 
+from ehlectric.film.across_film import Across
 from ehlectric.film.deflection import LINE, point_geometry
+from ehlectric.film.energy_equation import (
+    FrozenTemperature,
+    Heat,
+    HeatColumns,
+    Stream,
+    Surface,
+    solve_energy,
+    stream_of,
+)
 from ehlectric.film.flow import Fluid
+from ehlectric.film.hot_oil import Body, HotOil, Physics, Thermal
 from ehlectric.film.mesh import Mesh, Width, at_centre
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
-from ehlectric.film.sheared.flow import ShearedFlow
-from ehlectric.film.sheared.laws import Rheology
-from ehlectric.film.sheared.profile import Across
-from ehlectric.film.thermal.columns import HeatColumns, Stream
-from ehlectric.film.thermal.energy import Heat, solve_energy
-from ehlectric.film.thermal.frozen import FrozenTemperature
-from ehlectric.film.thermal.half_space import Surface
-from ehlectric.film.thermal.oil import HotOil
-from ehlectric.film.thermal.physics import Body, Physics, Thermal
-from ehlectric.film.thermal.stream import stream_of
+from ehlectric.film.shear_flow import ShearedFlow
+from ehlectric.film.shear_laws import Rheology
 from ehlectric.lubricant.density import dowson_higginson, incompressible
+from ehlectric.lubricant.electrical_laws import constant_permittivity
 from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil
-from ehlectric.lubricant.permittivity import constant_permittivity
 from ehlectric.lubricant.viscosity import barus, roelands
 
 STEEL = {"thermal_conductivity": 46.0, "heat_capacity": 470.0, "density": 7850.0}

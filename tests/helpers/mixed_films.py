@@ -8,9 +8,9 @@ from scipy.optimize import brentq
 from ehlectric import Case
 from ehlectric.contact.check import check_case
 from ehlectric.film.nested import nested_iteration
+from ehlectric.film.newton import GridSolution
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.state import GridSolution
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 RADIUS, MODULUS = 14.1e-3, 226e9
 

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from ehlectric import Case, solve
-from ehlectric.figures.contact import save as figures
+from ehlectric.figures import contact_figure_files as figures
 
 CIRCLE = {
     "geometry": "point",

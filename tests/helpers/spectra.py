@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.formulas.asperities.spectrum import SpectralMoments
+from ehlectric.formulas.asperities import SpectralMoments
 
 
 def periodic_moments(

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ehlectric.contact.kinds import KINDS
-from ehlectric.film.accuracy.starved import supplied_solution
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.film.film_solver import supplied_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 
 def posed(case):

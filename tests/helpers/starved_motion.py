@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric import Case
+from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.problems import film_problem, point_film_problem
-from ehlectric.contact.resolve import resolve, resolve_point
-from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.mesh import at_centre
+from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
-from ehlectric.film.starved.motion import sums
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.film.unsteady import sums
+from ehlectric.runtime.threads import quiet_solution
 
 
 def line(ratio, nodes=201, **contact):

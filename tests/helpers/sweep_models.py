@@ -9,7 +9,8 @@ from scipy.stats import qmc
 
 from ehlectric import Case
 from ehlectric.errors import ResultWarning, texts_and_codes
-from ehlectric.sweep.results import Point, Range, SweepResults
+from ehlectric.sweep.points import Point, Range
+from ehlectric.sweep.result import SweepResults
 
 SPEED, LOAD, POTENTIAL = "contact.entrainment_speed", "contact.load_per_length", "electric.potential_2"
 

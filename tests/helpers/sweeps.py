@@ -6,7 +6,7 @@ import time
 
 from ehlectric import Case
 from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.conftest import PAPER_CONTACT
 
 SPEED, LOAD, NODES = "contact.entrainment_speed", "contact.load_per_length", "grid.nodes"

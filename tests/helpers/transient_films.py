@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 
 
 def problem_of(paper_case, nodes, **values):

@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 from ehlectric import solve
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
 from ehlectric.film.nested import nested_iteration
-from ehlectric.paper.contacts import of_paper, table_3
+from ehlectric.paper.paper_contacts import of_paper, table_3
 from tests.helpers.each import each
 
 DATA = Path(__file__).parent / "data"

@@ -5,12 +5,12 @@ import pandas as pd
 import pytest
 
 from ehlectric import ConvergenceError, solve
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
-from ehlectric.contact.resolve import resolve
-from ehlectric.field.line import solve_field
-from ehlectric.film.line import solve_film
-from ehlectric.paper import fas, relaxation, sor
-from ehlectric.paper.solvers import PAPER
+from ehlectric.field.line_field import solve_field
+from ehlectric.film.isothermal_film import solve_film
+from ehlectric.paper import fas, paper_relaxation, sor
+from ehlectric.paper.paper_contacts import PAPER
 from tests.published.test_paper_contacts import FILMS, row_name
 
 
@@ -66,7 +66,7 @@ def test_cycles_do_not_grow_with_the_grid(paper_case, row):
 @pytest.mark.slow
 def test_wrong_sign_of_eq_19_does_not_balance_the_load(paper_case, monkeypatch):
     """As printed, with c > 0, the load runs away."""
-    monkeypatch.setattr(relaxation, "LOAD_DAMPING", 0.2)
+    monkeypatch.setattr(paper_relaxation, "LOAD_DAMPING", 0.2)
     film = fas.solve_film(film_of(paper_contact(paper_case, FILMS[4], wedge="first-order", nodes=801)))
     assert not film.converged
 

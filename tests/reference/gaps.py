@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from ehlectric.field.line import solve_field
-from ehlectric.field.point import solve_point_field
+from ehlectric.field.line_field import solve_field
+from ehlectric.field.point_field import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
-from ehlectric.film.line import Film
-from ehlectric.film.point import PointFilm
+from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.problem import Scales
 
 

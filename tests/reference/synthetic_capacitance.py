@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
-from ehlectric.bearing.measured.forward import OperatingPoint
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.bearing.measured_capacitance import OperatingPoint
+from ehlectric.cases.bearing_case import BearingCase
 from tests.helpers.places import EXAMPLES
 
 FILE = EXAMPLES / "measurements" / "bearing_6208_capacitance.csv"

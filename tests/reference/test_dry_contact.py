@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from scipy.special import elliprd, elliprf, erf
 
 from ehlectric.film.deflection import Deflection, line_influence, point_influence
-from ehlectric.surfaces import made_maps
+from ehlectric.surfaces import generated_maps
 from tests.helpers.each import each
 from tests.reference import dry_contact as dry
 from tests.reference.hertz_point import radii_ratio
@@ -33,7 +33,7 @@ def rough_map(nodes, *, rolloff=0.25, shortest=1.0 / 16.0, seed=1):
     keeps the variance. The map is refined by its Fourier series, which ends at its shortest wave.
     """
     far = 0.5 * (1.0 + rolloff)
-    made = made_maps.self_affine(
+    made = generated_maps.self_affine(
         rq=1.0, hurst=0.8, rolloff_wavelength=rolloff, reach_x=far, reach_y=far, seed=seed, shortest=shortest
     )
     coarse, strip = round(1.0 / made.spacing_x), round(rolloff / made.spacing_x)

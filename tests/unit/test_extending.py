@@ -9,23 +9,23 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError, errors, load, save, solve
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.cases import library
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.changes import flattened
-from ehlectric.contact.kinds import KINDS, LINE
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.contact_kinds import KINDS, LINE
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
 from ehlectric.errors import ResultWarning
 from ehlectric.formulas import film_line, film_point
 from ehlectric.formulas.film_line import CentralThickness, Formula
 from ehlectric.lubricant.density import DENSITY_LAWS
+from ehlectric.lubricant.electrical_laws import PERMITTIVITY_LAWS
 from ehlectric.lubricant.law import Law, Parameter
-from ehlectric.lubricant.permittivity import PERMITTIVITY_LAWS
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
 from ehlectric.runs.meaning import check
-from ehlectric.sweep.inputs import Sweep
 from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.places import ROOT
 

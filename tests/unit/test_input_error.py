@@ -17,8 +17,8 @@ from ehlectric.bearing.ring_contacts import error_of_contact
 from ehlectric.cases import library
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError, MemoryLimitError, WriteError
-from ehlectric.surfaces.files import read_surface
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.surfaces.surface_files import read_surface
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
 
 CASE = {

@@ -20,7 +20,7 @@ def test_import_loads_nothing_heavy():
 
 
 def test_the_command_starts_without_what_it_may_not_need():
-    loaded = modules_after("import ehlectric.__main__, ehlectric.commands.app")
+    loaded = modules_after("import ehlectric.__main__, ehlectric.commands.command_line")
     assert "typer" in loaded
     heavy = {"matplotlib", "xarray", "pint", "numpy", "scipy", "pydantic", "h5py", "multiprocessing"}
     assert not loaded & heavy
@@ -35,15 +35,17 @@ def test_solving_needs_no_figures_or_files():
 
 @pytest.mark.slow
 def test_files_of_results_are_named_without_the_compiler_of_drives():
-    loaded = modules_after("from ehlectric.runs.folders import files_of_results; files_of_results('.')")
-    assert "ehlectric.drive.files" in loaded
+    loaded = modules_after(
+        "from ehlectric.runs.result_folders import files_of_results; files_of_results('.')"
+    )
+    assert "ehlectric.drive.run" in loaded
     assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
 
 
 @pytest.mark.slow
 def test_a_sweep_of_contacts_begins_without_the_compiler_of_drives():
-    loaded = modules_after("import ehlectric.sweep.preview, ehlectric.sweep.run")
-    assert "ehlectric.drive.quick" in loaded
+    loaded = modules_after("import ehlectric.sweep.engine, ehlectric.sweep.run")
+    assert "ehlectric.drive.quick_drive" in loaded
     assert not loaded & {"numba", "ehlectric.drive.discharges.march"}
 
 

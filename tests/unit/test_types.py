@@ -83,13 +83,13 @@ def test_a_type_checker_knows_the_results(told):
     assert not [line for line in lines if ": error" in line], lines
     shown = [line.partition("Revealed type is ")[2].strip('"') for line in lines]
     assert shown == [
-        "ehlectric.contact.results.Result",
-        "ehlectric.contact.results.PointResult",
+        "ehlectric.contact.result.Result",
+        "ehlectric.contact.result.PointResult",
         "ehlectric.bearing.result.BearingResult",
-        "ehlectric.contact.results.Result | ehlectric.contact.results.PointResult",
+        "ehlectric.contact.result.Result | ehlectric.contact.result.PointResult",
         "Any",
         "ehlectric.bearing.result.BearingResult | None",
-        "ehlectric.contact.results.Result | None",
+        "ehlectric.contact.result.Result | None",
         "matplotlib.figure.Figure",
         "ehlectric.cases.case.LineCase",
     ]

@@ -8,8 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ehlectric.arrays import Array
-from ehlectric.lubricant.density import dowson_higginson
-from ehlectric.lubricant.equation_of_state import murnaghan, tait
+from ehlectric.lubricant.density import dowson_higginson, murnaghan, tait
 from ehlectric.lubricant.viscosity import barus, roelands
 from ehlectric.lubricant.yasutomi import yasutomi, yasutomi_viscosity
 from sketches.pen import BLUE, GREEN, GREY, INK, RED, SIZE

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ehlectric import BearingCase
-from ehlectric.bearing.loads.kinematics import rolling_speeds
+from ehlectric.bearing.film_factor import contact_half_time
+from ehlectric.bearing.loads.geometry import rolling_speeds
 from ehlectric.bearing.preparation import resolve_bearing
 from ehlectric.bearing.ring_contacts import BallContact, RingContacts
-from ehlectric.bearing.supply.decay import contact_half_time
-from ehlectric.formulas.replenishment import replenishment_factor
+from ehlectric.formulas.inlet_supply import replenishment_factor
 from ehlectric.runs.example_files import examples_folder
 from sketches.pen import BLUE, GREEN, INK, RED, SIZE
 

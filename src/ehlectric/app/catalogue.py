@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from ehlectric.app.answers.choices import Choice
+from ehlectric.app.answers import Choice
 from ehlectric.cases import library
 
 # Name of a bearing's kind as a group of the list.

@@ -16,8 +16,8 @@ from multiprocessing import resource_tracker
 from typing import Any
 
 from ehlectric.errors import ConvergenceError, InputError, LostError
-from ehlectric.runtime.parallel.workers import end_with_parent
 from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.worker_processes import end_with_parent
 
 # Loaded before there is any work, in the process from which all others are forked.
 _PRELOADED = "ehlectric.app.compute.preload"

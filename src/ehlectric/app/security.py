@@ -1,4 +1,9 @@
-"""Access to the pages: requests that are answered, and requests that are refused.
+"""Access to the pages: requests that are answered or refused, their size and number, and what a page may
+load.
+
+Messages of browsers that are none of the protocol, such as those of a scanner: one line of the log each.
+The libraries behind the pages write a traceback for each of them, by which anybody could fill the log and
+hide the faults of the program. These faults keep their traceback.
 
 Bound to this machine, the server answers only requests that name this machine, so that no other page in the
 browser reaches it by a name of its own (DNS rebinding). Bound to another address, it asks for a token, which
@@ -8,13 +13,224 @@ the address of the first page holds and a cookie afterwards. Requests of other s
 from __future__ import annotations
 
 import ipaddress
+import logging
+import re
 import secrets
-from collections.abc import Awaitable, Callable, Mapping, MutableMapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass
 from html import escape
 from http.cookies import CookieError, SimpleCookie
+from pathlib import PurePath
+from types import TracebackType
 from typing import Any
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
+
+from starlette.exceptions import HTTPException
+
+from ehlectric.errors import printable
+
+# Scripts need the nonce of their page, so that text which gets into a page never runs. Vue compiles its
+# templates in the browser, which takes 'unsafe-eval'. Quasar and Plotly set styles on their elements, which
+# takes 'unsafe-inline' for styles.
+_POLICY = (
+    "default-src 'self'; script-src 'self' 'nonce-{nonce}' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'; worker-src 'self' blob:; "
+    "object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+)
+
+_HEADERS = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"x-frame-options", b"DENY"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+)
+
+_SCRIPT = re.compile(rb"<script(?=[\s>])")
+
+
+def with_policy(inner: Handler) -> Handler:
+    """Application whose responses say what a browser may load and run.
+
+    Parameters
+    ----------
+    inner : callable
+        Application, whose pages come uncompressed.
+    """
+
+    async def marked(scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "http":
+            await inner(scope, receive, _Marked(send))
+        else:
+            await inner(scope, receive, send)
+
+    return marked
+
+
+class _Marked:
+    """Sender of a response that adds the headers, and the nonce to the scripts of a page."""
+
+    def __init__(self, send: Send) -> None:
+        self._send = send
+        self._nonce = secrets.token_urlsafe(16)
+        self._start: Message | None = None
+        self._body = b""
+
+    async def __call__(self, message: Message) -> None:
+        if message["type"] == "http.response.start":
+            policy = _POLICY.format(nonce=self._nonce).encode()
+            further = [*_HEADERS, (b"content-security-policy", policy)]
+            message["headers"] = [*message.get("headers", []), *further]
+            kinds = [value for key, value in message["headers"] if key.lower() == b"content-type"]
+            if any(kind.startswith(b"text/html") for kind in kinds):
+                self._start = message
+                return
+        if self._start is None:
+            await self._send(message)
+        elif message["type"] == "http.response.body":
+            self._body += message.get("body", b"")
+            if not message.get("more_body"):
+                await self._send_page(self._start)
+
+    async def _send_page(self, start: Message) -> None:
+        """Send a page, whose scripts got the nonce."""
+        body = _SCRIPT.sub(f'<script nonce="{self._nonce}"'.encode(), self._body)
+        others = [pair for pair in start["headers"] if pair[0].lower() != b"content-length"]
+        start["headers"] = [*others, (b"content-length", str(len(body)).encode())]
+        await self._send(start)
+        await self._send({"type": "http.response.body", "body": body})
+
+
+# Largest body of a request [bytes]: that of the largest text file of a surface that is read.
+MOST_BODY = 100_000_000
+
+# Bodies of all requests at once, which are kept in memory until a page takes them [bytes].
+MOST_AT_ONCE = 3 * MOST_BODY
+
+# Pages that are open at once.
+MOST_PAGES = 200
+
+# Requests below these paths open no page.
+_PARTS = ("/_nicegui", "/favicon.ico")
+
+
+def with_bounded_bodies(inner: Handler, most: int = MOST_BODY, at_once: int = MOST_AT_ONCE) -> Handler:
+    """Application that refuses a request with a larger body, whether it tells its size or not.
+
+    It also refuses a request when those that are being answered have large bodies together.
+
+    Parameters
+    ----------
+    inner : callable
+        Application.
+    most : int
+        Largest size of a body [bytes].
+    at_once : int
+        Largest size of the bodies of all requests that are being answered [bytes].
+    """
+    open_bodies = 0
+
+    async def bounded(scope: Scope, receive: Receive, send: Send) -> None:
+        nonlocal open_bodies
+        if scope["type"] != "http":
+            await inner(scope, receive, send)
+            return
+        told = headers_of(scope).get("content-length", "0")
+        reason = f"A request has at most {most / 1e6:g} MB."
+        if not told.isdecimal() or int(told) > most:
+            await refuse(scope, send, 413, reason)
+            return
+        read = 0
+
+        async def counted() -> Message:
+            nonlocal read, open_bodies
+            message = await receive()
+            size = len(message.get("body", b""))
+            read, open_bodies = read + size, open_bodies + size
+            if read > most:
+                raise HTTPException(413, reason)
+            if open_bodies > at_once:
+                raise HTTPException(503, "Too many files are being uploaded; try again.")
+            return message
+
+        try:
+            await inner(scope, counted, send)
+        finally:
+            open_bodies -= read
+
+    return bounded
+
+
+def with_bounded_pages(inner: Handler, number: Callable[[], int], most: int = MOST_PAGES) -> Handler:
+    """Application that opens no further page where many are open.
+
+    Parameters
+    ----------
+    inner : callable
+        Application.
+    number : callable
+        Returns the number of open pages.
+    most : int
+        Largest number of open pages.
+    """
+
+    async def bounded(scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "http" and not scope["path"].startswith(_PARTS) and number() >= most:
+            await refuse(scope, send, 503, f"{most} pages are open; close one of them and try again.")
+        else:
+            await inner(scope, receive, send)
+
+    return bounded
+
+
+# Loggers that tell of an error in a message, and packages that read messages.
+_LOGGERS = ("asyncio", "uvicorn.error", "engineio.server", "socketio.server")
+_READERS = ("engineio", "socketio")
+_PROGRAM = __name__.partition(".")[0]
+
+# Longest text of an error that is told, since it may quote the message [characters].
+_LONGEST = 200
+
+
+def tell_in_one_line() -> None:
+    """Let the loggers of the server tell of a message that cannot be read in one line."""
+    for name in _LOGGERS:
+        logger = logging.getLogger(name)
+        if not any(isinstance(each, _OneLine) for each in logger.filters):
+            logger.addFilter(_OneLine())
+
+
+class _OneLine(logging.Filter):
+    """Filter that shortens records of errors in messages, and passes all records on."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Shorten a record where its error is one of a message."""
+        error = record.exc_info[1] if record.exc_info else None
+        if error is not None and _is_of_a_message(error.__traceback__):
+            text = printable(" ".join(f"{type(error).__name__}: {error}".split()))[:_LONGEST]
+            record.msg, record.args = "a message of a browser cannot be read: %s", (text,)
+            record.exc_info = record.exc_text = None
+        return True
+
+
+def _is_of_a_message(trace: TracebackType | None) -> bool:
+    """Whether an error was raised where a message is read, and not in the code of the pages behind it."""
+    found = False
+    for path in _paths(trace):
+        if path.parent.name in _READERS:
+            found = True
+        elif _PROGRAM in path.parts:
+            # What guards requests comes before the message is read, and the pages come after.
+            found = False
+    return found
+
+
+def _paths(trace: TracebackType | None) -> Iterator[PurePath]:
+    """Files of a traceback, the outermost first."""
+    while trace is not None:
+        yield PurePath(trace.tb_frame.f_code.co_filename)
+        trace = trace.tb_next
+
 
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]

@@ -14,14 +14,19 @@ from fastapi import FastAPI
 from nicegui import Client, app, ui
 from starlette.middleware.gzip import GZipMiddleware
 
-from ehlectric.app.junk import tell_in_one_line
 from ehlectric.app.pages import PAGES
-from ehlectric.app.policy import with_policy
-from ehlectric.app.quotas import MOST_PAGES, with_bounded_bodies, with_bounded_pages
-from ehlectric.app.security import Guard, Handler
-from ehlectric.app.uploads import keep_in_memory
+from ehlectric.app.security import (
+    MOST_PAGES,
+    Guard,
+    Handler,
+    tell_in_one_line,
+    with_bounded_bodies,
+    with_bounded_pages,
+    with_policy,
+)
+from ehlectric.app.session import keep_in_memory
 from ehlectric.app.work import Work
-from ehlectric.runtime.interrupts import not_ignored
+from ehlectric.runtime.locks import not_ignored
 
 # Time in which a browser may come back, as after a computer slept, before its session ends [s].
 _RECONNECT = 20.0

@@ -1,15 +1,110 @@
-"""Session of a tab: its inputs over time, its temporary folder, and its work. All end with the tab."""
+"""Session of a tab: its inputs over time, uploaded files, and its work.
+
+Files that are uploaded into a session: their size, and their names in its folder and in its inputs.
+Inputs name a file relative to the folder of the session, as a case names one relative to its own folder; a
+download with case and files is then complete. The content of a file goes to the readers of ``ehlectric
+surface`` and to nothing else.
+"""
 
 from __future__ import annotations
 
+import os
+import re
 import shutil
+from itertools import count
 from pathlib import Path
 from typing import Any
 
-from ehlectric.app.answers.call import Call
-from ehlectric.app.inputs import History, Inputs
+from starlette.formparsers import MultiPartParser
+
+from ehlectric.app.calls import Call
+from ehlectric.app.page_inputs import History, Inputs
 from ehlectric.app.work import Job, Work
-from ehlectric.errors import LostError
+from ehlectric.errors import LostError, printable
+
+# Largest size of an uploaded file, and of a request with its envelope [bytes].
+LARGEST = 60_000_000
+_LARGEST_REQUEST = LARGEST + 100_000
+
+# Largest size of all uploaded files of a session [bytes].
+MOST_TOGETHER = 4 * LARGEST
+
+# Folder of uploaded surfaces in the folder of a session.
+SURFACES = "surfaces"
+
+# Endings that a file dialogue offers first; what a file is, its content decides.
+ENDINGS = (".csv", ".txt", ".asc", ".dat", ".hfm", ".x3p", ".al3d")
+
+# Longest name that is shown.
+_LONGEST_NAME = 80
+
+
+def shown_name(given: str) -> str:
+    r"""Name of a file as a page shows it: without folders and characters that cannot be seen.
+
+    Examples
+    --------
+    >>> shown_name("../../etc/passwd"), shown_name("C:\\data\\a b.csv"), shown_name("")
+    ('passwd', 'a b.csv', 'unnamed')
+    """
+    name = printable(re.split(r"[/\\]", given)[-1]).strip()
+    return name[-_LONGEST_NAME:] or "unnamed"
+
+
+def stored_name(given: str, number: int) -> str:
+    """Name under which an uploaded file is kept; only its ending is the user's, as readers look at it.
+
+    Examples
+    --------
+    >>> stored_name("../../etc/Scan.X3P", 1), stored_name("a.csv/../../b", 2), stored_name("a.b c", 3)
+    ('surface-1.x3p', 'surface-2.dat', 'surface-3.dat')
+    """
+    ending = re.search(r"\.[A-Za-z0-9]{1,8}\Z", shown_name(given))
+    return f"surface-{number}{ending.group().lower() if ending else '.dat'}"
+
+
+def new_file(given: str, folder: Path) -> str:
+    """Make an empty file for an upload; its name is relative to the folder of its session.
+
+    The file is there before its content, so that uploads at the same time have different names. The numbers
+    of files go on, so that inputs that were undone keep theirs.
+    """
+    place = folder / SURFACES
+    place.mkdir(exist_ok=True)
+    taken = {path.stem for path in place.iterdir()}
+    number = next(number for number in count(1) if f"surface-{number}" not in taken)
+    name = stored_name(given, number)
+    (place / name).touch(exist_ok=False)
+    return f"{SURFACES}/{name}"
+
+
+def own_file(name: str, folder: Path) -> Path | None:
+    """Path of a file of the folder of a session; None where it is not there, or lies elsewhere.
+
+    The name is judged before the file system is asked, and again where its links lead.
+
+    Parameters
+    ----------
+    name : str
+        Name as inputs have it, relative to the folder.
+    folder : Path
+        Folder of the session.
+    """
+    if "\0" in name:
+        return None
+    roots = (os.path.abspath(folder), os.path.realpath(folder))  # noqa: PTH100
+    if not any(Path(os.path.normpath(Path(root, name))).is_relative_to(root) for root in roots):
+        return None
+    path = Path(os.path.realpath(Path(roots[1], name)))
+    return path if path.is_relative_to(roots[1]) and path.is_file() else None
+
+
+def keep_in_memory() -> None:
+    """Keep uploads in memory until a page writes them into the folder of its session.
+
+    Otherwise the reader of forms writes large ones into the system's folder of temporary files.
+    """
+    MultiPartParser.spool_max_size = _LARGEST_REQUEST
 
 
 class Session:

@@ -7,11 +7,10 @@ import os
 import socket
 from collections.abc import Callable
 
-from ehlectric.app.scratch import clear_left_behind, take_temporary_files
 from ehlectric.app.security import Guard
-from ehlectric.app.work import Limits, Work
+from ehlectric.app.work import Limits, Work, clear_left_behind, take_temporary_files
 from ehlectric.errors import InputError
-from ehlectric.runtime.interrupts import held_back
+from ehlectric.runtime.locks import held_back
 
 # Ports that are tried where none is given.
 _PORTS = range(8080, 8180)

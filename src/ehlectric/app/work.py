@@ -1,4 +1,4 @@
-"""Work of the app: quick answers, and jobs that report progress and can be cancelled.
+"""Work of the app: temporary folders, quick answers, and jobs that report progress and can be cancelled.
 
 The process of the server computes nothing, so that every page answers at once whatever is being solved. A
 quick answer waits for one of a few warm processes. A job has a process of its own, which is killed when it is
@@ -8,21 +8,224 @@ cancelled, when its tab is closed, or when it uses more time or memory than is a
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
+import os
+import shutil
+import tempfile
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, TypeVar, cast
+from multiprocessing.util import Finalize, get_temp_dir
+from pathlib import Path
+from typing import Any, Literal, TypeVar, cast
 from weakref import WeakKeyDictionary
 
-from ehlectric.app.answers.call import Call
-from ehlectric.app.jobs import Job
+from ehlectric.app.calls import Call
 from ehlectric.app.processes import Bounds, Raised, Returned, Worker, new_context
-from ehlectric.app.scratch import Scratch
 from ehlectric.errors import LostError
+from ehlectric.runtime.locks import RENAMES_OPEN, take
 from ehlectric.runtime.memory import available_memory
-from ehlectric.runtime.parallel.workers import cores
+from ehlectric.runtime.worker_processes import cores
+
+# Names of the folders of servers, and of the file in each that its server keeps locked.
+_PREFIX, _LOCK = "ehlectric-app-", "lock"
+
+# Beginning of the name of the folder that multiprocessing makes for its sockets.
+_MULTIPROCESSING = "pymp-"
+
+
+# Longest path of a folder whose sockets have names that systems allow, of about 100 characters, below the
+# folder that multiprocessing makes.
+_LONGEST = 70
+
+
+class Scratch:
+    """Temporary folder of a server, which only this user can read.
+
+    Attributes
+    ----------
+    folder : Path
+        The folder.
+
+    Examples
+    --------
+    >>> scratch = Scratch()
+    >>> scratch.new().is_dir()
+    True
+    >>> scratch.remove()
+    >>> scratch.folder.exists()
+    False
+    """
+
+    def __init__(self) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
+        # The file gets its name when it is locked, so that no other server takes the folder for a dead one's.
+        begun = self.folder / ("unlocked" if RENAMES_OPEN else _LOCK)
+        self._lock = begun.open("wb")
+        take(self._lock.fileno())
+        if RENAMES_OPEN:
+            begun.rename(self.folder / _LOCK)
+        # At exit, and after multiprocessing has removed its folder in it.
+        Finalize(None, shutil.rmtree, (self.folder,), {"ignore_errors": True}, exitpriority=-200)
+
+    def new(self) -> Path:
+        """New folder in it."""
+        return Path(tempfile.mkdtemp(prefix="session-", dir=self.folder))
+
+    def remove(self) -> None:
+        """Remove the folder with all that is in it; that of multiprocessing lasts until the exit."""
+        for entry in list(self.folder.iterdir()) if self.folder.exists() else []:
+            if entry.is_dir() and not entry.name.startswith(_MULTIPROCESSING):
+                shutil.rmtree(entry, ignore_errors=True)
+            elif not entry.is_dir():
+                entry.unlink(missing_ok=True)
+        self._lock.close()
+        with contextlib.suppress(OSError):
+            self.folder.rmdir()
+
+
+def take_temporary_files(folder: Path) -> None:
+    """Have this process put its temporary files into a folder, with the sockets of its workers if they fit.
+
+    The names of sockets are bounded, so those below a long path lie in /tmp.
+    """
+    fits = len(str(folder)) <= _LONGEST or not Path("/tmp").is_dir()
+    tempfile.tempdir = str(folder) if fits else "/tmp"
+    # multiprocessing makes its folder for sockets once.
+    get_temp_dir()
+    tempfile.tempdir = str(folder)
+
+
+def clear_left_behind() -> None:
+    """Remove the folders of servers that were killed."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
+        if _left_behind(folder):
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def _left_behind(folder: Path) -> bool:
+    """Whether a folder is this user's and its server has ended."""
+    try:
+        owner = getattr(os, "getuid", lambda: folder.lstat().st_uid)()
+        if folder.is_symlink() or folder.lstat().st_uid != owner:
+            return False
+        with (folder / _LOCK).open("rb+") as file:
+            return take(file.fileno()) == "taken"
+    except OSError:
+        # It is another user's, or it is being made or removed by its server.
+        return False
+
+
+# Time after which a rate is known well enough to be told [s].
+_SOON = 3.0
+
+
+@dataclass
+class Remaining:
+    """Estimate for the part of a job that is under way.
+
+    Attributes
+    ----------
+    text : str
+        Name of the part.
+    of, done : int
+        Steps of the part, and those done when it was first seen, as of a job that is resumed.
+    since : float
+        Time at which it was first seen [s].
+
+    Examples
+    --------
+    >>> left = Remaining()
+    >>> left.told("time steps", 0, 200, now=0.0), left.told("time steps", 50, 200, now=60.0)
+    ('', 'about 3 min left')
+    >>> left.told("drawing", 1, 2, now=61.0)
+    ''
+    """
+
+    text: str = ""
+    of: int = 0
+    done: int = 0
+    since: float = 0.0
+
+    def told(self, text: str, done: int, of: int, *, now: float) -> str:
+        """Words about the time that is left; empty where it is not known yet."""
+        if (text, of) != (self.text, self.of) or done < self.done:
+            self.text, self.of, self.done, self.since = text, of, done, now
+        gone = now - self.since
+        if not of or done <= self.done or gone < _SOON:
+            return ""
+        left = gone * (of - done) / (done - self.done)
+        if left < 60.0:
+            return f"about {max(1.0, left):.0f} s left"
+        return f"about {left / 60.0:.0f} min left"
+
+
+State = Literal["waiting", "running", "done", "failed", "cancelled"]
+
+
+@dataclass(eq=False)
+class Job:
+    """Work in a process of its own, as its page sees it.
+
+    Attributes
+    ----------
+    state : str
+        "waiting", "running", "done", "failed" or "cancelled".
+    done, of, text : int, int, str
+        Progress, as ``runtime.progress`` tells it.
+    result : object
+        What the function returned, of a job that is done.
+    error : InputError, ConvergenceError, LostError or None
+        Error of a failed job.
+    call : tuple
+        Function and arguments.
+    owner : object
+        Session of the job; sessions take turns.
+    """
+
+    state: State = "waiting"
+    done: int = 0
+    of: int = 0
+    text: str = "waiting for a free core"
+    result: Any = None
+    error: Exception | None = None
+    call: tuple[Callable[..., Any], tuple[Any, ...]] | None = None
+    owner: object = None
+    _worker: Worker | None = None
+    _ended: asyncio.Event = field(default_factory=asyncio.Event)
+
+    @property
+    def over(self) -> bool:
+        """Whether the job has ended in any way."""
+        return self.state in ("done", "failed", "cancelled")
+
+    def cancel(self) -> None:
+        """End the job now; nothing happens where it has ended."""
+        self.end("cancelled")
+
+    async def wait(self) -> None:
+        """Wait until the job has ended."""
+        await self._ended.wait()
+
+    def run_in(self, worker: Worker) -> None:
+        """Note the process in which the job runs."""
+        self._worker, self.state, self.text = worker, "running", "starting"
+
+    def told(self, done: int, of: int, text: str) -> None:
+        """Take over its progress."""
+        self.done, self.of, self.text = done, of, text
+
+    def end(self, state: State, *, result: Any = None, error: Exception | None = None) -> None:
+        """End the job, with its process; nothing happens where it has ended."""
+        if self.over:
+            return
+        self.state, self.result, self.error = state, result, error
+        if self._worker is not None:
+            self._worker.end()
+        self._ended.set()
+
 
 __all__ = ["Job", "Limits", "ReplacedError", "Share", "Work"]
 

@@ -7,13 +7,13 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from ehlectric.bearing.fits.mounted import MountedClearance
 from ehlectric.bearing.loads.geometry import ContactRadii, Geometry
+from ehlectric.bearing.mounted_clearance import MountedClearance
 from ehlectric.cases import library
-from ehlectric.cases.bearings.bearing import Bearing
-from ehlectric.cases.discharge import Discharge
-from ehlectric.discharge.utilisation import dielectric_strength
-from ehlectric.formulas import hertz_line as hertz
+from ehlectric.cases.bearing_inputs import Bearing
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.film_breakdown import dielectric_strength
+from ehlectric.formulas import hertz
 from ehlectric.lubricant.oil import Oil
 from ehlectric.quantities.units import to_si
 from ehlectric.runtime.stored import stored

@@ -1,17 +1,183 @@
-"""Impedance of a solved bearing from shaft to housing over frequency, with the conductivity of its oil."""
+"""Capacitance, admittance and impedance of a solved bearing from shaft to housing, and what a meter reads."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.circuit import leaking_admittance
-from ehlectric.bearing.intermittency.admittance import mean_admittance
-from ehlectric.bearing.meter.reading import shaft_path
-from ehlectric.bearing.solution import BearingSolution, lubrication
-from ehlectric.discharge.leakage import leakage
+from ehlectric.bearing.bearing_touching import RingDuty, duty_of
+from ehlectric.bearing.circuit import Path, leaking_admittance, path_of, series
+from ehlectric.bearing.solution import (
+    BearingSolution,
+    RingState,
+    capacitance,
+    capacitance_is_bound,
+    lubrication,
+)
+from ehlectric.discharge.discharge_laws import leakage
+from ehlectric.discharge.film_capacitance import LEAST_RATIO, roughness_factor
+
+
+def shaft_path(solution: BearingSolution) -> Path:
+    """Circuit between shaft and housing of a solved bearing, beside its films."""
+    return path_of(solution.case.bearing)
+
+
+def film_share(solution: BearingSolution) -> float | None:
+    """Share of the shaft voltage across the films of a solved bearing, dimensionless; 1 without a coating.
+
+    None where surfaces touch, and where only an upper bound of the capacitance is known.
+    """
+    if lubrication(solution) == "conducting" or capacitance_is_bound(solution):
+        return None
+    return shaft_path(solution).film_share(capacitance(solution))
+
+
+def shaft_capacitance(solution: BearingSolution) -> float:
+    """Capacitance from shaft to housing with smooth films, coating and parallel capacitance [F]."""
+    return shaft_path(solution).total(capacitance(solution))
+
+
+def rough_capacitance(solution: BearingSolution) -> float | None:
+    """Capacitance of the films with the roughness in their Hertz areas, mean over the positions of the cage.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+
+    Returns
+    -------
+    float or None
+        Capacitance [F]. None for ceramic elements; for results that do not have the capacitance of the Hertz
+        areas; and where a loaded contact has a central film of less than twice ``composite_rq``, at which
+        asperities touch.
+
+    Notes
+    -----
+    The capacitance of each Hertz area is multiplied by ``roughness_factor`` of central film thickness over
+    ``composite_rq``. Around the Hertz areas the gap grows within a fraction of their size, and is taken as
+    smooth.
+    """
+    if solution.conditions.ceramic:
+        return None
+    bearing = solution.case.bearing
+
+    def of_contacts(quantity: Callable[[RingState], Array]) -> Array:
+        """Quantity of all contacts, shape (positions, 2, n)."""
+        return np.array([[quantity(ring) for ring in position.rings] for position in solution.positions])
+
+    ratio = of_contacts(lambda ring: ring.values.central_thickness) / bearing.composite_rq
+    hertz = of_contacts(lambda ring: ring.values.hertz)
+    solved = of_contacts(lambda ring: ring.load) > 0.0
+    if np.any(ratio[solved] < LEAST_RATIO) or np.any(np.isnan(hertz)):
+        return None
+    smooth = of_contacts(lambda ring: ring.capacitance(bearing.fill))
+    rough = smooth + hertz * (roughness_factor(ratio) - 1.0)
+    return float(np.mean(np.sum(series(rough[:, 0], rough[:, 1]), axis=1)))
+
+
+def meter_capacitance(solution: BearingSolution) -> float | None:
+    """Capacitance that a meter reads from shaft to housing, with rough films.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+
+    Returns
+    -------
+    float or None
+        Capacitance [F]; None as ``rough_capacitance``. For ceramic elements it follows from
+        ``element_capacitance``, and is None without this key.
+    """
+    return meter_reading(solution, rough_capacitance(solution))
+
+
+def meter_reading(solution: BearingSolution, rough: float | None) -> float | None:
+    """Capacitance that a meter reads [F], from the ``rough_capacitance`` of a solved bearing [F]."""
+    if solution.conditions.ceramic:
+        return None if capacitance_is_bound(solution) else shaft_capacitance(solution)
+    return None if rough is None else shaft_path(solution).total(rough)
+
+
+def mean_admittance(
+    solution: BearingSolution, relaxation_time: float, frequency: Array, resistance: float
+) -> Array:
+    """Admittance from shaft to housing, mean over the time in which contacts are open and closed.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing with conducting elements.
+    relaxation_time : float
+        Charge relaxation time tau of the oil [s].
+    frequency : ndarray, shape (m,)
+        Frequency f [Hz].
+    resistance : float
+        Resistance R of one closed contact [Ohm].
+
+    Returns
+    -------
+    ndarray of complex, shape (m,)
+        Admittance [S], mean over the positions of the cage.
+
+    Notes
+    -----
+    At each position it is (1 - s) Y_open + s Y_shorted with the share s of time in which an element touches
+    both rings. A closed contact has 1/R beside its film. Open, each element has the mean admittance of its
+    states in which not both of its contacts are closed. Shorted, the elements have on average what makes the
+    mean of their admittances exact. A coating is in series with each of both: that is approximate where
+    several elements close at once. The mean is that of the currents at a given sinusoidal voltage, so that a
+    state has to last for many of its periods. What happens while a contact closes or opens is neglected:
+    the charge of the film that passes through it, discharges as it opens, and the inductance of the path.
+    """
+    path, fill = shaft_path(solution), solution.case.bearing.fill
+    omega = 2.0 * np.pi * frequency[:, np.newaxis]
+    total = np.zeros(frequency.shape, dtype=complex)
+    for position, rings in zip(solution.positions, duty_of(solution).rings, strict=True):
+        films: list[Array] = [
+            np.add(1j * omega * ring.capacitance(fill), ring.oil_capacitance(fill) / relaxation_time)
+            for ring in position.rings
+        ]
+        share, opened, shorted = _states(films[0], films[1], rings, 1.0 / resistance)
+        total += (1.0 - share) * path.admittance(opened, frequency)
+        total += share * path.admittance(shorted, frequency)
+    return total / len(solution.positions)
+
+
+def _states(
+    inner: Array, outer: Array, rings: tuple[RingDuty, RingDuty], closed: float
+) -> tuple[float, Array, Array]:
+    """Share of time in which a bearing is shorted, and its mean admittance open and shorted [S].
+
+    ``inner`` and ``outer`` are the admittances of the films, shape (m, n), and ``closed`` that of a contact.
+    """
+    p, q = (ring.contact_time_share for ring in rings)
+    both = p * q
+    shares = (1.0 - p) * (1.0 - q), p * (1.0 - q), (1.0 - p) * q
+    apart = (
+        _series(inner, outer),
+        _series(inner + closed, outer),
+        _series(inner, outer + closed),
+    )
+    mixed = sum(part * state for part, state in zip(shares, apart, strict=True))
+    # An element that always touches both rings is never open: any admittance does in its place.
+    opened = np.where(both < 1.0, mixed / np.maximum(1.0 - both, np.finfo(float).tiny), apart[0])
+    through = _series(inner + closed, outer + closed)
+    share = float(1.0 - np.prod(1.0 - both))
+    added = np.sum(both * (through - opened), axis=1) / share if share > 0.0 else 0.0
+    films = np.sum(opened, axis=1)
+    return share, films, films + added
+
+
+def _series(first: Array, second: Array) -> Array:
+    """Admittance of two admittances in series."""
+    return first * second / (first + second)
+
 
 # Frequencies reach up to at least _HIGHEST [Hz], and down to _BELOW_CORNER times the corner frequency of the
 # oil; _COUNT is their number.

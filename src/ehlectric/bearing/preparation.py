@@ -1,4 +1,4 @@
-"""Bearing before its contacts are solved: conditions, equilibria, and the loads to solve."""
+"""Bearing before its contacts are solved: equilibria, limits of the model, and the loads to solve."""
 
 from __future__ import annotations
 
@@ -9,24 +9,129 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.constants import g as gravity
 from scipy.optimize import bisect
 
+from ehlectric.bearing.bearing_kinds import KINDS, kind_of
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
-from ehlectric.bearing.fits.mounted import MountedClearance, mounted_clearance
-from ehlectric.bearing.kinds import KINDS, kind_of
-from ehlectric.bearing.limits import check_film, check_load, check_shoulders
+from ehlectric.bearing.film_factor import film_factor_of, solved_heat
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, mirrored
-from ehlectric.bearing.quick.ways import check_quick, is_quick
-from ehlectric.bearing.ring_contacts import RingContacts
-from ehlectric.bearing.supply.factors import film_factor_of
-from ehlectric.bearing.supply.solved_heat import solved_heat
-from ehlectric.cases.bearings.bearing import Bearing
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.bearing.mounted_clearance import MountedClearance, mounted_clearance
+from ehlectric.bearing.quick_contacts import check_quick, is_quick
+from ehlectric.bearing.ring_contacts import Contact, RingContacts
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.errors import InputError
-from ehlectric.formulas.hertz_line import reduced_modulus
+from ehlectric.formulas.hertz import reduced_modulus
 from ehlectric.lubricant.oil import Oil
+
+# Contacts with less than this part of the largest load may have their centre beyond the shoulder.
+_LIGHT = 0.02
+
+# Part of the clearance, or of the elastic approach of preloaded elements, that films may take up without a
+# warning.
+TAKEN = 1.0 / 3.0
+
+
+def check_load(conditions: BearingConditions[Geometry]) -> None:
+    """Refuse loads below the weight of one element, because the equilibrium neglects weights.
+
+    Raises
+    ------
+    InputError
+        Where the load is too small; the message states the weight.
+    """
+    bearing = conditions.bearing
+    weight = conditions.geometry.element_mass(conditions.element.density) * gravity
+    if math.hypot(bearing.radial_load, bearing.axial_load) < weight:
+        raise InputError(
+            "bearing.radial_load",
+            got=f"{bearing.radial_load:g} N, with {bearing.axial_load:g} N axial;",
+            takes=f"more than {weight:.2g} N, the weight of an element, which is left out",
+        )
+
+
+def shoulder_angle(bearing: Bearing, *, inner: bool) -> float:
+    """Angle from the bottom of a ball's groove to its shoulder, arccos(1 - H/f) [rad].
+
+    H is the height of the shoulder over the diameter of the ball, and f the osculation. The angle is infinite
+    for a cylindrical raceway, which has no shoulder.
+
+    Examples
+    --------
+    Inner ring of a 6208, in degrees:
+
+    >>> bearing = Bearing.from_dict(
+    ...     {
+    ...         "base": "6208", "radial_clearance": 1e-5, "radial_load": 1000.0, "inner_speed": 300.0,
+    ...         "temperature": 343.15, "composite_rq": 3e-8,
+    ...     }
+    ... )
+    >>> round(math.degrees(shoulder_angle(bearing, inner=True)), 1)
+    50.6
+    """
+    if bearing.shoulder_height is None:
+        return math.inf
+    return math.acos(1.0 - bearing.shoulder_height / groove_ratio(bearing, inner=inner))
+
+
+def groove_ratio(bearing: Bearing, *, inner: bool) -> float:
+    """Osculation f: radius of the groove over the diameter of the ball; infinite for a cylinder."""
+    groove = bearing.inner_groove if inner else bearing.outer_groove
+    return math.inf if groove is None else groove
+
+
+def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
+    """Refuse ball contacts outside the groove.
+
+    Raises
+    ------
+    InputError
+        Where the centre of a contact is beyond the shoulder. Contacts with less than 2 % of the largest load
+        do not count.
+    """
+    for name, inner in (("inner", True), ("outer", False)):
+        ring = at.ring(inner=inner)
+        loaded = ring.load > _LIGHT * np.max(ring.load)
+        furthest = float(np.max(np.abs(ring.angle), where=loaded, initial=0.0))
+        end = shoulder_angle(bearing, inner=inner)
+        if furthest >= end:
+            raise InputError(
+                "bearing.shoulder_height",
+                got=f"{bearing.shoulder_height:g}, an {name} groove that ends {math.degrees(end):.1f} "
+                f"deg up, and a contact at {math.degrees(furthest):.1f} deg;",
+                takes="a higher shoulder, a smaller contact angle, or less axial load",
+            )
+
+
+def check_film(contact: Contact) -> None:
+    """Refuse films that are too thick for the space between element and raceway.
+
+    Parameters
+    ----------
+    contact : BallContact or RollerContact
+        Most loaded contact with one ring.
+
+    Raises
+    ------
+    InputError
+        Where the film of a ball is thicker than a tenth of (f - 1/2) D, or the film of a roller builds up
+        over more than a tenth of its radius. The film is that of a formula that holds for light contacts,
+        too.
+    """
+    film, most, ring = contact.film, contact.thickest_film, contact.ring
+    if film > most:
+        oil = ring.oil.viscosity
+        raise InputError(
+            "bearing",
+            got=f"an {ring.name} film of {1e6 * film:.3g} um, at {contact.load:.3g} N, "
+            f"{ring.speed:.3g} m/s and {oil:.3g} Pa s;",
+            takes=f"a load, a speed and an oil at its temperature for at most {1e6 * most:.3g} um, "
+            "beyond which the bodies leave it no room",
+        )
+
 
 # Least load over the largest of those that are not the loads of light elements, and number of loads down to
 # it whose contacts come from the atlas or by formula: they take milliseconds.

@@ -1,4 +1,4 @@
-"""Result of a bearing, as ``solve_bearing`` returns it."""
+"""Solution of a whole rolling bearing by `solve_bearing`, and its result."""
 
 from __future__ import annotations
 
@@ -6,28 +6,33 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from ehlectric.bearing.intermittency.capacitive_speed import capacitive_speed
-from ehlectric.bearing.margin.analysis import MarginAnalysis, analyse_margin
-from ehlectric.bearing.margin.verdict import bearing_verdict
-from ehlectric.bearing.shaft_voltage import shaft_voltage
+from ehlectric.bearing.bearing_discharges import shaft_voltage
+from ehlectric.bearing.bearing_kinds import kind_of
+from ehlectric.bearing.bearing_touching import capacitive_speed
+from ehlectric.bearing.margin import MarginAnalysis, analyse_margin, bearing_verdict
+from ehlectric.bearing.preparation import largest_load, prepare_bearing
+from ehlectric.bearing.quick_contacts import heat_by_formula
+from ehlectric.bearing.ring_contacts import check_contact
 from ehlectric.bearing.solution import BearingSolution, capacitance, capacitance_is_bound
+from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.stored import dataset_of
 from ehlectric.bearing.summary import breaks, contact_rows, summary_of
 from ehlectric.bearing.warnings import bearing_warnings
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.discharge.verdict import Verdict
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown
 from ehlectric.quantities.bearing_results import BEARING_KEYS, CONTACT_KEYS
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.units import rpm
-from ehlectric.runtime.display import Shown, headline
 from ehlectric.runtime.files import plain
-from ehlectric.runtime.values import is_number
+from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.values import Shown, headline, is_number
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
 
 # Columns of the table of contacts that are no numbers with a unit.
 _LABELS = ("element", "ring", "regime", "solved")
@@ -228,3 +233,61 @@ def contact_units() -> dict[str, str]:
     names = [name.partition(".")[2] for name in BEARING_KEYS if name.startswith("contacts.")]
     found = {name: key_of(BEARING_KEYS, f"contacts.{name}") for name in names if name not in _LABELS}
     return {name: key.unit for name, key in found.items() if key is not None}
+
+
+def solve_bearing(
+    case: BearingCase,
+    *,
+    progress: Progress | None = None,
+    workers: int | None = None,
+) -> BearingResult:
+    """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
+
+    Contacts with each ring are solved at five loads, those of rollers at ten, and at the loads of light
+    elements; the contacts of all elements are interpolated between them.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
+    progress : callable, optional
+        Called with the number of solved contacts, the number of all contacts, and a text.
+    workers : int, optional
+        Number of processes; the number of cores if not given.
+
+    Returns
+    -------
+    BearingResult
+        Result with its summary, its tables and its warnings.
+
+    Raises
+    ------
+    InputError
+        Where the bearing cannot carry its load, or a contact cannot be solved.
+    LostError
+        Where the process of a contact was killed four times, as by a system out of memory.
+    ConvergenceError
+        Where the film that ``film_factor`` "solved" needs does not converge.
+    """
+    return BearingResult(solution_of(case, progress=progress, workers=workers))
+
+
+def check_bearing(case: BearingCase) -> None:
+    """Refuse a bearing that cannot be solved, before a folder is made for its results.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
+
+    Raises
+    ------
+    InputError
+        As ``solve_bearing`` does, for the most loaded contacts at the first position of the cage. Heat that
+        is to be solved is that of a formula here.
+    """
+    prepared = prepare_bearing(heat_by_formula(case), 1)
+    for ring in prepared.rings:
+        kind = kind_of(ring)
+        contact = kind.contact(ring, largest_load(prepared, ring))
+        check_contact(contact, kind.grid(contact))

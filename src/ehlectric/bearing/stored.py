@@ -11,17 +11,16 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
-from ehlectric.bearing.contacts import ContactCurve, ContactSolution, ContactValues
-from ehlectric.bearing.loads.balls import BallEquilibrium
-from ehlectric.bearing.loads.kinematics import Speeds
-from ehlectric.bearing.loads.rollers import RollerEquilibrium
+from ehlectric.bearing.loads.ball_loads import BallEquilibrium
+from ehlectric.bearing.loads.geometry import Speeds
+from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
 from ehlectric.bearing.loads.totals import Equilibrium
 from ehlectric.bearing.preparation import resolve_bearing
-from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.ring_contacts import ContactCurve, ContactSolution, ContactValues, RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, RingState
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning, texts_and_codes
-from ehlectric.runtime.checks.schema import VALUES, Rule, UnfitError, case_of, number_of, text_of
+from ehlectric.runtime.file_rules import VALUES, Rule, UnfitError, case_of, number_of, text_of
 from ehlectric.runtime.stored import Part, check_parts, values_of, warnings_in_tables
 
 if TYPE_CHECKING:

@@ -6,36 +6,41 @@ import dataclasses
 import math
 from typing import Any
 
-from ehlectric.bearing.accuracy import film_error
-from ehlectric.bearing.breakdown import Breakdown, breakdown_of, strength_per_volt
+from ehlectric.bearing.bearing_discharges import (
+    Breakdown,
+    bearing_costs,
+    bearing_voltage_ratio,
+    breakdown_of,
+    film_voltage,
+    margin,
+    shaft_leakage,
+    shaft_voltage,
+    strength_per_volt,
+)
+from ehlectric.bearing.bearing_touching import BearingDuty, contact_duty, duty_of, duty_summary
 from ehlectric.bearing.conditions import BearingConditions
-from ehlectric.bearing.discharges.energy import bearing_costs
-from ehlectric.bearing.discharges.leakage import shaft_leakage
-from ehlectric.bearing.friction.rolling import friction_summary
-from ehlectric.bearing.impedance import oil_relaxation_time
-from ehlectric.bearing.intermittency.duty import BearingDuty, duty_of
-from ehlectric.bearing.intermittency.summary import contact_duty, duty_summary
-from ehlectric.bearing.loads.totals import mechanics_of
-from ehlectric.bearing.meter.reading import (
+from ehlectric.bearing.film_factor import friction_summary, half_time
+from ehlectric.bearing.impedance import (
     film_share,
     meter_reading,
+    oil_relaxation_time,
     rough_capacitance,
     shaft_capacitance,
     shaft_path,
 )
-from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio, film_voltage, margin, shaft_voltage
+from ehlectric.bearing.loads.totals import mechanics_of
 from ehlectric.bearing.solution import (
     BearingSolution,
     capacitance,
+    film_error,
     insulating,
     lambda_ratio,
     lubrication,
     plate_capacitance,
     regime,
 )
-from ehlectric.bearing.supply.decay import half_time
 from ehlectric.bearing.warnings import bearing_warnings
-from ehlectric.discharge.leakage import conductivity_of
+from ehlectric.discharge.discharge_laws import conductivity_of
 from ehlectric.errors import texts_and_codes
 from ehlectric.runtime.files import plain
 

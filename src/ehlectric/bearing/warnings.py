@@ -7,36 +7,39 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ehlectric.bearing.accuracy import error_text, with_light
-from ehlectric.bearing.breakdown import breakdown_of, strength_per_volt
-from ehlectric.bearing.contacts import ContactSolution
-from ehlectric.bearing.discharges.energy import current_warnings
-from ehlectric.bearing.discharges.leakage import leakage_warnings
-from ehlectric.bearing.fits.warnings import class_warnings, fit_warnings
-from ehlectric.bearing.intermittency.duty import duty_of
-from ehlectric.bearing.intermittency.words import time_text
-from ehlectric.bearing.limits import TAKEN, groove_ratio, shoulder_angle
-from ehlectric.bearing.meter.reading import shaft_path
-from ehlectric.bearing.shaft_voltage import film_voltage, shaft_voltage
+from ehlectric.bearing.bearing_discharges import (
+    breakdown_of,
+    current_warnings,
+    film_voltage,
+    leakage_warnings,
+    shaft_voltage,
+    strength_per_volt,
+)
+from ehlectric.bearing.bearing_touching import duty_of, time_text
+from ehlectric.bearing.film_factor import film_note, supply_warnings
+from ehlectric.bearing.impedance import shaft_path
+from ehlectric.bearing.mounted_clearance import class_warnings, fit_warnings
+from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
+from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
     BearingSolution,
     Position,
     capacitance_is_bound,
+    error_text,
     insulating,
     lambda_text,
     lubrication,
+    with_light,
 )
-from ehlectric.bearing.supply.warnings import film_note, supply_warnings
 from ehlectric.cases import library
-from ehlectric.cases.bearings.bearing import ROLLERS, Bearing
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.oils.resolution import viscosity_over_temperature
-from ehlectric.cases.oils.temperature import OilTemperature
-from ehlectric.discharge.limits import field_warnings, strength_warnings
-from ehlectric.discharge.verdict import breakdown_warning
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
+from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
+from ehlectric.cases.oil_inputs import OilTemperature
+from ehlectric.discharge.film_breakdown import field_warnings, strength_warnings
+from ehlectric.discharge.film_verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
-from ehlectric.lubricant.viscosity_index import GRADE_WIDTH, LEAST_AT_100, viscosity_index
+from ehlectric.lubricant.data_sheet import GRADE_WIDTH, LEAST_AT_100, viscosity_index
 from ehlectric.quantities.units import rpm
 
 # Speed factor n d_m, rotational speed times pitch diameter, above which a bearing needs a special design

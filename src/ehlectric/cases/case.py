@@ -1,7 +1,7 @@
 """Case of a line or point contact, read from TOML, written back, and changed.
 
 A case is frozen and holds SI floats. Alternative inputs (two radii or the reduced radius, load or Hertz
-pressure, entrainment speed or two speeds) are stored as the file gives them; ``ehlectric.contact.resolve``
+pressure, entrainment speed or two speeds) are stored as the file gives them; ``ehlectric.contact.conditions``
 computes the operating conditions from them.
 """
 
@@ -13,26 +13,22 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, Unpack
 
 from pydantic import PrivateAttr, model_validator
 
+from ehlectric.cases.case_oil import Lubricant
 from ehlectric.cases.changes import displace_alternatives, drop_geometry, flattened, set_keys
-from ehlectric.cases.contact import Contact, LineKeys, PointKeys, geometry_of
-from ehlectric.cases.depth import refuse_deep
-from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.doubts import warn_of
-from ehlectric.cases.films.inlet import Inlet
-from ehlectric.cases.films.physics import FilmPhysics, check_film
-from ehlectric.cases.grid import Electric, Grid, Solver, point_grid
+from ehlectric.cases.contact_inputs import Contact, LineKeys, PointKeys, geometry_of, warn_of
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.film_inputs import FilmPhysics, Inlet, check_film
+from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver, point_grid
+from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.keywords import Keys, tables, takes
-from ehlectric.cases.meter import Meter
-from ehlectric.cases.motion import Motion
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.roughness import Roughness, check_geometry, find_files
-from ehlectric.cases.table import Table, read_toml
-from ehlectric.cases.title import Title
+from ehlectric.cases.meter_inputs import Meter
+from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files
+from ehlectric.cases.table import Table, Title, read_toml
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.oil import Oil
-from ehlectric.lubricant.own import SampledLaws
+from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.formats import amount
-from ehlectric.runtime.display import Tabled, headline
+from ehlectric.runtime.values import Tabled, headline
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.
 _SHOWN = {"load_per_length": "N/m", "load": "N", "max_hertz_pressure": "Pa", "entrainment_speed": "m/s"}
@@ -182,7 +178,7 @@ class Case(Tabled, Table):
         """Make the case of a line contact from the keys of its table ``contact``.
 
         ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
-        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact.LineKeys``); all
+        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact_inputs.LineKeys``); all
         others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
 
         >>> steel = {"reduced_radius": "14.1 mm", "reduced_modulus": 226e9}
@@ -217,7 +213,7 @@ class Case(Tabled, Table):
         """Make the case of a point contact from the keys of its table ``contact``.
 
         ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
-        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact.PointKeys``); all
+        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact_inputs.PointKeys``); all
         others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
 
         >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa"}

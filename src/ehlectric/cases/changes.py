@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from ehlectric.cases.oils.alternatives import displace_oil
+from ehlectric.cases.oil_inputs import displace_oil
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.alternatives import ALTERNATIVES, CONTACT_ALTERNATIVES, GRID_OF_ANY, ONLY, Rows
 

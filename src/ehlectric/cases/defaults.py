@@ -1,9 +1,40 @@
-"""Values that hold where a case file gives none; without arrays, as the server of the app reads them."""
+"""Values that hold where a case file gives none, and ways to the contacts of a bearing; without arrays."""
 
 from __future__ import annotations
+
+from typing import Literal
 
 # Relative error to which a film is refined, by whether the contact is a point contact.
 DEFAULT_ERROR = {False: 0.01, True: 0.02}
 
 # Thickness of the boundary film [m]: one layer of molecules of oil.
 BOUNDARY_FILM = 1e-9
+
+
+# Values of ``contacts`` of a bearing file.
+Contacts = Literal["solved", "atlas", "formula"]
+
+# Those that solve no film. The first one is taken where films are wanted at once.
+QUICK: tuple[Contacts, ...] = ("atlas", "formula")
+
+# How contacts and films are obtained, and such contacts, in words.
+HOW = {"solved": "solved", "atlas": "from the atlas", "formula": "by formula"}
+OF_CONTACTS = {
+    "solved": "solved contacts",
+    "atlas": "contacts from the atlas",
+    "formula": "contacts by formula",
+}
+
+# Values of ``film_factor`` that are words; all but the first compute the heat.
+FILM_FACTORS = ("none", "inlet-shear", "solved")
+
+
+def quick_way(contacts: object) -> str:
+    """Quick way of a bearing with contacts as its file has them: its own one, or the atlas.
+
+    Examples
+    --------
+    >>> quick_way("formula"), quick_way("solved"), quick_way(None)
+    ('formula', 'atlas', 'atlas')
+    """
+    return str(contacts) if contacts in QUICK else QUICK[0]

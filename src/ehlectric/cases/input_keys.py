@@ -10,30 +10,20 @@ from typing import Any, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from ehlectric.cases.amounts import Amount, Amounts, Count
-from ehlectric.cases.bearings.bearing import Bearing
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.bearings.coating import Coating as RingCoating
-from ehlectric.cases.bearings.fits import Fits
-from ehlectric.cases.bearings.motor import Motor
-from ehlectric.cases.bearings.summits import Summits
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import Bearing, Fits, Motor, Summits
 from ehlectric.cases.case import Case
-from ehlectric.cases.contact import Body, Contact
-from ehlectric.cases.discharge import Discharge, Pit, StrengthTable, Weibull
-from ehlectric.cases.drives.breakdown import Breakdown
-from ehlectric.cases.drives.case import DriveCase, Operation, Remedy
-from ehlectric.cases.drives.circuit import Circuit
-from ehlectric.cases.drives.machine import Geometry
-from ehlectric.cases.drives.source import Source
-from ehlectric.cases.films.inlet import Inlet, LayerTable
-from ehlectric.cases.films.physics import FilmPhysics
-from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.meter import Coating, Meter
-from ehlectric.cases.motion import Motion
-from ehlectric.cases.oils.laws import law_parameters
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.oils.over_temperature import ConductivityTable, PermittivityTable
-from ehlectric.cases.oils.temperature import OilTemperature
-from ehlectric.cases.roughness import Roughness
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.coating_inputs import Coating as RingCoating
+from ehlectric.cases.contact_inputs import Body, Contact
+from ehlectric.cases.discharge_inputs import Discharge, Pit, StrengthTable, Weibull
+from ehlectric.cases.drive_case import DriveCase, Operation, Remedy
+from ehlectric.cases.drive_inputs import Breakdown, Circuit, Geometry, Source
+from ehlectric.cases.film_inputs import FilmPhysics, Inlet, LayerTable
+from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver
+from ehlectric.cases.meter_inputs import Coating, Meter
+from ehlectric.cases.oil_inputs import ConductivityTable, OilTemperature, PermittivityTable, law_parameters
+from ehlectric.cases.roughness_inputs import Roughness
 from ehlectric.cases.table import Table, any_of, meant, nearest, table_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key, input_at, inputs, table_and_key

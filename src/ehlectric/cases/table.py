@@ -1,24 +1,31 @@
-"""Base class of the tables of a case file, and validation errors as one line for the user."""
+"""Base class of the tables of a case file, their title, and validation errors as one line for the user."""
 
 from __future__ import annotations
 
 import difflib
 import re
 import tomllib
+import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from inspect import Parameter, Signature
 from pathlib import Path
 from types import UnionType
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, Union, get_args, get_origin
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    GetJsonSchemaHandler,
+    ValidationError,
+    ValidationInfo,
+)
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 
-from ehlectric.cases.aliases import ALIASES
 from ehlectric.cases.amounts import WRITTEN
-from ehlectric.cases.depth import refuse_deep, refuse_long_keys
-from ehlectric.errors import InputError, short, shown
+from ehlectric.cases.key_names import ALIASES, refuse_deep, refuse_long_keys
+from ehlectric.errors import InputError, printable, short, shown, unseen
 from ehlectric.runtime.reading import read_text
 
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
@@ -382,3 +389,32 @@ def table_of(annotation: Any) -> type[Table] | None:
         if isinstance(candidate, type) and issubclass(candidate, Table):
             return candidate
     return None
+
+
+# Longest title [characters].
+LONGEST = 200
+
+# Unicode categories that no title has: control characters, and halves of pairs, which no file can hold.
+_NEVER = frozenset({"Cc", "Cs"})
+
+
+def _title(text: str, info: ValidationInfo) -> str:
+    """Title that is one line.
+
+    A title that a person writes into a file has no character that is not seen either, such as one that turns
+    the direction of the text: every program that shows the files of the result would obey it. Titles of
+    earlier results may have such characters; they are escaped where they are shown.
+    """
+    written = bool(info.context and info.context.get(WRITTEN))
+    if len(text) > LONGEST or any(unicodedata.category(letter) in _NEVER for letter in text):
+        raise InputError(got=shown(text), takes=f"at most {LONGEST} printable characters on one line")
+    hidden = next(filter(unseen, text), "") if written else ""
+    if hidden:
+        name = unicodedata.name(hidden, "a character without a name").lower()
+        got = f"{shown(text)} with {printable(hidden)} ({name}), which is not seen"
+        raise InputError(got=got, takes="a title without it")
+    return text
+
+
+# Title of files and figures, on one line.
+Title = Annotated[str, AfterValidator(_title)]

@@ -142,7 +142,7 @@ def figure_options(formats: Sequence[str] | None, style: str) -> Look:
     InputError
         If there is no such format or style.
     """
-    from ehlectric.figures.names import FORMATS, STYLES
+    from ehlectric.figures.figure_names import FORMATS, STYLES
 
     wanted = tuple(chosen("--format", name, FORMATS) for name in formats or ("png",))
     return Look(formats=wanted, style=chosen("--style", style, STYLES))

@@ -20,9 +20,9 @@ from ehlectric.runtime.progress import Progress, silent
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ehlectric.discharge.verdict import Verdict
+    from ehlectric.discharge.film_verdict import Verdict
     from ehlectric.quantities.rows import Row
-    from ehlectric.runtime.outcome import RunOutcome
+    from ehlectric.runtime.progress import RunOutcome
 
 
 # Exit status.
@@ -167,7 +167,7 @@ def refuse_failure(outcome: RunOutcome[Any]) -> None:
 
 def print_rows(rows: Iterable[Row], title: str = "") -> None:
     """Print rows of data as a table on stdout."""
-    from ehlectric.tables.layout import table_of
+    from ehlectric.tables.measured_tables import table_of
 
     print_table(table_of(rows, title))
 

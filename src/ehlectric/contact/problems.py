@@ -1,37 +1,151 @@
-"""Film and field problems of a contact, made from its setup and operating conditions for the solvers."""
+"""Film and field problems of a contact, with its supply of oil, made from its setup and operating
+conditions.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.cases.grid import MOST_DEGREE, Solver
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.film_inputs import Inlet
+from ehlectric.cases.grid_inputs import MOST_DEGREE, Electric, Grid, Solver
+from ehlectric.cases.roughness_inputs import Roughness
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.memory import FIELD_BYTES, POINT_FIELD_BYTES
-from ehlectric.contact.setup import Setup
-from ehlectric.contact.starved.supply import is_even, oil_supply
+from ehlectric.contact.contact_memory import FIELD_BYTES, POINT_FIELD_BYTES
 from ehlectric.errors import InputError
-from ehlectric.field.columns import columns_within, thinned
+from ehlectric.field.line_field import columns_within, thinned
 from ehlectric.field.poisson import ATOM, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.film.deflection import Geometry, point_geometry
 from ehlectric.film.flow import MEAN_MOBILITY, Fluid, FluidLaw
-from ehlectric.film.line import Film
+from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Width
-from ehlectric.film.point import PointFilm
-from ehlectric.film.problem import FilmProblem, Scales
+from ehlectric.film.problem import FilmProblem, OilSupply, Scales
 from ehlectric.formulas.film_line import CentralThickness, moes
 from ehlectric.formulas.film_point import nijenbanning_venner_moes
 from ehlectric.lubricant.law import PressureLaw
 from ehlectric.lubricant.oil import Oil
-from ehlectric.surfaces.domain import Domain
-from ehlectric.surfaces.rough_maps import RoughMap
-from ehlectric.surfaces.rough_profiles import RoughSurface
+from ehlectric.surfaces.generated_profiles import Domain
+from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Inputs of a contact other than its operating conditions.
+
+    A ``Case`` has the same attributes. Functions that read only these attributes accept a case or a setup.
+
+    Attributes
+    ----------
+    oil : Oil
+        Oil at the temperature of the contact.
+    grid : Grid
+        Grid of the film and of the field; the grid of a point contact must have a ``field_side``.
+    electric : Electric
+        Potentials of the two surfaces.
+    solver : Solver
+        Tolerance and largest number of iterations of the film solver.
+    discharge : Discharge or None
+        Dielectric strength and other inputs of a discharge; None if no discharge is assessed.
+    roughness : tuple of Roughness
+        Tables of the rough surfaces; empty if both surfaces are smooth.
+    title : str
+        Title of files and figures.
+    inlet : Inlet or None
+        Oil that is supplied to a starved contact; None if the inlet is flooded.
+    """
+
+    oil: Oil
+    grid: Grid
+    electric: Electric = field(default_factory=Electric)
+    solver: Solver = field(default_factory=Solver)
+    discharge: Discharge | None = None
+    roughness: tuple[Roughness, ...] = ()
+    title: str = ""
+    inlet: Inlet | None = None
+
+    @property
+    def first_grid(self) -> Grid:
+        """Grid on which the film is solved first, with its number of nodes."""
+        return self.grid.first(rough=bool(self.roughness))
+
+    @classmethod
+    def of(cls, case: Case | Setup) -> Setup:
+        """Make the setup of a case, or a copy of a setup."""
+        return cls(
+            oil=case.oil,
+            grid=case.grid,
+            electric=case.electric,
+            solver=case.solver,
+            discharge=case.discharge,
+            roughness=case.roughness,
+            title=case.title,
+            inlet=case.inlet,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all values that are set as nested tables, in SI units, with the keys of a case."""
+        tables = {
+            name: getattr(self, name).model_dump(mode="json", exclude_none=True)
+            for name in ("electric", "grid", "solver")
+        }
+        for name, table in (("discharge", self.discharge), ("inlet", self.inlet)):
+            if table is not None:
+                tables[name] = table.model_dump(mode="json", exclude_none=True)
+        rough = [table.model_dump(mode="json", exclude_none=True) for table in self.roughness]
+        return {"title": self.title, "roughness": rough, "lubricant": dict(self.oil.inputs)} | tables
+
+
+def oil_supply(inlet: Inlet | None, conditions: Conditions | PointConditions) -> OilSupply | None:
+    """Supply of oil of a film problem; None where the inlet is flooded.
+
+    Parameters
+    ----------
+    inlet : Inlet or None
+        Table ``inlet`` of a case.
+    conditions : Conditions or PointConditions
+        Operating conditions, whose scales make the layer dimensionless.
+
+    Returns
+    -------
+    OilSupply or None
+        Layer over Y = y/b in units of b^2/R, or the ratio of films. Beyond the ends of a table its first and
+        last thickness hold.
+
+    Examples
+    --------
+    >>> oil_supply(None, None) is None
+    True
+    """
+    if inlet is None:
+        return None
+    if inlet.film_ratio is not None:
+        return OilSupply(film_ratio=inlet.film_ratio)
+    length, scale = conditions.half_width, conditions.thickness_scale
+    given, table = inlet.oil_layer, inlet.layer_table
+
+    def layer(y: Array) -> Array:
+        if table is None:
+            return np.full(y.shape, given) / scale
+        return np.interp(length * y, table.y, table.thickness) / scale
+
+    return OilSupply(layer=layer)
+
+
+def is_even(inlet: Inlet | None, y: Array) -> bool:
+    """Whether the layer of oil is symmetric about y = 0 at positions y [m] that are so."""
+    if inlet is None or inlet.layer_table is None:
+        return True
+    layer = np.interp(y, inlet.layer_table.y, inlet.layer_table.thickness)
+    return bool(np.allclose(layer, layer[::-1], rtol=1e-9, atol=0.0))
+
 
 # Largest difference between a surface and its mirror image, relative to the largest height, at which the
 # surface counts as symmetric.

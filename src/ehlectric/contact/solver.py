@@ -12,40 +12,35 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.roughness import Roughness
-from ehlectric.contact.check import PreparedContact, check_case, with_laws
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.grid_inputs import Electric, Grid, Solver
+from ehlectric.cases.roughness_inputs import Roughness
+from ehlectric.contact.capacitance_meter import meter_warnings
+from ehlectric.contact.check import MOST_STEPS, PreparedContact, check_case, widened, with_laws
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.domain import MOST_STEPS, widened
-from ehlectric.contact.heat.warnings import heat_warnings
-from ehlectric.contact.kinds import KINDS
-from ehlectric.contact.memory import check_grid
-from ehlectric.contact.meter.reading import meter_warnings
-from ehlectric.contact.problems import heights_of
-from ehlectric.contact.refinement import Refined, refined
-from ehlectric.contact.result_warnings import accuracy_warnings, film_warnings
-from ehlectric.contact.results import RESULTS, PointResult, Result
-from ehlectric.contact.setup import Setup
-from ehlectric.contact.solution import Smooth
-from ehlectric.contact.spots.mechanics import Coarser, hertz_weights, load_of, spots_of
-from ehlectric.contact.spots.warnings import spot_warnings
-from ehlectric.contact.starved.warnings import starvation_warnings
+from ehlectric.contact.contact_heat import heat_warnings
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.contact_memory import check_grid
+from ehlectric.contact.contact_refinement import Refined, refined
+from ehlectric.contact.contact_solution import Smooth
+from ehlectric.contact.problems import Setup, heights_of
+from ehlectric.contact.result import RESULTS, PointResult, Result
+from ehlectric.contact.starvation import starvation_warnings
+from ehlectric.contact.touching import Coarser, hertz_weights, load_of, spot_warnings, spots_of
+from ehlectric.contact.warnings import accuracy_warnings, film_warnings
 from ehlectric.discharge.assessment import discharge_warnings, margin_warnings
-from ehlectric.discharge.limits import field_warnings
+from ehlectric.discharge.film_breakdown import field_warnings
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
-from ehlectric.field.line import Field
-from ehlectric.field.point import PointField
-from ehlectric.film.line import Film
-from ehlectric.film.point import PointFilm
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.film.newton import Progress
 from ehlectric.film.problem import FilmProblem, OnGrid
-from ehlectric.film.state import Progress
 from ehlectric.lubricant.oil import Oil
-from ehlectric.lubricant.own import Laws
+from ehlectric.lubricant.python_laws import Laws
 from ehlectric.runtime.files import now
-from ehlectric.runtime.log import LOGGER
-from ehlectric.surfaces.rough_maps import RoughMap
-from ehlectric.surfaces.rough_profiles import RoughSurface
+from ehlectric.runtime.progress import LOGGER
+from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
 from ehlectric.version import __version__
 
 # Smallest number of nodes along an axis on which a contact is solved once more for the error of its spots.
@@ -105,7 +100,7 @@ def solve(
     require_convergence : bool
         Whether to raise a ConvergenceError if the film does not converge, instead of returning its status.
     solvers : Solvers
-        Solvers of this package, or solvers of ``ehlectric.paper.solvers``.
+        Solvers of this package, or solvers of ``ehlectric.paper.paper_contacts``.
     beside_smooth : bool
         Whether to solve a rough contact with smooth surfaces too, for ``Result.smooth``.
     prepared : PreparedContact, optional
@@ -210,7 +205,7 @@ def solve_contact(
     Examples
     --------
     >>> from ehlectric.contact.conditions import line_conditions
-    >>> from ehlectric.cases.oils.lubricant import Lubricant
+    >>> from ehlectric.cases.case_oil import Lubricant
     >>> oil = Lubricant.from_dict({"base": "paper"}).at(None)
     >>> inputs = {"reduced_radius": 0.0141, "reduced_modulus": 226e9, "load_per_length": 3.92e5}
     >>> contacts = [

@@ -12,18 +12,17 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
-from ehlectric.contact.solution import Smooth, Solution
-from ehlectric.contact.spots.mechanics import Coarser
-from ehlectric.field.line import Field
-from ehlectric.field.point import PointField
-from ehlectric.film.accuracy.starved import Starvation
-from ehlectric.film.line import Film
-from ehlectric.film.point import PointFilm
+from ehlectric.contact.contact_solution import Smooth, Solution
+from ehlectric.contact.touching import Coarser
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.film.film_solver import Starvation
+from ehlectric.film.hot_oil import HeatedFilm
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.film.newton import NewtonStep
 from ehlectric.film.problem import Scales
-from ehlectric.film.state import NewtonStep
-from ehlectric.film.thermal.result import HeatedFilm
-from ehlectric.lubricant.own import SampledLaws, is_laws
-from ehlectric.runtime.checks.schema import Rule, UnfitError, case_of, is_list, is_number, json_of, text_of
+from ehlectric.lubricant.python_laws import SampledLaws, is_laws
+from ehlectric.runtime.file_rules import Rule, UnfitError, case_of, is_list, is_number, json_of, text_of
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.stored import (
     Part,

@@ -7,13 +7,13 @@ from typing import Any
 
 from ehlectric.cases.case import Case
 from ehlectric.contact.conditions import Conditions, PointConditions
-from ehlectric.contact.heat.summary import heat_summary
-from ehlectric.contact.kinds import KINDS
-from ehlectric.contact.setup import Setup
-from ehlectric.contact.solution import Solution
-from ehlectric.discharge.leakage import conductivity_of
+from ehlectric.contact.contact_heat import heat_summary
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.contact_solution import Solution
+from ehlectric.contact.problems import Setup
+from ehlectric.discharge.discharge_laws import conductivity_of
 from ehlectric.errors import texts_and_codes
-from ehlectric.film.accuracy.starved import Starvation
+from ehlectric.film.film_solver import Starvation
 from ehlectric.formulas.film_line import Thickness
 from ehlectric.runtime.files import plain
 

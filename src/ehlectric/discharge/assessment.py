@@ -9,21 +9,30 @@ from typing import Any
 
 import numpy as np
 
-from ehlectric.cases.discharge import Discharge
-from ehlectric.discharge.breakdown import Breakdown, BreakdownZone, breakdown, breakdown_zone
-from ehlectric.discharge.capacitance import Capacitances, capacitances
-from ehlectric.discharge.contact_size import Size
-from ehlectric.discharge.energy import DischargeCosts, discharge_costs
-from ehlectric.discharge.laws import SOURCES, TUNNELLING
-from ehlectric.discharge.leakage import Leakage, leakage
-from ehlectric.discharge.limits import strength_warnings
-from ehlectric.discharge.utilisation import FieldUtilisation
-from ehlectric.discharge.verdict import breakdown_warning
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.discharge_laws import (
+    SOURCES,
+    TUNNELLING,
+    DischargeCosts,
+    Leakage,
+    Size,
+    discharge_costs,
+    leakage,
+)
+from ehlectric.discharge.film_breakdown import (
+    Breakdown,
+    BreakdownZone,
+    FieldUtilisation,
+    breakdown,
+    breakdown_zone,
+    strength_warnings,
+)
+from ehlectric.discharge.film_capacitance import Capacitances, capacitances
+from ehlectric.discharge.film_verdict import breakdown_warning
 from ehlectric.errors import ResultWarning
-from ehlectric.field.line import Field
-from ehlectric.field.point import PointField
-from ehlectric.film.line import Film
-from ehlectric.film.point import PointFilm
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
 
 

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.discharge.verdict import Verdict
-from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
-from ehlectric.drive.solution import DriveSolution
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, DriveSolution
+from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
-from ehlectric.drive.verdict import drive_verdict
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.drive_results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
-from ehlectric.runtime.display import Shown, headline
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.values import Shown, headline
 from ehlectric.version import __version__
 
 if TYPE_CHECKING:

@@ -8,23 +8,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.drive.bearings import BearingElement, bearing_element
-from ehlectric.drive.circuit.divider import capacitive_divider
-from ehlectric.drive.circuit.modes import Modes, modes_of
-from ehlectric.drive.circuit.motor import states_of, voltage_nodes
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.drive.discharges.march import Films, Segments
 from ehlectric.drive.discharges.simulation import Measuring, circuits_of, films_of, simulate
-from ehlectric.drive.discharges.states import Films, Segments
-from ehlectric.drive.solution import DriveSolution
-from ehlectric.drive.source.measured import measured_source
-from ehlectric.drive.source.modulation import steps_of
-from ehlectric.drive.source.segments import Ringing, edges, ringing_of, sampled
-from ehlectric.drive.source.waveform import Waveform
+from ehlectric.drive.drive_bearings import BearingElement, bearing_element
+from ehlectric.drive.drive_record import DriveSolution
+from ehlectric.drive.inverter import steps_of
+from ehlectric.drive.measured_source import measured_source
+from ehlectric.drive.motor_circuit import Modes, capacitive_divider, modes_of, states_of, voltage_nodes
+from ehlectric.drive.source_pieces import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.warnings import bearing_warnings
+from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.drive_results import LIMITS
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.progress import Progress, silent
 
 # Fundamental periods that are simulated where the case gives no duration, and periods before them in which

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.meter.path import Path
-from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.discharges.record import COLUMNS, KEPT, Record
-from ehlectric.drive.solution import DriveSolution
+from ehlectric.bearing.circuit import Path
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.drive.drive_record import COLUMNS, KEPT, DriveSolution, Record
 from ehlectric.errors import TEXTS, texts_and_codes
-from ehlectric.runtime.checks.schema import Rule, UnfitError, case_of, number_of, text_of
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.runtime.file_rules import Rule, UnfitError, case_of, number_of, text_of
 from ehlectric.runtime.stored import Part, check_parts, stored, values_of, warnings_in_tables
 
 if TYPE_CHECKING:

@@ -8,16 +8,27 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.bearing.accuracy import film_error
-from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS
-from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE, Record
-from ehlectric.drive.solution import DriveSolution
-from ehlectric.drive.source.modulation import edge_rate
-from ehlectric.drive.statistics import event_rate, spread
-from ehlectric.drive.verdict import drive_verdict
+from ehlectric.bearing.solution import film_error
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
+from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.drive.drive_record import (
+    CHARGE,
+    ENERGY,
+    FILM,
+    OFF,
+    ON,
+    PEAK,
+    VOLTAGE,
+    DriveSolution,
+    Record,
+    event_rate,
+    spread,
+)
+from ehlectric.drive.drive_verdict import drive_verdict
+from ehlectric.drive.inverter import edge_rate
 from ehlectric.errors import ResultWarning
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.files import plain
 
 if TYPE_CHECKING:

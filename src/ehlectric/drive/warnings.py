@@ -10,15 +10,14 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.bearing.result import BearingResult
 from ehlectric.bearing.solution import lambda_text, lubrication
-from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.discharge.laws import CURRENT_DENSITY_LIMITS, beside_limits
-from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.circuit.motor import oscillations
-from ehlectric.drive.discharges.record import FILM, ON
-from ehlectric.drive.solution import DriveSolution
-from ehlectric.drive.statistics import FEW
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS, beside_limits
+from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.drive.drive_record import FEW, FILM, ON, DriveSolution
+from ehlectric.drive.motor_circuit import oscillations
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.inputs import ENDS
 
 # Share of time from which films are said to conduct on.
 MOSTLY = 0.2

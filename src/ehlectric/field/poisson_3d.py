@@ -17,7 +17,7 @@ from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.multigrid import NEIGHBOURS, GapMultigrid, neighbour_offsets
+from ehlectric.field.field_multigrid import NEIGHBOURS, GapMultigrid, neighbour_offsets
 from ehlectric.field.poisson import GAUSS, Across
 
 # Corners of a cell as steps (along x, along y). Its four Gauss points are numbered in the same order.

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ehlectric.figures.axes import scale_axis
 from ehlectric.figures.data import WIDTH, Along, Area, Curve, Panel
+from ehlectric.figures.style import scale_axis
 
 # Dashes by their names.
 DASHES: Mapping[str, Any] = {

@@ -15,7 +15,7 @@ from scipy import fft
 
 from ehlectric.arrays import Array, ComplexArray
 from ehlectric.film.mesh import Mesh
-from ehlectric.formulas.hertz_line import line_pressure
+from ehlectric.formulas.hertz import line_pressure
 
 
 def line_influence(nodes: int, dx: float) -> Array:

@@ -18,13 +18,11 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Geometry
 from ehlectric.film.levels import Level, hierarchy
 from ehlectric.film.mesh import Mesh, at_centre
-from ehlectric.film.mixed.conserving import Conserving
-from ehlectric.film.mixed.course import mixed_film
-from ehlectric.film.newton import newton
+from ehlectric.film.newton import GridSolution, Progress, State, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
-from ehlectric.film.starved.reformed import conserving_film, forms_again, with_inlet
-from ehlectric.film.state import GridSolution, Progress, State
+from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
+from ehlectric.film.touching_solver import Conserving, mixed_film
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6

@@ -1,16 +1,43 @@
-"""Transient film of a contact with moving roughness, computed in time steps.
+"""Transient film of a contact with moving roughness: discretisation along characteristics, time steps,
+supply of oil.
+
+Discretisation of the transient film equations along the lines X - T = const, which Couette flow follows.
+Dimensionless, with T = t u/b for the mean speed u of the surfaces, the squeeze term and the wedge term are
+one derivative along these lines:
+
+    d(rho H)/dT + d(rho H)/dX = D(rho H)/DT
+
+This derivative is discretised by a backward difference over two steps (BDF2). The mass of the last two
+instants is carried along the lines to the nodes. A time step is therefore a Reynolds equation whose wedge
+term is the mass at the node times a rate, and whose right side follows from the carried mass.
+
+Time step of a film with a supply of oil: the oil of cavitated nodes is carried to the meniscus and kept.
+A layer of oil travels at the mean speed u along the lines X - T = const until it fills the gap. Where the gap
+is filled at the foot of a line, the derivative of the mass along the line is the backward difference over two
+steps of ``ehlectric.film.unsteady``. The derivative of the mass at a meniscus is not bounded. Where
+the gap is not filled at the foot, it is therefore the difference over one step. Both are differences of one
+sum, which the row of the next node takes as it is:
+
+    W = m + D,   D = r/(1 + r) (m - m at the foot) where the foot is filled, 0 elsewhere,
+    W(X, T + dT) - W(X - dT, T) = dT [d/dX(eps dP/dX) + d/dY(eps dP/dY)]
+
+Here r is the step over the last step. At the first filled node behind a meniscus, D is the same part of dT
+times the slope of the mass to the next node at the last instant. With equal steps, r = 1, the sum of W over
+the nodes changes by what crosses the ends of the domain alone. Between steps of different lengths the weight
+of the differences in D changes, and the sum of W with it. A film that does not change fulfils the equations
+of ``ehlectric.film.starved_film``.
 
 Dimensionless, with T = t u/b for the mean speed u of the surfaces:
 
     d(rho H)/dT + d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
 
 The squeeze term and the wedge term are one derivative along the lines X - T = const, on which the Couette
-flow carries the oil (``ehlectric.film.characteristics``). It is discretised along these lines by a backward
+flow carries the oil (``ehlectric.film.unsteady``). It is discretised along these lines by a backward
 difference over two steps. A film that is carried through the Hertz zone therefore keeps its shape. With time
 steps as long as the grid spacing the lines begin at nodes, and nothing is interpolated. Without motion the
 film is then equal to that of the stationary scheme of second order, to the last digit. Where the film is
 cavitated, its mass is the oil that flows in, which does not fill the gap. With a layer of oil at the inlet
-edge this is so ahead of the contact as well (``ehlectric.film.starved.motion``).
+edge this is so ahead of the contact as well (``ehlectric.film.unsteady``).
 """
 
 from __future__ import annotations
@@ -23,15 +50,349 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.characteristics import mass_after, stationary_mass, step_levels
-from ehlectric.film.levels import Level
-from ehlectric.film.mixed.newton import mixed_newton
+from ehlectric.film.levels import SECOND_DIFFERENCE, Level
 from ehlectric.film.nested import levels_of
-from ehlectric.film.newton import assess, newton
+from ehlectric.film.newton import GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.starved.course import StarvedFilm
-from ehlectric.film.starved.motion import Oil, oil_after, stationary_oil, supplied_step_levels
-from ehlectric.film.state import GridSolution, State
+from ehlectric.film.reynolds import ALONG, Stencil
+from ehlectric.film.starved_solver import StarvedFilm
+from ehlectric.film.touching_film import mixed_newton
+
+# Distance in grid spacings within which the foot of a line counts as a node.
+SAME_NODE = 1e-9
+
+
+def step_levels(
+    levels: list[Level], masses: tuple[Array, Array], steps: tuple[float, float], added_gap: Array
+) -> list[Level]:
+    """Grids with the Reynolds equation of one time step.
+
+    Parameters
+    ----------
+    levels : list of Level
+        Grids of the stationary contact, from the finest to the coarsest.
+    masses : tuple of ndarray, shape (nx, ny)
+        Oil mass rho H on the finest grid at the last instant and at the instant before it.
+    steps : tuple of float
+        Time T from the last instant to the new instant, and from the instant before to the last instant.
+    added_gap : ndarray, shape (nx, ny)
+        Gap that moving roughness adds on the finest grid at the new instant. A peak adds a negative gap.
+
+    Returns
+    -------
+    list of Level
+        Grids in the order of ``levels``.
+
+    Notes
+    -----
+    With r = step/last step, the BDF2 weights of the new, the last and the earlier mass are (1 + 2r)/(1 + r),
+    -(1 + r) and r^2/(1 + r), all divided by the step. Where the line of the earlier mass begins upstream of
+    the inlet, the difference is over one step only.
+    """
+    finest, mesh = levels[0], levels[0].mesh
+    step, last = steps
+    ratio = step / last
+    here, one, two = np.array([(1 + 2 * ratio) / (1 + ratio), 1 + ratio, -(ratio**2) / (1 + ratio)]) / step
+    first = carried(masses[0], step / mesh.dx)
+    second = carried(masses[1], (step + last) / mesh.dx)
+    outside = mesh.x - mesh.x[0] < (step + last) - SAME_NODE * mesh.dx
+    source = np.where(outside[:, np.newaxis], first / step, one * first + two * second)
+    source[~mesh.inner] = 0.0
+    rates = np.where(outside, 1.0 / step, here)
+    new = replace(
+        in_time(finest, here), wedge=_mass_term(mesh.shape, rates), dry_gap=finest.dry_gap + added_gap
+    )
+    return [replace(new, source=source), *(in_time(level, here) for level in levels[1:])]
+
+
+def in_time(level: Level, rate: float) -> Level:
+    """Grid for a transient film, whose wedge term is ``rate`` times the mass at the node itself."""
+    wedge = _mass_term(level.mesh.shape, np.full(level.nodes, rate))
+    return replace(level, wedge=wedge, rate=rate, distribution=SECOND_DIFFERENCE)
+
+
+def _mass_term(shape: tuple[int, int], rates: Array) -> Stencil:
+    """Operator that multiplies the mass at each position x by its rate (nx,); the two end rows are zero."""
+    coefficients = np.zeros((ALONG, *shape))
+    coefficients[2, 1:-1] = rates[1:-1, np.newaxis]
+    return Stencil(coefficients)
+
+
+def carried(values: Array, distance: float) -> Array:
+    """Nodal values after they have been carried downstream along x.
+
+    Parameters
+    ----------
+    values : ndarray, shape (nx, ny)
+        Values at the nodes.
+    distance : float
+        Distance in grid spacings, >= 0. For whole numbers the result is exact; otherwise the values are
+        interpolated by a cubic.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Values at the nodes afterwards. Values from outside the domain are extrapolated by a parabola, which
+        is about the shape of the gap there.
+
+    Examples
+    --------
+    >>> carried(np.arange(5.0)[:, np.newaxis] ** 2, 0.5)[:, 0]
+    array([ 0.25,  0.25,  2.25,  6.25, 12.25])
+    """
+    whole = int(np.floor(distance + SAME_NODE))
+    part = distance - whole
+    ghosts = whole + 2
+    before = parabola_before(values, ghosts)
+    beyond = 3.0 * values[-1:] - 3.0 * values[-2:-1] + values[-3:-2]
+    padded = np.concatenate([before, values, beyond])
+    start, n = ghosts - whole, values.shape[0]
+    if abs(part) <= SAME_NODE:
+        moved: Array = padded[start : start + n].copy()
+        return moved
+    weights = zip((-2, -1, 0, 1), lagrange_weights(part), strict=True)
+    return np.asarray(np.sum([w * padded[start + k : start + k + n] for k, w in weights], axis=0))
+
+
+def parabola_before(values: Array, number: int) -> Array:
+    """Values at ``number`` nodes upstream of the domain, from the parabola of the first nodes of (nx, ny)."""
+    steps = np.arange(-number, 0.0)[:, np.newaxis]
+    v0, v1, v2 = values[0], values[1], values[2]
+    before: Array = v0 + steps * (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) + steps**2 * (0.5 * v0 - v1 + 0.5 * v2)
+    return before
+
+
+def lagrange_weights(part: float) -> tuple[float, float, float, float]:
+    """Weights of the nodes -2, -1, 0 and 1 of a cubic at the position -``part``, between -1 and 0.
+
+    Examples
+    --------
+    >>> lagrange_weights(0.5)
+    (-0.0625, 0.5625, 0.5625, -0.0625)
+    """
+    return (
+        (part + 1.0) * part * (part - 1.0) / 6.0,
+        -(part + 1.0) * part * (part - 2.0) / 2.0,
+        (part + 1.0) * (part - 1.0) * (part - 2.0) / 2.0,
+        -part * (part - 1.0) * (part - 2.0) / 6.0,
+    )
+
+
+def mass_after(step: GridSolution) -> Array:
+    """Oil mass rho H after a time step.
+
+    At cavitated nodes it is the mass of the oil that is left, which does not fill the gap.
+
+    Parameters
+    ----------
+    step : GridSolution
+        Solution on the grids of ``step_levels``.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Oil mass, dimensionless, not negative.
+    """
+    level, final = step.level, step.final
+    mass = final.coefficients.density * step.state.thickness
+    rate = level.wedge.coefficients[2]
+    cavitated = ~final.full_film & level.mesh.inner
+    flowing = mass[cavitated] - final.reynolds[cavitated] / rate[cavitated]
+    mass[cavitated] = np.clip(flowing, 0.0, mass[cavitated])
+    mass[-1] = np.minimum(mass[-1], mass[-2])
+    return mass
+
+
+def stationary_mass(stationary: GridSolution) -> Array:
+    """Oil mass rho H of a stationary film.
+
+    At cavitated nodes behind X = 0 it is the mass of the oil that flows in.
+
+    Parameters
+    ----------
+    stationary : GridSolution
+        Stationary film with the wedge term of second order.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Oil mass, dimensionless, not negative.
+    """
+    level, final = stationary.level, stationary.final
+    full = final.coefficients.density * stationary.state.thickness
+    mass = full.copy()
+    cavitated = ~final.full_film & level.mesh.inner & (level.mesh.x > 0.0)[:, np.newaxis]
+    # Oil that the pressure gradient drives into a node, mainly into the first node behind the full film.
+    driven = level.wedge(full) - final.reynolds
+    for i in np.flatnonzero(cavitated.any(axis=1)):
+        flowing = (4.0 * mass[i - 1] - mass[i - 2] + 2.0 * level.mesh.dx * driven[i]) / 3.0
+        mass[i] = np.where(cavitated[i], np.clip(flowing, 0.0, full[i]), full[i])
+    mass[-1] = np.minimum(full[-1], mass[-2])
+    return mass
+
+
+@dataclass(frozen=True)
+class Oil:
+    """Oil at one instant, from which the next one takes it.
+
+    Attributes
+    ----------
+    mass : ndarray, shape (nx, ny)
+        Mass theta rho H of the oil.
+    filled : ndarray of bool, shape (nx, ny)
+        Nodes where oil fills the gap, on the inlet edge those where the layer of oil does.
+    """
+
+    mass: Array
+    filled: Mask
+
+    def at_feet(self, distance: float, values: Array | None = None) -> Array:
+        """Mass, or other ``values`` (nx, ny), carried downstream over a distance in grid spacings.
+
+        Where all nodes around the foot of a line are filled, the values are interpolated by a cubic, and
+        elsewhere linearly. Both are differences of flows through the faces, so that the sum of the values
+        changes by what crosses the ends alone. Upstream of the inlet edge a layer of oil is uniform.
+        """
+        values = self.mass if values is None else values
+        whole, part = _split(distance)
+        ghosts = whole + 2
+        padded = self._padded(values, ghosts)
+        start, n = ghosts - whole, values.shape[0]
+        here = padded[start : start + n]
+        if part <= SAME_NODE:
+            return here.copy()
+        filled = self._padded_mask(ghosts)
+        (far, near, _, ahead) = lagrange_weights(part)
+        # Flow through the face behind each node but the first and the last one, in one step.
+        flow = part * padded[1:-1]
+        cubic = far * padded[:-2] + (far + near) * padded[1:-1] - ahead * padded[2:]
+        smooth = filled[:-2] & filled[1:-1] & filled[2:]
+        flow = np.where(smooth, cubic, flow)
+        return np.asarray(here - flow[start - 1 : start - 1 + n] + flow[start - 2 : start - 2 + n])
+
+    def filled_feet(self, distance: float) -> Mask:
+        """Whether all nodes are filled from which ``at_feet`` takes the value of a node, shape (nx, ny)."""
+        whole, part = _split(distance)
+        ghosts = whole + 2
+        padded, n = self._padded_mask(ghosts), self.filled.shape[0]
+        start = ghosts - whole
+        around = (0,) if part <= SAME_NODE else (-2, -1, 0, 1)
+        return np.asarray(np.all([padded[start + k : start + k + n] for k in around], axis=0))
+
+    @property
+    def first(self) -> Mask:
+        """First nodes of two and more that are filled behind a node that is not, shape (nx, ny)."""
+        first = np.zeros_like(self.filled)
+        first[1:-1] = self.filled[1:-1] & self.filled[2:] & ~self.filled[:-2]
+        return first
+
+    @property
+    def rise(self) -> Array:
+        """Mass at the next node minus that at the node, shape (nx, ny)."""
+        return np.append(np.diff(self.mass, axis=0), np.zeros_like(self.mass[:1]), axis=0)
+
+    def _padded(self, values: Array, ghosts: int) -> Array:
+        before = np.where(self.filled[0], parabola_before(values, ghosts), values[0])
+        return np.concatenate([before, values, values[-1:]])
+
+    def _padded_mask(self, ghosts: int) -> Mask:
+        before = np.repeat(self.filled[:1], ghosts, axis=0)
+        return np.concatenate([before, self.filled, self.filled[-1:]])
+
+
+def _split(distance: float) -> tuple[int, float]:
+    """Whole number of grid spacings in a distance, and the rest, which is 0 up to rounding or above."""
+    whole = int(np.floor(distance + SAME_NODE))
+    return whole, distance - whole
+
+
+def sums(now: Oil, before: Oil, last: float, ratio: float) -> Array:
+    """Sum W of mass and difference at the last instant, from which the next step starts, shape (nx, ny).
+
+    ``last`` is the last step in grid spacings, and ``ratio`` the next step over the last step.
+    """
+    difference = np.where(before.filled_feet(last), now.mass - before.at_feet(last), 0.0)
+    difference = np.where(before.first, last * before.rise, difference)
+    return now.mass + ratio**2 / (1.0 + ratio) * difference
+
+
+def supplied_step_levels(
+    levels: list[Level], instants: tuple[Oil, Oil], steps: tuple[float, float], added_gap: Array
+) -> list[Level]:
+    """Grids with the Reynolds equation of one time step of a film with a supply of oil.
+
+    Parameters
+    ----------
+    levels : list of Level
+        Grids of the stationary contact, from the finest to the coarsest.
+    instants : tuple of Oil
+        Oil at the last instant and at the instant before it.
+    steps : tuple of float
+        Time T from the last instant to the new instant, and from the instant before to the last instant.
+    added_gap : ndarray, shape (nx, ny)
+        Gap that moving roughness adds on the finest grid at the new instant. A peak adds a negative gap.
+
+    Returns
+    -------
+    list of Level
+        Grids in the order of ``levels``.
+
+    Notes
+    -----
+    On lines that are filled at the inlet edge the scheme is that of ``characteristics.step_levels``.
+    """
+    finest, mesh = levels[0], levels[0].mesh
+    (now, before), (step, last) = instants, steps
+    ratio, dx = step / last, mesh.dx
+    second = ratio / (1.0 + ratio)
+    feet, filled = now.at_feet(step / dx), now.filled_feet(step / dx)
+    # A flooded line has no difference over two steps where its first foot lies upstream of the inlet.
+    outside = (mesh.x - mesh.x[0] < (step + last) - SAME_NODE * dx)[:, np.newaxis] & now.filled[0]
+    filled &= ~outside & ~now.first
+    carried = now.at_feet(step / dx, sums(now, before, last / dx, ratio))
+    carried = np.where(outside, feet, carried)
+    rates = np.where(filled, 1.0 + second, 1.0) / step
+    behind = np.where(now.first, -step / dx * now.rise, 0.0)
+    source = (carried + second * np.where(filled, feet, behind)) / step
+    source[~mesh.inner] = 0.0
+    here = (1.0 + second) / step
+    coefficients = np.zeros((ALONG, *mesh.shape))
+    coefficients[2, 1:-1] = rates[1:-1]
+    new = replace(
+        in_time(finest, here),
+        wedge=Stencil(coefficients),
+        dry_gap=finest.dry_gap + added_gap,
+        source=source,
+    )
+    return [new, *(in_time(level, here) for level in levels[1:])]
+
+
+def oil_after(step: GridSolution, layer: Array) -> Oil:
+    """Oil after a time step on the grids of ``supplied_step_levels``.
+
+    ``layer`` (ny,) is the mass of the layer of oil that is supplied at the inlet edge.
+    """
+    return supplied(step, mass_after(step), layer)
+
+
+def supplied(solution: GridSolution, mass: Array, layer: Array) -> Oil:
+    """Oil of a solution with a known mass (nx, ny) inside the domain: on its edges there is the layer."""
+    full = solution.final.coefficients.density * solution.state.thickness
+    filled = solution.final.full_film.copy()
+    filled[0] = layer >= full[0]
+    layered = solution.level.mesh.edge.copy()
+    layered[0], layered[-1] = ~filled[0], False
+    mass = np.where(layered, np.minimum(full, layer), mass)
+    mass[-1] = np.minimum(full[-1], mass[-2])
+    return Oil(mass, filled)
+
+
+def stationary_oil(film: StarvedFilm) -> Oil:
+    """Oil of a stationary starved film, from which the time steps start."""
+    content = film.content
+    full = content.residual.coefficients.density * film.solution.state.thickness
+    return Oil(np.clip(content.mass, 0.0, full), content.filled)
+
 
 # Tolerance of the residual in a time step, a pressure over p_h, far below the discretisation error of the
 # step.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.formulas.film_line import BothThicknesses, CentralThickness, Formula, dominant
-from ehlectric.formulas.hertz_point import axis_ratio
+from ehlectric.formulas.hertz import axis_ratio
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,325 @@
-"""Density laws of the lubricant: density over that at zero pressure and the same temperature."""
+"""Density laws of the lubricant, and equations of state over pressure and temperature: Tait and Murnaghan."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
-from ehlectric.errors import InputError
-from ehlectric.lubricant.equation_of_state import MURNAGHAN, TAIT
-from ehlectric.lubricant.law import Law, Parameter, refused
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.lubricant.law import Law, Parameter, refused, required
+
+# Smallest volume over that at zero pressure. The volume of Tait's equation vanishes at a finite pressure, and
+# no contact compresses a liquid to its half.
+LEAST_VOLUME = 0.5
+
+
+def tait(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> tuple[Array, Array]:
+    """Density ratio after Tait's equation of state, and its derivative by pressure.
+
+    V/V0 = 1 - ln(1 + p (1 + K0')/K0)/(1 + K0') with the bulk modulus K0 = K00 exp(-beta_K T) at p = 0.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    tait_k0_prime : float
+        Pressure derivative K0' of the bulk modulus at zero pressure, dimensionless.
+    tait_k00 : float
+        Bulk modulus K00 at zero pressure, extrapolated to zero temperature [Pa].
+    tait_beta_k : float
+        Temperature coefficient beta_K of the bulk modulus [1/K].
+    tait_expansion, reference_temperature : float
+        Thermal expansion a_V [1/K] of the volume at zero pressure and its temperature [K]. The ratio to the
+        density at zero pressure and the same temperature does not contain them.
+
+    Returns
+    -------
+    ratio, slope : ndarray, shape (...)
+        Density over that at zero pressure and the same temperature, dimensionless, and its derivative by
+        pressure [1/Pa].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing.
+
+    Notes
+    -----
+    The form of S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, as later
+    works quote it, after P. G. Tait. The volume is held at half of that at zero pressure, with a slope of
+    zero, because the equation gives no volume at all at a finite pressure. Oils reach the half at tens of
+    gigapascals.
+
+    Examples
+    --------
+    >>> oil = dict(tait_k0_prime=10.545, tait_k00=9.234e9, tait_beta_k=6.09e-3)
+    >>> oil |= dict(tait_expansion=7.734e-4, reference_temperature=298.15)
+    >>> ratio, slope = tait([0.0, 1e9, 2e9], 298.15, **oil)
+    >>> ratio.round(3).tolist(), round(1e-9 / float(slope[0]), 2)
+    ([1.0, 1.23, 1.319], 1.5)
+    """
+    p, modulus = np.asarray(pressure, dtype=float), tait_modulus(temperature, tait_k00, tait_beta_k)
+    steepness = 1.0 + tait_k0_prime
+    volume = 1.0 - np.log1p(p * steepness / modulus) / steepness
+    liquid = volume > LEAST_VOLUME
+    volume = np.maximum(volume, LEAST_VOLUME)
+    return 1.0 / volume, np.where(liquid, 1.0 / ((modulus + p * steepness) * volume**2), 0.0)
+
+
+def tait_modulus(temperature: ArrayLike | None, k00: float, beta_k: float, law: str = "tait") -> Array:
+    """Bulk modulus at zero pressure, K0 = K00 exp(-beta_K T), in Pa.
+
+    Parameters
+    ----------
+    temperature : array_like, shape (...)
+        Temperature T [K].
+    k00, beta_k : float
+        Constants K00 [Pa] and beta_K [1/K].
+    law : str, optional
+        Name of the density law, for the message about a missing temperature.
+
+    Examples
+    --------
+    >>> round(float(tait_modulus(298.15, 9.234e9, 6.09e-3)) / 1e9, 3)
+    1.503
+    """
+    return np.asarray(k00 * np.exp(-beta_k * required(temperature, f"density_law {law!r}")))
+
+
+def tait_pressure(
+    density_ratio: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> Array:
+    """Pressure [Pa] at which Tait's equation has a density ratio; the inverse of ``tait``.
+
+    Parameters
+    ----------
+    density_ratio : array_like, shape (...)
+        Density over that at zero pressure and the same temperature, dimensionless, from 1 to 2.
+    temperature : array_like
+        Temperature [K].
+    tait_k0_prime, tait_k00, tait_beta_k, tait_expansion, reference_temperature : float
+        Parameters of ``tait``.
+
+    Examples
+    --------
+    >>> oil = dict(tait_k0_prime=10.545, tait_k00=9.234e9, tait_beta_k=6.09e-3)
+    >>> oil |= dict(tait_expansion=7.734e-4, reference_temperature=298.15)
+    >>> round(float(tait_pressure(1.2303, 298.15, **oil)) / 1e9, 2)
+    1.0
+    """
+    modulus, steepness = tait_modulus(temperature, tait_k00, tait_beta_k), 1.0 + tait_k0_prime
+    volume = 1.0 / np.asarray(density_ratio, dtype=float)
+    return np.asarray(modulus * np.expm1(steepness * (1.0 - volume)) / steepness)
+
+
+def _tait_warnings(
+    max_pressure: float,
+    viscosity: float,
+    temperature: float | None = None,
+    *,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> Iterator[ResultWarning]:
+    """Warning about a Hertz pressure at which the volume of the law is held."""
+    parameters = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
+    parameters |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
+    cap = float(tait_pressure(1.0 / LEAST_VOLUME, temperature, **parameters))
+    if max_pressure > cap:
+        yield ResultWarning(
+            "law-range",
+            f"the Hertz pressure is above {cap / 1e9:.3g} GPa, where density_law 'tait' has half the volume "
+            "at zero pressure and holds it; check the parameters of the law",
+        )
+
+
+def murnaghan(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    murnaghan_k0_prime: float,
+    murnaghan_k00: float,
+    murnaghan_beta_k: float,
+    murnaghan_expansion: float,
+    reference_temperature: float,
+) -> tuple[Array, Array]:
+    """Density ratio after Murnaghan's equation of state, and its derivative by pressure.
+
+    V/V0 = (1 + K0' p/K0)^(-1/K0') with the bulk modulus K0 = K00 exp(-beta_K T) at zero pressure.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    murnaghan_k0_prime : float
+        Pressure derivative K0' of the bulk modulus, dimensionless.
+    murnaghan_k00 : float
+        Bulk modulus K00 at zero pressure, extrapolated to zero temperature [Pa].
+    murnaghan_beta_k : float
+        Temperature coefficient beta_K of the bulk modulus [1/K].
+    murnaghan_expansion, reference_temperature : float
+        Thermal expansion a_V [1/K] of the volume at zero pressure and its temperature [K]. The ratio to the
+        density at zero pressure and the same temperature does not contain them.
+
+    Returns
+    -------
+    ratio, slope : ndarray, shape (...)
+        Density over that at zero pressure and the same temperature, dimensionless, and its derivative by
+        pressure [1/Pa].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing.
+
+    Notes
+    -----
+    F. D. Murnaghan, The compressibility of media under extreme pressures, Proc. Natl. Acad. Sci. 30 (1944)
+    244, doi:10.1073/pnas.30.9.244: the bulk modulus rises linearly with pressure. The law has no pole.
+
+    Examples
+    --------
+    >>> oil = dict(murnaghan_k0_prime=10.545, murnaghan_k00=9.234e9, murnaghan_beta_k=6.09e-3)
+    >>> oil |= dict(murnaghan_expansion=7.734e-4, reference_temperature=298.15)
+    >>> murnaghan([0.0, 1e9, 2e9], 298.15, **oil)[0].round(3).tolist()
+    [1.0, 1.218, 1.293]
+    """
+    p = np.asarray(pressure, dtype=float)
+    modulus = tait_modulus(temperature, murnaghan_k00, murnaghan_beta_k, "murnaghan")
+    ratio = np.exp(np.log1p(murnaghan_k0_prime * p / modulus) / murnaghan_k0_prime)
+    return ratio, ratio / (modulus + murnaghan_k0_prime * p)
+
+
+def murnaghan_pressure(
+    density_ratio: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    murnaghan_k0_prime: float,
+    murnaghan_k00: float,
+    murnaghan_beta_k: float,
+    murnaghan_expansion: float,
+    reference_temperature: float,
+) -> Array:
+    """Pressure [Pa] at which Murnaghan's equation has a density ratio; the inverse of ``murnaghan``.
+
+    Parameters
+    ----------
+    density_ratio : array_like, shape (...)
+        Density over that at zero pressure and the same temperature, dimensionless, >= 1.
+    temperature : array_like
+        Temperature [K].
+    murnaghan_k0_prime, murnaghan_k00, murnaghan_beta_k, murnaghan_expansion, reference_temperature : float
+        Parameters of ``murnaghan``.
+
+    Examples
+    --------
+    >>> oil = dict(murnaghan_k0_prime=10.545, murnaghan_k00=9.234e9, murnaghan_beta_k=6.09e-3)
+    >>> oil |= dict(murnaghan_expansion=7.734e-4, reference_temperature=298.15)
+    >>> round(float(murnaghan_pressure(1.2182, 298.15, **oil)) / 1e9, 2)
+    1.0
+    """
+    modulus = tait_modulus(temperature, murnaghan_k00, murnaghan_beta_k, "murnaghan")
+    logarithm = np.log(np.asarray(density_ratio, dtype=float))
+    return np.asarray(modulus * np.expm1(murnaghan_k0_prime * logarithm) / murnaghan_k0_prime)
+
+
+REFERENCE_TEMPERATURE = Parameter(
+    "reference_temperature",
+    "K",
+    least=100.0,
+    most=1000.0,
+    reason="absolute, of the oil",
+)
+
+
+def _constants(law: str, name: str) -> tuple[Parameter, ...]:
+    """Parameters of an equation of state with the bulk modulus K00 exp(-beta_K T)."""
+    of = f"of {name}'s equation of state"
+    return (
+        Parameter(
+            f"{law}_k0_prime",
+            "",
+            title=f"{name}'s pressure derivative of the bulk modulus",
+            symbol="$K_0'$",
+            meaning=f"$K_0'$ {of}, the pressure derivative of the bulk modulus",
+            least=2.0,
+            most=30.0,
+            reason="oils have 9 to 12",
+        ),
+        Parameter(
+            f"{law}_k00",
+            "Pa",
+            title=f"{name}'s bulk modulus",
+            symbol="$K_{00}$",
+            meaning=f"$K_{{00}}$ {of}, the bulk modulus extrapolated to zero temperature",
+            least=1e8,
+            most=1e12,
+            reason="oils have 6 to 12 GPa",
+        ),
+        Parameter(
+            f"{law}_beta_k",
+            "1/K",
+            title=f"{name}'s temperature coefficient of the bulk modulus",
+            symbol=r"$\beta_K$",
+            meaning=rf"$\beta_K$ {of}, the temperature coefficient of the bulk modulus",
+            least=0.0,
+            most=2e-2,
+            reason="oils have 5e-3 to 7e-3 1/K",
+        ),
+        Parameter(
+            f"{law}_expansion",
+            "1/K",
+            title=f"{name}'s thermal expansion",
+            symbol="$a_V$",
+            meaning=f"$a_V$ {of}, the thermal expansion of the volume over that at `reference_temperature`",
+            least=0.0,
+            most=5e-3,
+            reason="oils have 6e-4 to 9e-4 1/K",
+        ),
+        REFERENCE_TEMPERATURE,
+    )
+
+
+TAIT = Law(
+    tait,
+    _constants("tait", "Tait"),
+    warnings=_tait_warnings,
+    needs_temperature=True,
+    thermal_expansion="tait_expansion",
+    inverse=tait_pressure,
+)
+MURNAGHAN = Law(
+    murnaghan,
+    _constants("murnaghan", "Murnaghan"),
+    needs_temperature=True,
+    thermal_expansion="murnaghan_expansion",
+    inverse=murnaghan_pressure,
+)
 
 
 def dowson_higginson(

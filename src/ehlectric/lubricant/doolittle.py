@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.equation_of_state import LEAST_VOLUME, TAIT, tait, tait_pressure
-from ehlectric.lubricant.glass import GLASS_VISCOSITY, glass_warnings
-from ehlectric.lubricant.law import Law, Parameter, required, within
+from ehlectric.lubricant.density import LEAST_VOLUME, TAIT, tait, tait_pressure
+from ehlectric.lubricant.law import GLASS_VISCOSITY, Law, Parameter, glass_warnings, required, within
 
 _NAME = "viscosity_law 'doolittle'"
 

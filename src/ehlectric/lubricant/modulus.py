@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.glass import LARGEST_EXPONENT, glass_warnings
-from ehlectric.lubricant.law import Law, Parameter, required, within
+from ehlectric.lubricant.law import LARGEST_EXPONENT, Law, Parameter, glass_warnings, required, within
 
 _NAME = "viscosity_law 'modulus'"
 

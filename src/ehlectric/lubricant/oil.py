@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ResultWarning
-from ehlectric.lubricant.alpha import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
 from ehlectric.lubricant.law import PressureLaw
+from ehlectric.lubricant.viscosity import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
 from ehlectric.quantities.oil_results import LAW_NAMES
 
 # Share of the integral of alpha* beyond its end above which a warning tells that it has no definite value.
@@ -141,7 +141,7 @@ class Oil:
     Examples
     --------
     >>> from ehlectric.lubricant.density import incompressible
-    >>> from ehlectric.lubricant.permittivity import constant_permittivity
+    >>> from ehlectric.lubricant.electrical_laws import constant_permittivity
     >>> from ehlectric.lubricant.viscosity import barus
     >>> eps = OfDensity(BoundLaw(constant_permittivity, {"relative_permittivity": 2.2}))
     >>> law = BoundLaw(barus, {"pressure_viscosity_coefficient": 2e-8})

@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.glass import glass_warnings
-from ehlectric.lubricant.law import Law, Parameter, refused, required, within
+from ehlectric.lubricant.law import Law, Parameter, glass_warnings, refused, required, within
 
 _NAME = "viscosity_law 'yasutomi'"
 

@@ -1,8 +1,9 @@
-"""Companion of a run: the same motion on every second node with steps twice as long, for an error estimate.
+"""Companion of a run: the same motion on every second node with steps twice as long, for an error
+estimate.
 
 The companion is solved beside the run. It takes about a fifth of the time of the run: it has half the steps,
 each with half the nodes of a line contact or a quarter of those of a point contact.
-``ehlectric.motion.accuracy`` compares the two films.
+``ehlectric.motion.summary`` compares the two films.
 """
 
 from __future__ import annotations
@@ -12,14 +13,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.accuracy.moving_patch import MovingFilm
-from ehlectric.film.estimates import lowest
+from ehlectric.film.film_error import lowest
 from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.unsteady import History, Instant
-from ehlectric.motion.asperities import Toucher
-from ehlectric.motion.contact import TransientContact
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.motion.motion_touching import Toucher
+from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.runtime.threads import quiet_solution
 
 # Number of steps of the run in a step of the companion.
 STRIDE = 2

@@ -11,7 +11,7 @@ from ehlectric.errors import ResultWarning, warnings_of
 from ehlectric.motion.stored_run import MotionRun
 from ehlectric.motion.summary import summary_of
 from ehlectric.quantities.formats import amount
-from ehlectric.runtime.display import Shown, headline
+from ehlectric.runtime.values import Shown, headline
 
 if TYPE_CHECKING:
     import pandas as pd

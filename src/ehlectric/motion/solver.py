@@ -13,20 +13,19 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.line import Field
-from ehlectric.field.point import PointField
-from ehlectric.film.accuracy.moving_patch import MovingFilm
-from ehlectric.film.accuracy.starved import meniscus_of
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.film.film_solution import FilmSolution, pressure_of
+from ehlectric.film.film_solver import meniscus_of
 from ehlectric.film.gap import Gap
+from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.levels import Level
-from ehlectric.film.line import Film
-from ehlectric.film.point import PointFilm
-from ehlectric.film.solution import FilmSolution, pressure_of
+from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.unsteady import History, Instant
-from ehlectric.motion.asperities import Touch, Toucher
 from ehlectric.motion.companion import KeyFilms
-from ehlectric.motion.contact import TransientContact
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.motion.motion_touching import Touch, Toucher
+from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.runtime.threads import quiet_solution
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.cases.case import Case
-from ehlectric.motion.kinds import KINDS, AnyKind
-from ehlectric.runtime.checks.schema import (
+from ehlectric.motion.moving_contact import KINDS, AnyKind
+from ehlectric.runtime.file_rules import (
     Rule,
     UnfitError,
     case_of,

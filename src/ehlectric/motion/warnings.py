@@ -7,15 +7,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ehlectric.contact.results import PointResult, Result
-from ehlectric.contact.spots.asperities import UNRESOLVED_LOAD, UNRESOLVED_SHARE
-from ehlectric.contact.spots.warnings import about_share
-from ehlectric.contact.starved.warnings import starvation_warnings
+from ehlectric.contact.result import PointResult, Result
+from ehlectric.contact.starvation import starvation_warnings
+from ehlectric.contact.touching import UNRESOLVED_LOAD, UNRESOLVED_SHARE, about_share
 from ehlectric.errors import ResultWarning
 from ehlectric.field.poisson import ATOM
-from ehlectric.motion.asperities import TouchHistory
-from ehlectric.motion.contact import TransientContact
-from ehlectric.surfaces.warnings import LEAST_IN_SHAPE, shortest_wave
+from ehlectric.motion.motion_touching import TouchHistory
+from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.surfaces.surface_warnings import LEAST_IN_SHAPE, shortest_wave
 
 # Part of its height by which moving roughness may differ from the stationary one without a warning.
 _ALIKE = 1e-3

@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
-from ehlectric.contact.resolve import resolve
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.line import solve_field
+from ehlectric.field.line_field import solve_field
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.viscosity import roelands_exponent
-from ehlectric.paper import fas, relaxation
-from ehlectric.paper.contacts import CONTACTS, SMOOTH_NODES, of_paper
+from ehlectric.paper import fas, paper_relaxation
 from ehlectric.paper.film_equations import FilmEquations, Iterate
+from ehlectric.paper.paper_contacts import CONTACTS, SMOOTH_NODES, of_paper
 from ehlectric.paper.sor import ROWS
 from ehlectric.paper.study import Study, readings_differ_by
 
@@ -89,7 +89,7 @@ def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
         c = equations.coefficients(at)
         derivatives = equations.derivatives(at, c)
         matrix = np.zeros((n + 1, n + 1))
-        matrix[:n, :n] = relaxation.whole_jacobian(equations, derivatives)
+        matrix[:n, :n] = paper_relaxation.whole_jacobian(equations, derivatives)
         matrix[:n, n] = derivatives[1].sum(axis=0)
         matrix[0, 0] = matrix[n - 1, n - 1] = 1.0
         matrix[n, :n] = weights
@@ -109,7 +109,7 @@ def _sign_of_c(_: Study) -> str:
     for lift in (0.0, 0.01):
         lifted = replace(at, h00=at.h00 + lift)
         for _step in range(20):
-            lifted = relaxation.newton_step(equations, lifted)
+            lifted = paper_relaxation.newton_step(equations, lifted)
         loads.append(equations.carried(lifted.pressure))
     return (
         f"{CONTACTS[0].name}, 201 nodes: with H00 raised by 0.01 the film, solved again, carries "

@@ -12,20 +12,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ehlectric.errors import InputError
-from ehlectric.film.accuracy.adaptive import UNKNOWN
 from ehlectric.film.deflection import LINE
-from ehlectric.film.estimates import film_error, upstream_deficits
-from ehlectric.film.line import Film
+from ehlectric.film.film_error import film_error, upstream_deficits
+from ehlectric.film.film_solution import film_status
+from ehlectric.film.film_solver import UNKNOWN
+from ehlectric.film.isothermal_film import Film
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import NESTED_TOLERANCE
-from ehlectric.film.newton import ROUNDING
+from ehlectric.film.newton import ROUNDING, NewtonStep, Progress, State, Status
 from ehlectric.film.problem import FilmProblem
-from ehlectric.film.solution import film_status
-from ehlectric.film.state import NewtonStep, Progress, State, Status
-from ehlectric.formulas.hertz_line import line_pressure
+from ehlectric.formulas.hertz import line_pressure
 from ehlectric.paper.film_equations import FilmEquations, Iterate
-from ehlectric.paper.relaxation import relax, solve_coarsest
-from ehlectric.runtime.parallel.threads import one_blas_thread
+from ehlectric.paper.paper_relaxation import relax, solve_coarsest
+from ehlectric.runtime.threads import one_blas_thread
 
 # Relaxations of a grid before and after its coarse-grid correction, as in the paper's V(3,2) cycles.
 BEFORE, AFTER = 3, 2
@@ -73,7 +72,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     Returns
     -------
     Film
-        Film in SI units, as from ``ehlectric.film.line.solve_film``; its ``newton_iterations`` are V-cycles.
+        Film in SI units, as from ``film.isothermal_film.solve_film``; its ``newton_iterations`` are V-cycles.
 
     Raises
     ------

@@ -10,13 +10,13 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from ehlectric.errors import InputError
-from ehlectric.figures.names import in_formats
+from ehlectric.figures.figure_names import in_formats
 from ehlectric.figures.style import save_figure
 from ehlectric.figures.style import style as styled
-from ehlectric.paper import report
-from ehlectric.paper.figures import FIGURES
+from ehlectric.paper import paper_report
+from ehlectric.paper.paper_figures import FIGURES
+from ehlectric.paper.paper_tables import TABLES, PaperTable
 from ehlectric.paper.study import run_study
-from ehlectric.paper.tables import TABLES, PaperTable
 from ehlectric.runtime.files import clear, write
 from ehlectric.runtime.folders import alone_in
 
@@ -34,7 +34,7 @@ class Reproduced:
     tables : dict
         Tables written, by name.
     verdicts : dict
-        Verdicts from ``ehlectric.paper.report.verdicts``; empty if only one figure or table was made.
+        Verdicts from ``ehlectric.paper.paper_report.verdicts``; empty if only one figure or table was made.
     converged : bool
         Whether every film is converged.
     """
@@ -116,8 +116,8 @@ def reproduce(
                     progress(number, max(figures), f"figure {number}")
         verdicts = {}
         if whole_report:
-            verdicts = report.verdicts(made)
-            write(folder / REPORT, report.html(study, made, copies).encode())
+            verdicts = paper_report.verdicts(made)
+            write(folder / REPORT, paper_report.html(study, made, copies).encode())
     return Reproduced([folder / name for name in names], made, verdicts, study.converged)
 
 

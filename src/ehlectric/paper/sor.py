@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.line import Field, field_from_potential
+from ehlectric.field.line_field import Field, field_from_potential
 from ehlectric.field.poisson import FieldProblem, lobatto_nodes
 from ehlectric.paper.cartesian import EAST, NORTH, SOUTH, WEST, CartesianGrid, Stencil, stencil
 
@@ -162,7 +162,7 @@ def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
     Returns
     -------
     Field
-        Field at the same nodes as from ``ehlectric.field.line.solve_field``. Between the rows, the potential
+        Field at the same nodes as from ``field.line_field.solve_field``. Between the rows, the potential
         is interpolated by cubic splines along the columns. ``capacitance`` follows from the energy of the
         field, ``capacitance_by_charge`` from the field on wall 1; they agree within the error of the grid.
 

@@ -15,15 +15,15 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
-from ehlectric.contact.resolve import resolve
-from ehlectric.contact.results import Result
+from ehlectric.contact.result import Result
 from ehlectric.contact.solver import solve
-from ehlectric.field.line import solve_field
-from ehlectric.film.line import solve_film
+from ehlectric.field.line_field import solve_field
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.paper import fas, sor
-from ehlectric.paper.contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
-from ehlectric.runtime.parallel.tasks import run_all
+from ehlectric.paper.paper_contacts import CONTACTS, ROUGH_NODES, SMOOTH_NODES, PaperContact, measured_profile
+from ehlectric.runtime.tasks import run_all
 
 # Residual down to which the V-cycles of the paper's multigrid are counted.
 COUNTED = 1e-6

@@ -8,9 +8,9 @@ from types import MappingProxyType
 from typing import Any
 
 from ehlectric.bearing.result import BearingResult
-from ehlectric.cases.bearings.ways import HOW
 from ehlectric.cases.case import Case
-from ehlectric.contact.results import ContactResult
+from ehlectric.cases.defaults import HOW
+from ehlectric.contact.result import ContactResult
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import printable
 from ehlectric.motion.result import MotionResult
@@ -22,22 +22,20 @@ from ehlectric.report.background import (
     source_section,
     version_section,
 )
-from ehlectric.report.content import Block, Report, Section, Text
-from ehlectric.report.drawn import pictures_of
-from ehlectric.report.drives.part import drive_part
-from ehlectric.report.facts import alarms_of, cell_table, row_tables, warning_block
+from ehlectric.report.drive_report import drive_part
 from ehlectric.report.light import light_of
 from ehlectric.report.limits import limits_of, references_of
-from ehlectric.report.part import UNSOLVED, Part, details_of, lead_of
-from ehlectric.report.swept import sweep_part
-from ehlectric.runs.folders import stored_result
-from ehlectric.runs.results import load
-from ehlectric.sweep.results import SweepResults
+from ehlectric.report.report_content import UNSOLVED, Block, Part, Report, Section, Text, details_of, lead_of
+from ehlectric.report.report_facts import alarms_of, cell_table, pictures_of, row_tables, warning_block
+from ehlectric.report.sweep_report import sweep_part
+from ehlectric.runs.result_folders import stored_result
+from ehlectric.runs.solve import load
+from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.store import NAME as SWEEP
 from ehlectric.sweep.store import read_sweep
-from ehlectric.tables.bearing import films_table, loads_table, total_rows
-from ehlectric.tables.contact import result_rows
-from ehlectric.tables.motion import run_rows
+from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
+from ehlectric.tables.contact_tables import result_rows
+from ehlectric.tables.motion_tables import run_rows
 
 
 def report_of(path: str | Path) -> Report:

@@ -1,21 +1,301 @@
-"""Report as PDF: pages with a header and their numbers, an outline, and the content of the HTML page."""
+"""Report as PDF: fonts, tables that split over pages, figures as images, pages with a header, and an
+outline.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from io import BytesIO
-from xml.sax.saxutils import escape
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Literal
+from xml.sax.saxutils import escape, quoteattr
 
+import matplotlib as mpl
+from reportlab.lib.colors import HexColor
+from reportlab.lib.enums import TA_LEFT, TA_RIGHT
 from reportlab.lib.pagesizes import A4
+from reportlab.lib.styles import ParagraphStyle
 from reportlab.lib.units import mm
-from reportlab.pdfbase.pdfmetrics import stringWidth
+from reportlab.pdfbase.pdfmetrics import registerFont, registerFontFamily, stringWidth
+from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import Canvas
-from reportlab.platypus import BaseDocTemplate, Flowable, Frame, PageTemplate, Paragraph
+from reportlab.platypus import (
+    BaseDocTemplate,
+    CondPageBreak,
+    Flowable,
+    Frame,
+    Image,
+    KeepTogether,
+    LongTable,
+    PageTemplate,
+    Paragraph,
+    Preformatted,
+    Spacer,
+)
 
-from ehlectric.errors import short
-from ehlectric.report.content import Report
-from ehlectric.report.pdf_parts import LINE, SOFT, fonts, headed, parts_of, style
+from ehlectric.errors import SEVERITY_WORDS, short
+from ehlectric.figures.style import style as figure_style
+from ehlectric.quantities.palette import GREY, LIGHTS
+from ehlectric.report.light import Light
+from ehlectric.report.report_content import Cell, Link, Picture, Report, Table, Text, Warnings
 from ehlectric.version import __version__
+
+# Resolution of pixels [1/inch].
+DPI = 200
+
+# Largest image of vectors [bytes]; maps have a path for each of their cells.
+_LARGEST = 400_000
+
+# Neither kind of image has a date, so that equal figures are equal files.
+_METADATA = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}}
+
+
+def image_of(picture: Picture, kind: Literal["png", "svg"]) -> bytes:
+    """Content of an image file of a figure.
+
+    Parameters
+    ----------
+    picture : Picture
+        Figure with its title, which the file has as metadata.
+    kind : str
+        "png", or "svg" for vectors.
+    """
+    content = BytesIO()
+    with figure_style():
+        metadata = {**_METADATA[kind], "Title": picture.title}
+        picture.figure.savefig(content, format=kind, dpi=DPI, metadata=metadata)
+    return content.getvalue()
+
+
+def best_image(picture: Picture) -> tuple[str, bytes]:
+    """MIME type and content of a figure for a page: vectors, or pixels where vectors are too large."""
+    vectors = image_of(picture, "svg")
+    if len(vectors) <= _LARGEST:
+        return "image/svg+xml", vectors
+    return "image/png", image_of(picture, "png")
+
+
+# Fonts with Greek letters and signs, which matplotlib carries: name in the document, and file.
+_FONTS: Mapping[str, str] = MappingProxyType(
+    {
+        "Sans": "DejaVuSans.ttf",
+        "Sans-Bold": "DejaVuSans-Bold.ttf",
+        "Sans-Oblique": "DejaVuSans-Oblique.ttf",
+        "Mono": "DejaVuSansMono.ttf",
+    }
+)
+
+INK, SOFT, LINE, PANEL = (HexColor(colour) for colour in ("#1a1a1a", GREY, "#c8c8c8", "#f2f3f5"))
+_LINK, _ALARM = "#0058a3", "#b00020"
+_SEVERITIES = {"severe": _ALARM, "warning": LIGHTS["yellow"], "note": LIGHTS["grey"]}
+
+# Parts of a word after which a line may end.
+_PARTS = re.compile(r"[^_.\-/]*[_.\-/]|[^_.\-/]+")
+
+# Room beside the text of a cell [pt], and characters of a line of a file.
+_PAD, _LINE_LENGTH = 3.0, 96
+
+# Room that a title of a section needs for itself and for what begins below it [pt].
+_ROOM = 130.0
+
+# Share of the height of a page above which a figure has a page of its own.
+_TALL = 0.6
+
+
+@cache
+def fonts() -> str:
+    """Name of the family of fonts, which is registered at the first call."""
+    folder = Path(mpl.get_data_path()) / "fonts" / "ttf"
+    for name, file in _FONTS.items():
+        registerFont(TTFont(name, folder / file))
+    registerFontFamily("Sans", normal="Sans", bold="Sans-Bold", italic="Sans-Oblique", boldItalic="Sans-Bold")
+    return "Sans"
+
+
+@cache
+def style(name: str, size: float = 9.0) -> ParagraphStyle:
+    """Style of paragraphs: "body", "title", "section", "caption", "cell", "number", "head" or "alarm"."""
+    base: dict[str, Any] = {"fontName": fonts(), "fontSize": size, "leading": 1.35 * size, "textColor": INK}
+    own: dict[str, dict[str, Any]] = {
+        "body": {"spaceAfter": 5.0},
+        "title": {"fontName": "Sans-Bold", "fontSize": 17.0, "leading": 21.0, "spaceAfter": 3.0},
+        "section": {
+            "fontName": "Sans-Bold", "fontSize": 12.5, "leading": 16.0, "spaceBefore": 14.0,
+            "spaceAfter": 5.0,
+        },
+        "soft": {"textColor": SOFT, "spaceAfter": 3.0},
+        "caption": {"fontName": "Sans-Bold"},
+        "cell": {},
+        "number": {"alignment": TA_RIGHT},
+        "head": {"fontName": "Sans-Bold", "alignment": TA_LEFT},
+        "headnumber": {"fontName": "Sans-Bold", "alignment": TA_RIGHT},
+        "alarm": {
+            "fontName": "Sans-Bold", "textColor": HexColor(_ALARM), "borderColor": HexColor(_ALARM),
+            "borderWidth": 1.2, "borderPadding": 5.0, "spaceBefore": 6.0, "spaceAfter": 10.0,
+        },
+        "code": {"fontName": "Mono", "fontSize": 7.5, "leading": 9.6},
+    }  # fmt: skip
+    return ParagraphStyle(name, **{**base, **own[name]})
+
+
+def parts_of(block: object, width: float, height: float) -> Iterator[Flowable]:
+    """Flowables of a block in a frame of a width and a height [pt]."""
+    match block:
+        case Text(text=text, tone="code"):
+            yield Preformatted(text, style("code"), maxLineLength=_LINE_LENGTH, newLineChars="")
+        case Text(text=text, tone=tone):
+            yield Paragraph(escape(text), style("alarm" if tone == "alarm" else "body"))
+        case Table():
+            yield _table(block, width)
+            yield Spacer(1.0, 8.0)
+        case Light():
+            yield _light(block, width)
+            yield Spacer(1.0, 6.0)
+        case Warnings(lines=lines):
+            for line in lines:
+                first = f"<b>{SEVERITY_WORDS[line.severity]}.</b> {escape(line.meaning)}"
+                *others, last = map(escape, line.texts)
+                last = f'{last} <font color="{GREY}">{escape(line.code)}</font>'
+                yield _panel([first, *others, last], _SEVERITIES[line.severity], width)
+                yield Spacer(1.0, 4.0)
+        case Picture():
+            yield _picture(block, width, height)
+
+
+def _light(light: Light, width: float) -> Flowable:
+    """Panel of a verdict, with its lamp beside what it means."""
+    colour = LIGHTS[light.level]
+    heading, bound = escape(light.words), f" ({escape(light.bound)})" if light.bound else ""
+    words = f'<font size="11" color="{colour}">\u25cf</font> <font size="11"><b>{heading}</b></font>{bound}'
+    return _panel([words, escape(light.text)], colour, width)
+
+
+def _panel(texts: Sequence[str], colour: str, width: float) -> Flowable:
+    """Panel of paragraphs, in the markup of reportlab, beside a line of a colour."""
+    look = [
+        ("BACKGROUND", (0, 0), (-1, -1), PANEL),
+        ("LINEBEFORE", (0, 0), (0, -1), 4.0, HexColor(colour)),
+        ("LEFTPADDING", (0, 0), (-1, -1), 10.0),
+        ("TOPPADDING", (0, 0), (-1, -1), 3.0),
+        ("BOTTOMPADDING", (0, 0), (-1, -1), 3.0),
+    ]
+    rows = [[Paragraph(text, style("cell"))] for text in texts]
+    return LongTable(rows, colWidths=[width], style=look)
+
+
+def _picture(picture: Picture, width: float, height: float) -> Flowable:
+    """Figure with its caption, on one page."""
+    wide, high = (72.0 * float(inches) for inches in picture.figure.get_size_inches())
+    # Two figures of usual height share a page; only tall ones take it alone.
+    room = height - 60.0 if high > _TALL * height else 0.5 * height - 55.0
+    scale = min(1.0, width / wide, room / high)
+    image = Image(BytesIO(image_of(picture, "png")), scale * wide, scale * high, hAlign="LEFT")
+    caption = Paragraph(f"<b>{escape(picture.title)}.</b> {escape(picture.caption)}", style("body", 8.0))
+    return KeepTogether([image, caption, Spacer(1.0, 8.0)])
+
+
+def headed(title: str, parts: Sequence[Flowable]) -> Iterator[Flowable]:
+    """Flowables of a section below its title, which never stands alone at the end of a page.
+
+    Tables begin below their title as long as some of their rows fit: no page ends early because of them.
+    """
+    heading = Paragraph(escape(title), style("section"))
+    if parts and isinstance(parts[0], KeepTogether):
+        # Two groups that are kept together would be parted between each other.
+        yield KeepTogether([heading, *parts[0]._content])
+        yield from parts[1:]
+    else:
+        yield from (CondPageBreak(_ROOM), heading, *parts)
+
+
+def _table(table: Table, width: float) -> Flowable:
+    """Table that splits over pages; its caption and heads stand on each of them."""
+    size = 8.0 if len(table.heads) <= 5 else 7.0
+    cells = [[_plain(cell) for cell in row] for row in table.rows]
+    widths = [width * share for share in table.shares] or _widths([list(table.heads), *cells], width, size)
+    names = ["number" if n in table.numeric else "cell" for n in range(len(table.heads))]
+    heads = [
+        Paragraph(escape(head), style("headnumber" if name == "number" else "head", size))
+        for head, name in zip(table.heads, names, strict=True)
+    ]
+    blank = [""] * (len(heads) - 1)
+    rows: list[list[Any]] = [[Paragraph(escape(table.caption), style("caption", 8.5)), *blank], heads]
+    for number, row in enumerate(table.rows):
+        colour = _ALARM if number in table.alarms else ""
+        rows.append(
+            [
+                Paragraph(_markup(cell, colour, room - 2.0 * _PAD, size), style(name, size))
+                for cell, name, room in zip(row, names, widths, strict=True)
+            ]
+        )
+    look = [
+        ("SPAN", (0, 0), (-1, 0)),
+        ("VALIGN", (0, 0), (-1, -1), "TOP"),
+        ("VALIGN", (0, 1), (-1, 1), "BOTTOM"),
+        ("LINEBELOW", (0, 1), (-1, 1), 0.9, SOFT),
+        ("LINEBELOW", (0, 2), (-1, -1), 0.4, LINE),
+        ("LEFTPADDING", (0, 0), (-1, -1), _PAD),
+        ("RIGHTPADDING", (0, 0), (-1, -1), _PAD),
+        ("TOPPADDING", (0, 0), (-1, -1), 1.5),
+        ("BOTTOMPADDING", (0, 0), (-1, -1), 2.0),
+    ]
+    return LongTable(rows, colWidths=widths, repeatRows=2, hAlign="LEFT", style=look)
+
+
+def _plain(cell: Cell) -> str:
+    return f"{cell.text}{_address(cell)}" if isinstance(cell, Link) else cell
+
+
+def _address(link: Link) -> str:
+    return link.address.replace("https://doi.org/", "doi:")
+
+
+def _markup(cell: Cell, colour: str, room: float, size: float) -> str:
+    """Cell in the markup of reportlab, with its own characters escaped, for a column of a width [pt]."""
+    if isinstance(cell, Link):
+        shown = escape(_address(cell))
+        return f'{escape(cell.text)}<a href={quoteattr(cell.address)} color="{_LINK}">{shown}</a>'
+    text = " ".join(_parted(word, room, size) for word in cell.split(" "))
+    return f'<font color="{colour}">{text}</font>' if colour else text
+
+
+def _parted(word: str, room: float, size: float) -> str:
+    """Word in the markup of reportlab, broken after marks such as "_" where a line cannot hold it."""
+    lines = [""]
+    for part in _PARTS.findall(word):
+        if lines[-1] and stringWidth(lines[-1] + part, fonts(), size) > room:
+            lines.append("")
+        lines[-1] += part
+    return "<br/>".join(map(escape, lines))
+
+
+def _widths(rows: Sequence[Sequence[str]], width: float, size: float) -> list[float]:
+    """Widths of columns [pt]: as wide as their texts where the page has room, else in proportion to them."""
+    columns = list(zip(*rows, strict=True))
+    pad = 2.0 * _PAD + 0.5
+
+    def extent(text: str) -> float:
+        return float(stringWidth(text, "Sans-Bold", size))
+
+    wanted = [max(extent(text) for text in column) + pad for column in columns]
+    if sum(wanted) <= width:
+        return wanted
+    least = [
+        min(
+            max(max((extent(word) for word in text.split()), default=0.0) for text in column) + pad,
+            0.4 * width,
+        )
+        for column in columns
+    ]
+    # The square root keeps a column of sentences from taking the room of all others.
+    free, further = width - sum(least), [max(0.0, a - b) ** 0.5 for a, b in zip(wanted, least, strict=True)]
+    if free <= 0.0 or not sum(further):
+        return [width * one / sum(least) for one in least]
+    return [low + free * more / sum(further) for low, more in zip(least, further, strict=True)]
+
 
 _MARGIN, _TOP = 18.0 * mm, 22.0 * mm
 _WIDTH, _HEIGHT = A4[0] - 2.0 * _MARGIN, A4[1] - 2.0 * _TOP

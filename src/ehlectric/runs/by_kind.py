@@ -12,25 +12,24 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ehlectric.errors import InputError, ResultWarning, shown
-from ehlectric.runs.folders import files_of_results, protect
-from ehlectric.runs.kinds import FileKind, kind_of_file
+from ehlectric.runs.file_kinds import FileKind, kind_of_file
+from ehlectric.runs.result_folders import files_of_results, protect
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
-from ehlectric.runtime.outcome import RunOutcome
-from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.progress import Progress, RunOutcome, silent
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from ehlectric.bearing.result import BearingResult
-    from ehlectric.cases.bearings.case import BearingCase
+    from ehlectric.cases.bearing_case import BearingCase
     from ehlectric.cases.case import Case
-    from ehlectric.cases.drives.case import DriveCase
-    from ehlectric.cases.measurements.factors import FilmFactors
-    from ehlectric.contact.results import PointResult, Result
+    from ehlectric.cases.drive_case import DriveCase
+    from ehlectric.cases.film_factors import FilmFactors
+    from ehlectric.contact.result import PointResult, Result
     from ehlectric.drive.result import DriveResult
-    from ehlectric.runs.film_factors import MeasuredFile
-    from ehlectric.sweep.inputs import Sweep
-    from ehlectric.sweep.results import SweepResults
+    from ehlectric.runs.measured_film_factors import MeasuredFile
+    from ehlectric.sweep.result import SweepResults
+    from ehlectric.sweep.sweep_inputs import Sweep
 
 
 R = TypeVar("R")
@@ -134,7 +133,7 @@ def run_and_draw(
         outcome = RUNS[kind].run(case, folder, progress, **options)
         if not draw:
             return outcome
-        from ehlectric.figures.results import draw_figures
+        from ehlectric.figures.result_figures import draw_figures
 
         progress(0, 0, "drawing figures")
         with alone_in(folder, locks=[FIGURE_LOCK], patience=LONG):
@@ -156,21 +155,21 @@ def read_case(path: str | Path) -> Case:
 
 def read_bearing(path: str | Path) -> BearingCase:
     """Case of a bearing."""
-    from ehlectric.cases.bearings.case import BearingCase
+    from ehlectric.cases.bearing_case import BearingCase
 
     return BearingCase.from_toml(path)
 
 
 def read_drive(path: str | Path) -> DriveCase:
     """Case of a drive."""
-    from ehlectric.cases.drives.case import DriveCase
+    from ehlectric.cases.drive_case import DriveCase
 
     return DriveCase.from_toml(path)
 
 
 def read_sweep_file(path: str | Path) -> Sweep:
     """Sweep of a sweep file."""
-    from ehlectric.sweep.inputs import Sweep
+    from ehlectric.sweep.sweep_inputs import Sweep
 
     return Sweep.from_toml(path)
 
@@ -200,7 +199,7 @@ def run_contact(
     With a measurement, its film factors are written together with them.
     """
     from ehlectric.contact.run import run
-    from ehlectric.paper.solvers import SOLVERS
+    from ehlectric.paper.paper_contacts import SOLVERS
 
     _check_solver(solver, tuple(SOLVERS))
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
@@ -223,7 +222,7 @@ def run_motion(
     """Solve a transient contact, and write its results; the only solver is "ehlectric"."""
     from ehlectric.motion.run import run
     from ehlectric.motion.stored_run import MOTION_FILES
-    from ehlectric.paper.solvers import SOLVERS
+    from ehlectric.paper.paper_contacts import SOLVERS
 
     _check_solver(solver, tuple(SOLVERS))
     if measured is not None:
@@ -253,7 +252,7 @@ def run_bearing(
 
     With a measurement, its film factors are written together with them.
     """
-    from ehlectric.bearing.files import run
+    from ehlectric.bearing.run import run
 
     case = case.replace({"contacts": contacts}) if contacts else case
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
@@ -274,7 +273,7 @@ def run_drive(
     workers: int | None = None,
 ) -> RunOutcome[DriveResult]:
     """Solve a drive, and write its results; ``contacts`` replaces the key of both bearings."""
-    from ehlectric.drive.files import run
+    from ehlectric.drive.run import run
 
     case = case.replace({"drive.contacts": contacts}) if contacts else case
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
@@ -307,7 +306,7 @@ def run_sweep(
 
     solvers = crew(None, workers)
     if scheduler is not None:
-        from ehlectric.sweep.cluster import cluster
+        from ehlectric.sweep.engine import cluster
 
         solvers = cluster(scheduler)
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:

@@ -15,22 +15,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.bearings.ways import HOW, QUICK
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.defaults import HOW, QUICK
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError, ResultWarning
 from ehlectric.quantities.contact_results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
 from ehlectric.quantities.units import rpm
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.sweep_inputs import Sweep
 
 if TYPE_CHECKING:
     from ehlectric.bearing.result import BearingResult
     from ehlectric.contact.check import PreparedContact
     from ehlectric.contact.conditions import Conditions, PointConditions
-    from ehlectric.discharge.verdict import Verdict
-    from ehlectric.sweep.plan import Planned
+    from ehlectric.discharge.film_verdict import Verdict
+    from ehlectric.sweep.engine import Planned
 
 # Largest number of points of a sweep that are checked one by one.
 _MOST_CHECKED = 2000
@@ -98,9 +98,9 @@ def check(case: Case | BearingCase | DriveCase | Sweep) -> Meaning:
 def _check_contact(case: Case) -> Meaning:
     from ehlectric.contact.check import check_case
     from ehlectric.contact.summary import case_summary
-    from ehlectric.motion.contact import TransientContact
-    from ehlectric.tables.contact import case_rows
-    from ehlectric.tables.motion import schedule_rows
+    from ehlectric.motion.moving_contact import TransientContact
+    from ehlectric.tables.contact_tables import case_rows
+    from ehlectric.tables.motion_tables import schedule_rows
 
     contact = check_case(case)
     summary = case_summary(case, contact.conditions)
@@ -157,7 +157,7 @@ def _breakdown_by_formula(
     A strength over pressure and a Weibull law need the field in the whole film. The formulas are those from
     which a bearing by formula has its films.
     """
-    from ehlectric.discharge.utilisation import dielectric_strength
+    from ehlectric.discharge.film_breakdown import dielectric_strength
 
     discharge = case.discharge
     if discharge is None or not discharge.has_strength:
@@ -193,10 +193,10 @@ def _row(key: str, value: float, note: str) -> Row:
 
 @check.register
 def _check_bearing(case: BearingCase) -> Meaning:
-    from ehlectric.bearing.accuracy import error_text
-    from ehlectric.bearing.quick.ways import quick_case
-    from ehlectric.bearing.solver import check_bearing
-    from ehlectric.tables.bearing import check_rows
+    from ehlectric.bearing.quick_contacts import quick_case
+    from ehlectric.bearing.result import check_bearing
+    from ehlectric.bearing.solution import error_text
+    from ehlectric.tables.bearing_tables import check_rows
 
     check_bearing(case)
     judged, refused = quick_case(case)
@@ -221,11 +221,11 @@ def _check_bearing(case: BearingCase) -> Meaning:
 
 @check.register
 def _check_drive(case: DriveCase) -> Meaning:
-    from ehlectric.drive.quick import quick_drive
+    from ehlectric.drive.quick_drive import quick_drive
     from ehlectric.drive.solver import prepare
     from ehlectric.drive.summary import checked_summary
     from ehlectric.drive.warnings import bearing_warnings, machine_warnings
-    from ehlectric.tables.drive import prepared_rows
+    from ehlectric.tables.drive_tables import prepared_rows
 
     case.variants()
     quick, key = quick_drive(case)
@@ -239,7 +239,7 @@ def _check_drive(case: DriveCase) -> Meaning:
 
 
 def _solved_quickly(case: BearingCase) -> BearingResult:
-    from ehlectric.bearing.solver import solve_bearing
+    from ehlectric.bearing.result import solve_bearing
 
     return solve_bearing(case, workers=1)
 
@@ -248,7 +248,7 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
     """Meaning of a bearing whose contacts neither the atlas nor a formula describes: its inputs alone."""
     from ehlectric.bearing.preparation import resolve_bearing
     from ehlectric.bearing.summary import clearances_of
-    from ehlectric.tables.bearing import input_rows
+    from ehlectric.tables.bearing_tables import input_rows
 
     conditions = resolve_bearing(case)
     summary = {
@@ -266,8 +266,7 @@ def _without_films(case: BearingCase, reason: str) -> Meaning:
 
 @check.register
 def _check_sweep(sweep: Sweep) -> Meaning:
-    from ehlectric.sweep.plan import plan
-    from ehlectric.sweep.preview import lacking_point
+    from ehlectric.sweep.engine import lacking_point, plan
 
     started = time.perf_counter()
     planned = list(islice(plan(sweep), _MOST_CHECKED))
@@ -308,7 +307,7 @@ def _values(value: Any) -> dict[str, Any]:
 
 
 def _sweep_rows(sweep: Sweep, described: Mapping[str, Any], seconds: float) -> Iterator[Row]:
-    from ehlectric.runtime.parallel.workers import cores
+    from ehlectric.runtime.worker_processes import cores
 
     yield Row("points", str(sweep.size), note=f"{sweep.design} design")
     for key, value in described["inputs"].items():

@@ -1,36 +1,148 @@
-"""Solution of anything that can be solved, in memory: ``solve`` and ``solve_motion``."""
+"""Solution of anything that can be solved, in memory and in parallel, and saving and loading of results."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sized
+from contextlib import ExitStack, closing
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar, overload
 
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.any_case import case_of_dict, case_of_file
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.bearing import run as of_bearings
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing.stored import SCHEMA as BEARING
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case, LineCase, PointCase
-from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drive_case import DriveCase, case_of_dict, case_of_file
 from ehlectric.cases.table import read_toml
+from ehlectric.contact import run as of_contacts
 from ehlectric.contact.check import PreparedContact, check_case, with_laws
-from ehlectric.contact.reach import FilmProgress
-from ehlectric.contact.results import PointResult, Result
+from ehlectric.contact.contact_refinement import FilmProgress
+from ehlectric.contact.result import PointResult, Result
 from ehlectric.contact.solver import OWN, Solvers
+from ehlectric.contact.solver import solve as solve_contact_case
 from ehlectric.contact.solver import solve as solve_stationary
+from ehlectric.contact.stored import SCHEMA as CONTACT
+from ehlectric.drive import run as of_drives
 from ehlectric.drive.result import DriveResult, solve_drive
-from ehlectric.errors import ConvergenceError, InputError, printable, shown
+from ehlectric.drive.stored import SCHEMA as DRIVE
+from ehlectric.errors import ConvergenceError, InputError, LostError, printable, shown
 from ehlectric.film.mesh import Mesh
-from ehlectric.lubricant.own import Laws
+from ehlectric.lubricant.python_laws import Laws
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
-from ehlectric.motion.stored_run import MOTION, read_motion
-from ehlectric.runs.kinds import kind_of_tables
-from ehlectric.runtime.log import LOGGER, log_warnings
-from ehlectric.runtime.progress import Progress, silent, told_to
+from ehlectric.motion.stored import SCHEMA as MOVING
+from ehlectric.motion.stored_run import MOTION, checked_motion, read_motion
+from ehlectric.runs.file_kinds import kind_of_tables
+from ehlectric.runs.result_folders import stored_result
+from ehlectric.runtime.file_rules import format_of
+from ehlectric.runtime.memory import is_out_of_memory
+from ehlectric.runtime.netcdf import read_dataset
+from ehlectric.runtime.progress import LOGGER, Progress, log_warnings, silent, told_to
+from ehlectric.runtime.tasks import finished_tasks
+from ehlectric.runtime.worker_processes import Crew, cores, processes
+from ehlectric.sweep.store import NAME as SWEEP
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+AnyResult: TypeAlias = Result | PointResult | BearingResult | DriveResult | MotionResult
+
+
+def _moving(dataset: xr.Dataset, path: Path) -> MotionResult:
+    """Result with moving roughness, whose file may be incomplete."""
+    return MotionResult.of(checked_motion(dataset, path))
+
+
+# Results by the kinds that their files state.
+_OF_KINDS: Mapping[str, Callable[[xr.Dataset, Path], AnyResult]] = {
+    format_of(schema)[0]: result_of
+    for schema, result_of in (
+        (CONTACT, of_contacts.result_of),
+        (BEARING, of_bearings.result_of),
+        (DRIVE, of_drives.result_of),
+        (MOVING, _moving),
+    )
+}
+
+
+def load(path: str | Path) -> AnyResult:
+    """Load the result of a contact, of a bearing, of a drive or of a contact with moving roughness.
+
+    Parameters
+    ----------
+    path : str or Path
+        A result.nc, bearing.nc, drive.nc or motion.nc, or the folder with this file.
+
+    Returns
+    -------
+    Result, PointResult, BearingResult, DriveResult or MotionResult
+        Result, equal to the one that was saved. That of a drive does not have its solved bearings.
+
+    Raises
+    ------
+    InputError
+        Where the file cannot be read or is not a result, or the folder has none, several, or a sweep.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from ehlectric import solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> result = solve({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> with TemporaryDirectory() as folder:
+    ...     files = save(result, folder)
+    ...     load(folder) == result
+    True
+    """
+    path = stored_result(path)
+    if path.name == SWEEP:
+        raise InputError(path.parent, "is the folder of a sweep", takes="a result; read_sweep reads a sweep")
+    dataset = read_dataset(path)
+    kind, _ = format_of(dataset.attrs.get("schema"))
+    if kind not in _OF_KINDS:
+        raise InputError(path, "is not a result of ehlectric")
+    return _OF_KINDS[kind](dataset, path)
+
+
+def save(result: Result | PointResult | BearingResult | DriveResult, folder: str | Path) -> list[Path]:
+    """Save the result of a contact, of a bearing or of a drive.
+
+    Parameters
+    ----------
+    result : Result, PointResult, BearingResult or DriveResult
+        Result of ``solve``. A contact writes summary.json, result.nc and film.csv; a bearing writes
+        summary.json, contacts.csv, bearing.nc and, where it has one, impedance.csv; a drive writes
+        summary.json, events.csv, spectrum.csv and drive.nc.
+    folder : str or Path
+        Folder of the files; it is made if it does not exist.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        Where the folder cannot be written to, or the result has no case, which the files must hold. Also
+        for a result of ``solve_motion``, which ``run_motion`` writes while it is solved.
+    """
+    if isinstance(result, BearingResult):
+        return of_bearings.save(result, folder)
+    if isinstance(result, DriveResult):
+        return of_drives.save(result, folder)
+    if isinstance(result, Result | PointResult):
+        return of_contacts.save(result, folder)
+    raise InputError(
+        "result", got=shown(type(result).__name__), takes="a result of a contact, a bearing or a drive"
+    )
+
 
 # A case, its tables, or the path of its file.
 Solvable: TypeAlias = Case | BearingCase | DriveCase | Mapping[str, Any] | str | PathLike[str]
@@ -253,7 +365,7 @@ def solvers_of(given: str | Solvers) -> Solvers:
         return given
     if given == OWN.name:
         return OWN
-    from ehlectric.paper.solvers import SOLVERS
+    from ehlectric.paper.paper_contacts import SOLVERS
 
     if given not in SOLVERS:
         raise InputError("solvers", got=shown(given), takes=f"one of {', '.join(SOLVERS)}")
@@ -332,3 +444,173 @@ def solve_motion(case: Case, *, progress: Progress = silent) -> MotionResult:
         result = MotionResult.of(read_motion(folder))
     log_warnings(case.title, result.warnings)
     return result
+
+
+R = TypeVar("R")
+
+# Result of a case, or the error in its place.
+_Outcome = Result | PointResult | BearingResult | DriveResult | Exception
+
+
+class Solved(NamedTuple, Generic[R]):
+    """One case of ``solve_many`` that is finished: its number, its result, and the error in its place.
+
+    Attributes
+    ----------
+    number : int
+        Number of the case in the order in which the cases were given, from 0.
+    result : Result, PointResult, BearingResult, DriveResult or None
+        Result of the case, which may not be converged; None if there is an error.
+    error : Exception or None
+        Error that ``solve`` would have raised, or a ``LostError`` if the process of the case was killed.
+    """
+
+    number: int
+    result: R | None
+    error: Exception | None = None
+
+
+@overload
+def solve_many(
+    cases: Iterable[LineCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[Result]]: ...
+@overload
+def solve_many(
+    cases: Iterable[PointCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[PointResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[Case], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[Result | PointResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[BearingCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[BearingResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[DriveCase], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[DriveResult]]: ...
+@overload
+def solve_many(
+    cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[Result | PointResult | BearingResult | DriveResult]]: ...
+
+
+def solve_many(
+    cases: Iterable[Solvable], workers: int | None = None, *, progress: Progress | None = None
+) -> Iterator[Solved[Any]]:
+    """Solve many contacts, bearings and drives in parallel, and yield each as it finishes.
+
+    Parameters
+    ----------
+    cases : iterable of Case, BearingCase, DriveCase, mapping, str or Path
+        Whatever ``solve`` takes. The iterable is read as the processes get free, so it may be endless.
+    workers : int, optional
+        Number of processes of this machine; by default the number of cores. With 1, the cases are solved in
+        this process, one after the other. Processes take some seconds to start: 1 is faster for a few cases
+        of a second or less, such as bearings whose contacts are not solved.
+    progress : callable, optional
+        Called before each case is yielded with the number of finished cases, the number of all cases, which
+        is 0 where ``cases`` has no length, and the title of the case. ``print`` will do.
+
+    Yields
+    ------
+    Solved
+        Number of the case, and its result or its error, in the order in which they finish. An error of one
+        case ends nothing: it stands in place of the result.
+
+    Raises
+    ------
+    InputError
+        If ``workers`` is not a whole number of at least 1, ``cases`` is a single case, or ``progress`` cannot
+        be called.
+    LostError
+        If the processes cannot start or work no longer.
+
+    Notes
+    -----
+    Nothing is written to files, and nothing is kept where the loop ends early; ``run_sweep`` saves each point
+    of a sweep. A process that is killed, as by a system out of memory, costs only its own case.
+
+    Examples
+    --------
+    >>> oil = {"base": "paper"}
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "max_hertz_pressure": "1 GPa"}
+    >>> tables = [{"contact": contact | {"entrainment_speed": u}, "lubricant": oil} for u in (2.0, 4.0)]
+    >>> films = {one.number: one.result.film.minimum_thickness for one in solve_many(tables, workers=1)}
+    >>> round(films[1] / films[0], 2)
+    1.64
+    """
+    if isinstance(workers, bool) or not (workers is None or (isinstance(workers, int) and workers >= 1)):
+        raise InputError("workers", got=shown(workers), takes="a whole number of at least 1")
+    single = isinstance(cases, Case | BearingCase | DriveCase | Mapping | str | PathLike)
+    if single or not isinstance(cases, Iterable):
+        raise InputError(
+            "cases", got=shown(type(cases).__name__), takes="a list of cases; solve takes one case"
+        )
+    number, report = workers or cores(), told_to(progress)
+    given = enumerate(cases)
+    found = _here(given) if number == 1 else _in_processes(given, number)
+    return _reported(found, len(cases) if isinstance(cases, Sized) else 0, report)
+
+
+def _reported(found: Generator[Solved[Any], None, None], of: int, report: Progress) -> Iterator[Solved[Any]]:
+    """Finished cases, each told before it is yielded."""
+    with closing(found):
+        for done, one in enumerate(found, 1):
+            title = "" if one.result is None else one.result.case.title
+            report(done, of, title or f"case {one.number}")
+            yield one
+
+
+def _here(cases: Iterator[tuple[int, Solvable]]) -> Generator[Solved[Any], None, None]:
+    """Cases solved in this process."""
+    for index, case in cases:
+        yield _told(index, solve_case(case))
+
+
+def _in_processes(cases: Iterator[tuple[int, Solvable]], number: int) -> Generator[Solved[Any], None, None]:
+    """Cases solved in processes of this machine."""
+    with ExitStack() as crews:
+        crew: Crew = crews.enter_context(processes(number))
+        handed = ((index, _without_classes_of_the_script(case)) for index, case in cases)
+        batches = finished_tasks(handed, crew, solve_case, LostError, _ran_out)
+        crews.callback(batches.close)
+        for batch in batches:
+            for index, outcome in batch:
+                yield _told(index, outcome)
+
+
+def _without_classes_of_the_script(given: Solvable) -> Solvable:
+    """Case of nested tables, in which values may be of classes that other processes cannot import."""
+    if not isinstance(given, Mapping):
+        return given
+    try:
+        return case_of(given)
+    except InputError:
+        return given  # refused where it is solved, as a case that does not stop the others
+
+
+def _ran_out(outcome: _Outcome) -> bool:
+    """Whether a case found too little memory; alone it may find more."""
+    return isinstance(outcome, Exception) and is_out_of_memory(outcome)
+
+
+def _told(index: int, outcome: _Outcome) -> Solved[Any]:
+    """Finished case, whose warnings are logged."""
+    if isinstance(outcome, Exception):
+        return Solved(index, None, outcome)
+    log_warnings(outcome.case.title, outcome.warnings)
+    return Solved(index, outcome)
+
+
+def solve_case(given: Solvable) -> _Outcome:
+    """Result of a case, or the error that its solution raises; bearings are solved in this process alone."""
+    try:
+        case = case_of(given)
+        if isinstance(case, DriveCase):
+            return solve_drive(case, workers=1)
+        solver = partial(solve_bearing, workers=1) if isinstance(case, BearingCase) else solve_contact_case
+        return solver(case)  # type: ignore[arg-type]
+    except Exception as error:
+        return error

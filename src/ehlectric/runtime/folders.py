@@ -12,7 +12,7 @@ from pathlib import Path
 from ehlectric.errors import InputError
 from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special, writing
 from ehlectric.runtime.locks import take
-from ehlectric.runtime.log import LOGGER
+from ehlectric.runtime.progress import LOGGER
 
 # Files that are locked while results, or what is made from stored results, are written into their folder.
 # Figures and tables of a sweep may be made while its points are solved, so they have a lock of their own.

@@ -16,14 +16,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from ehlectric.errors import DamagedError, InputError
-from ehlectric.runtime.checks.classes import file_class, reading_class
-from ehlectric.runtime.checks.seal import seal_of
-from ehlectric.runtime.checks.sound import known_sound, refuse_damaged, remember_sound
-from ehlectric.runtime.drafts import Draft
+from ehlectric.runtime.drafts import Draft, finish, redo_file, write_down
 from ehlectric.runtime.files import write, writing
-from ehlectric.runtime.interrupts import held_back
-from ehlectric.runtime.locks import take
-from ehlectric.runtime.redo import finish, redo_file, write_down
+from ehlectric.runtime.hdf5_soundness import (
+    file_class,
+    known_sound,
+    reading_class,
+    refuse_damaged,
+    remember_sound,
+    seal_of,
+)
+from ehlectric.runtime.locks import held_back, take
 from ehlectric.runtime.sizes import check_netcdf_values
 
 if TYPE_CHECKING:

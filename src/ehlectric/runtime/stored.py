@@ -18,7 +18,7 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import CODES_OF_TEXTS, TEXTS, ResultWarning, texts_and_codes, warnings_of
-from ehlectric.runtime.checks.schema import (
+from ehlectric.runtime.file_rules import (
     Rule,
     UnfitError,
     check_variables,

@@ -1,30 +1,237 @@
-"""Solution of the points of a sweep by an executor; every point gets an outcome, also if it fails."""
+"""Solution of the points of a sweep, on this machine or on a Dask cluster: what is solved, and every
+outcome.
+"""
 
 from __future__ import annotations
 
+import asyncio
+import hashlib
+import json
+import logging
+import math
+import os
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import closing
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.drives.swept import swept_case_of_dict
+from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
 from ehlectric.contact.solver import solve
-from ehlectric.errors import ConvergenceError, InputError, MemoryLimitError
+from ehlectric.drive.quick_drive import quick_drive
+from ehlectric.errors import ConvergenceError, InputError, LostError, MemoryLimitError, shown
+from ehlectric.quantities.inputs import end_and_key
 from ehlectric.runtime.files import now
 from ehlectric.runtime.memory import is_out_of_memory
-from ehlectric.runtime.parallel.tasks import finished_tasks
-from ehlectric.runtime.parallel.workers import Crew
-from ehlectric.sweep.plan import Outcome
-from ehlectric.sweep.results import Status
+from ehlectric.runtime.reading import regular
+from ehlectric.runtime.tasks import finished_tasks
+from ehlectric.runtime.worker_processes import Crew, packed_submit
+from ehlectric.sweep.points import Status
+from ehlectric.sweep.sweep_inputs import Sweep
 from ehlectric.version import __version__
+
+# Points whose tables are kept from the plan to the solution, about 10 MB. The others are made twice.
+_TABLES_KEPT = 2000
+
+
+@dataclass(frozen=True)
+class Planned:
+    """Point of a sweep before it is solved.
+
+    Attributes
+    ----------
+    number : int
+        Number of the point in the order of the design, from 0.
+    inputs : mapping
+        Values of the varied keys, by dotted key of the case, in SI units.
+    key : str or None
+        Key of its case, from ``case_key``; None if these inputs make no valid case.
+    refused : str
+        Reason why the inputs make no valid case; empty if they do.
+    table : mapping or None
+        Tables of its case, for the first points only, which would fill the memory of a large sweep.
+    """
+
+    number: int
+    inputs: Mapping[str, Any]
+    key: str | None
+    refused: str = ""
+    table: Mapping[str, Any] | None = None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Outcome of a point that was tried.
+
+    Attributes
+    ----------
+    status : str
+        "solved", "not converged" or "failed".
+    reason : str
+        Reason why the point is not solved; empty if it is.
+    again : bool
+        Whether another try may succeed, as after a killed process.
+    summary : mapping or None
+        Nested tables, as in summary.json; None if the point failed.
+    seconds : float
+        Time taken by the solution [s].
+    version : str
+        Version of ehlectric that tried the point.
+    date : str
+        Date and time of the outcome, ISO 8601.
+    """
+
+    status: Status
+    reason: str = ""
+    again: bool = False
+    summary: Mapping[str, Any] | None = None
+    seconds: float = 0.0
+    version: str = __version__
+    date: str = ""
+
+
+def case_key(case: SweptCase) -> str:
+    """Hash of everything that the solution of a case depends on.
+
+    The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
+    paths of files.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        A valid case.
+
+    Returns
+    -------
+    str
+        SHA-256 hash, hexadecimal.
+
+    Raises
+    ------
+    InputError
+        If a file of the case cannot be read.
+
+    Examples
+    --------
+    >>> from ehlectric.cases.drive_case import case_of_dict
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = case_of_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> case_key(case) == case_key(case.replace(title="Another", solver={"max_iterations": 30}))
+    True
+    """
+    table = case.to_dict()
+    del table["title"]
+    # Rough surfaces, and the measured voltage of a drive.
+    for holder in (*table.get("roughness", ()), table.get("source", {})):
+        if "file" in holder:
+            path = Path(holder["file"])
+            with regular(path) as file:
+                status = os.fstat(file.fileno())
+            holder["file"] = _contents(path, status.st_mtime_ns, status.st_size)
+    text = json.dumps(table, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+@cache
+def _contents(path: Path, _changed: int, _size: int) -> str:
+    """SHA-256 hash of a file; it is read again only when its time of change or size differs."""
+    with regular(path) as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def plan(sweep: Sweep) -> Iterator[Planned]:
+    """Points of a sweep, each with the key of its case, or with the reason why it is no valid case."""
+    for number, inputs in enumerate(sweep.points()):
+        try:
+            case = sweep.case.replace(inputs)
+            table = case.to_dict() if number < _TABLES_KEPT else None
+            yield Planned(number, inputs, case_key(case), table=table)
+        except InputError as error:
+            yield Planned(number, inputs, None, str(error))
+
+
+_SPEEDS = ("drive.speed", "bearing.inner_speed")
+_TEMPERATURES = ("drive.temperature", "bearing.temperature")
+
+
+@dataclass(frozen=True)
+class Lacking:
+    """Point of a sweep that cannot be computed.
+
+    Attributes
+    ----------
+    point : Planned
+        Point of the sweep.
+    reason : str
+        Key that it lacks, and why, as one line.
+    """
+
+    point: Planned
+    reason: str
+
+    def __str__(self) -> str:
+        return f"point {self.point.number}, the slowest and hottest, cannot be computed: {self.reason}"
+
+
+def lacking_point(sweep: Sweep, planned: Sequence[Planned]) -> Lacking | None:
+    """Slowest and, of these, hottest point of a sweep of drives, if it cannot be computed.
+
+    Its films are the thinnest, so that asperities may close them as at no other point. The bearings
+    of the point are solved with films of the atlas or by formula, in about a second.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        Sweep.
+    planned : sequence of Planned
+        Its points.
+
+    Returns
+    -------
+    Lacking or None
+        Point and reason; None where it can be computed, and for sweeps of contacts and bearings, whose
+        results do not need the resistance of closed contacts.
+    """
+    valid = [point for point in planned if point.key is not None]
+    if not isinstance(sweep.case, DriveCase) or not valid:
+        return None
+    # Loads the compiler of the simulation, which other sweeps do not need.
+    from ehlectric.drive.solver import prepare
+
+    point = min(valid, key=_films)
+    case: Any = sweep.case.replace(point.inputs)
+    try:
+        quick, _ = quick_drive(case)
+        if quick is not None:
+            prepare(quick, workers=1)
+    except InputError as error:
+        return Lacking(point, str(error))
+    return None
+
+
+def _films(point: Planned) -> tuple[float, float]:
+    """Order of points by their films: speed and negative temperature, the thinnest films first."""
+    found = [0.0, 0.0]
+    for key, value in point.inputs.items():
+        own = end_and_key(key)[1]
+        if own in _SPEEDS:
+            found[0] = float(value)
+        elif own in _TEMPERATURES:
+            found[1] = -float(value)
+    return found[0], found[1]
+
 
 Task = tuple[str, Mapping[str, Any]]
 
@@ -136,3 +343,104 @@ def _lost(reason: str) -> Outcome:
 def _ran_out(outcome: Outcome) -> bool:
     """Whether a point found too little memory; alone it may find more."""
     return outcome.status == "failed" and outcome.again
+
+
+# Time limit for the answer of an address, and for the reconnection to a lost scheduler [s].
+ANSWER = 8.0
+
+# Smallest number of points in flight. A cluster that adapts its workers to the queued work needs some points
+# to start.
+_LEAST = 64
+
+# Interval between two requests for the number of workers [s].
+_REFRESH = 2.0
+_LOGGERS = ("distributed", "tornado", "asyncio")
+
+
+@contextmanager
+def cluster(address: str) -> Iterator[Crew]:
+    """Context manager that connects to a Dask scheduler and yields a crew of its workers.
+
+    Workers that join the cluster later are used too.
+
+    Parameters
+    ----------
+    address : str
+        Address of the scheduler, such as "tcp://10.0.0.1:8786".
+
+    Yields
+    ------
+    Crew
+        The workers of the cluster.
+
+    Raises
+    ------
+    InputError
+        If no scheduler answers at the address, or dask.distributed is not installed.
+
+    Notes
+    -----
+    Log messages of Dask in this process are switched off: an error of one line reports a lost scheduler.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError(
+            "scheduler", "needs the package distributed; install it with: pip install 'ehlectric[cluster]'"
+        ) from None
+    _silence()
+    with warnings.catch_warnings():
+        # Dask warns if versions differ. If the difference breaks something, an error says so.
+        warnings.simplefilter("ignore")
+        try:
+            asyncio.run(asyncio.wait_for(_ask(address), ANSWER))
+            client = Client(address, timeout=ANSWER, set_as_default=False)
+        except Exception as error:  # from the address, the socket, TLS or another kind of server
+            reason = " ".join(str(error).split())[:200] or f"none in {ANSWER:g} s"
+            raise InputError("scheduler", got=f"no answer from {shown(address)}, {reason}") from None
+    try:
+        with client.get_executor(pure=False) as executor:
+            yield _crew(client, executor)
+    finally:
+        with suppress(Exception):
+            client.close(timeout=1.0)
+
+
+async def _ask(address: str) -> None:
+    """Check that a scheduler answers: a client would wait for a server that listens but never answers."""
+    from distributed import Security
+    from distributed.core import rpc
+
+    async with rpc(address, connection_args=Security().get_connection_args("client")) as there:
+        kind = (await there.identity())["type"]
+    if kind != "Scheduler":
+        raise ValueError(f"it is a {kind.lower()}")
+
+
+def _crew(client: Any, executor: Executor) -> Crew:
+    """Crew of the workers of a connected client."""
+    threads, asked_at = 0, -math.inf
+
+    def width() -> int:
+        """Number of points that the present workers may have in flight.
+
+        The number of workers is requested at intervals only, because each request costs the scheduler time.
+        """
+        nonlocal threads, asked_at
+        if client.status != "running":
+            raise LostError("the connection is lost")
+        if time.monotonic() - asked_at > _REFRESH:
+            try:
+                threads, asked_at = sum(client.nthreads().values()), time.monotonic()
+            except Exception as error:  # from the connection
+                raise LostError(" ".join(str(error).split())) from None
+        return max(_LEAST, 3 * threads)
+
+    return Crew(packed_submit(executor), width, waiting=lambda: "" if threads else "no workers yet")
+
+
+def _silence() -> None:
+    """Switch off the loggers of Dask: existing ones and, through their parents, loggers created later."""
+    for name in (*_LOGGERS, *logging.root.manager.loggerDict):
+        if name.partition(".")[0] in _LOGGERS:
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)

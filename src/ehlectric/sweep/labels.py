@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.drives.swept import SweptCase
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
 from ehlectric.quantities.bearing_results import BEARING_KEYS
 from ehlectric.quantities.contact_results import CONTACT_KEYS

@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ehlectric.arrays import Mask
-from ehlectric.cases.drives.swept import SweptCase
+from ehlectric.cases.drive_case import SweptCase
 from ehlectric.errors import ResultWarning, warnings_of
 from ehlectric.runtime.values import Values
 

@@ -13,16 +13,13 @@ from ehlectric.errors import InputError, shown
 from ehlectric.runtime.files import clear
 from ehlectric.runtime.folders import FIGURE_LOCK, LONG, RESULT_LOCK, alone_in
 from ehlectric.runtime.netcdf import load_library
-from ehlectric.runtime.outcome import RunOutcome
-from ehlectric.runtime.parallel.workers import Crew, cores, crew_of, processes
-from ehlectric.runtime.progress import Progress, silent, told_to
-from ehlectric.sweep.engine import Task, run_points
-from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.plan import Outcome, Planned, plan
-from ehlectric.sweep.results import SweepResults
+from ehlectric.runtime.progress import Progress, RunOutcome, silent, told_to
+from ehlectric.runtime.worker_processes import Crew, cores, crew_of, processes
+from ehlectric.sweep.engine import Outcome, Planned, Task, plan, run_points
+from ehlectric.sweep.result import FILES, SweepResults, write_tables
 from ehlectric.sweep.store import NAME, Store, read_sweep
-from ehlectric.sweep.tables import FILES, write_tables
-from ehlectric.sweep.verdict import sweep_verdict
+from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.sweep.sweep_verdict import sweep_verdict
 from ehlectric.sweep.warnings import sweep_warnings
 
 

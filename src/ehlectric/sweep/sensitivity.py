@@ -10,9 +10,9 @@ import numpy as np
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
-from ehlectric.sweep.breakdown_keys import breakdown_of
-from ehlectric.sweep.results import SweepResults
+from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import numbers_of
+from ehlectric.sweep.sweep_inputs import breakdown_of
 
 SCHEMA = "ehlectric.sensitivity/1"
 QUANTILES = (0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975)

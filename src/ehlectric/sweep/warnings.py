@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from ehlectric.errors import CODES, ResultWarning
-from ehlectric.sweep.results import Point, SweepResults
+from ehlectric.sweep.points import Point
+from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import Sensitivity
 from ehlectric.version import __version__
 

@@ -5,9 +5,8 @@ import pytest
 from scipy.constants import epsilon_0
 
 import ehlectric
-from ehlectric.bearing.gaps.groove import match_film, outside_capacitance
-from ehlectric.bearing.gaps.raceway import Raceway
-from ehlectric.formulas.hertz_point import dry_contact
+from ehlectric.bearing.gaps import Raceway, match_film, outside_capacitance
+from ehlectric.formulas.hertz import dry_contact
 from tests.helpers.places import EXAMPLES
 
 EXAMPLE = EXAMPLES / "ball_bearing.toml"

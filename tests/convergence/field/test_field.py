@@ -5,7 +5,7 @@ import pytest
 import sympy
 from scipy.constants import epsilon_0
 
-from ehlectric.field.line import solve_field
+from ehlectric.field.line_field import solve_field
 from ehlectric.field.poisson import FieldProblem, lobatto_nodes
 from tests.reference.field import (
     cylinder_plane_charge,

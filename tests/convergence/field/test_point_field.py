@@ -5,8 +5,8 @@ import pytest
 import sympy
 from scipy.constants import epsilon_0
 
-from ehlectric.field.line import solve_field
-from ehlectric.field.point import solve_point_field
+from ehlectric.field.line_field import solve_field
+from ehlectric.field.point_field import solve_point_field
 from ehlectric.field.poisson import Across, FieldProblem, lobatto_nodes
 from ehlectric.field.poisson_3d import PointFieldProblem
 from tests.reference.field import (

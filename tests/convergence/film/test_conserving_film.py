@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.contact.spots.oil_balance import oil_balance
+from ehlectric.contact.touching import oil_balance
 from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.share import share

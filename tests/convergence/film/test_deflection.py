@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film.deflection import Deflection, line_influence
-from ehlectric.formulas.hertz_line import line_gap, line_pressure
+from ehlectric.formulas.hertz import line_gap, line_pressure
 
 # Dry H00 of the Hertz contact: -(1/2)(ln 2 + 1/2).
 DRY_H00 = -0.5 * (np.log(2.0) + 0.5)

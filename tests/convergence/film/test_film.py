@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film.flow import Fluid
-from ehlectric.film.line import solve_film
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import constant_viscosity

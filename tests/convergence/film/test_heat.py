@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from ehlectric.film.heated.course import DEGREE
+from ehlectric.film.heated_film import DEGREE
 from tests.helpers.hot import couette
 
 

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from ehlectric.film.heated.nested import film_of
+from ehlectric.film.heated_film import film_of
 from ehlectric.film.mesh import Width
-from ehlectric.film.sheared.laws import Rheology
+from ehlectric.film.shear_laws import Rheology
 from tests.helpers.hot import ball, films, hot_contact, hot_oil, paper_line, random_contact
 from tests.helpers.share import share
 

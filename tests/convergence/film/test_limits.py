@@ -5,9 +5,9 @@ import pytest
 from scipy.constants import epsilon_0
 
 from ehlectric import Case, solve
-from ehlectric.field.line import solve_field
+from ehlectric.field.line_field import solve_field
 from ehlectric.field.poisson import FieldProblem
-from ehlectric.formulas.hertz_line import line_gap, line_pressure
+from ehlectric.formulas.hertz import line_gap, line_pressure
 from tests.reference.martin import film_coefficient
 
 

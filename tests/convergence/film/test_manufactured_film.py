@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ehlectric.film.flow import MEAN_MOBILITY
-from ehlectric.film.line import solve_film
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.paper import fas
 from tests.reference import film as exact
 

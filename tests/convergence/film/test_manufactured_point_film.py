@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.film.point import solve_point_film
+from ehlectric.film.isothermal_film import solve_point_film
 from tests.reference.point_film import INLET, OUTLET, ManufacturedFilm
 
 SPAN = OUTLET - INLET

@@ -5,9 +5,9 @@ import pytest
 
 from ehlectric import Case
 from ehlectric.contact.check import check_case
-from ehlectric.film.accuracy.max_pressure import max_pressure_error
+from ehlectric.film.film_error import max_pressure_error
 from ehlectric.film.nested import nested_iteration
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.share import share
 
 MODULUS, RADIUS = 226e9, 14.1e-3

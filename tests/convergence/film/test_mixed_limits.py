@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.nested import levels_of
-from ehlectric.film.state import State
+from ehlectric.film.newton import State
+from ehlectric.film.touching_film import mixed_newton
 from tests.helpers.mixed_films import (
     gaussian,
     mixed_film,

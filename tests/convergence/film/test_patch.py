@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, load, save, solve
+from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.contact.resolve import resolve_point
-from ehlectric.film.accuracy.patch import Patch
+from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.point import solve_point_film
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.film.patch import Patch
+from ehlectric.runtime.threads import quiet_solution
 
 
 def contact(load, speed, ratio=1.0):
@@ -140,7 +140,7 @@ def test_rough_film_on_a_patch_is_that_of_the_whole_domain(name):
     whole = solve(rough.replace({"grid.nodes": 257}), beside_smooth=False)
     first = rough.replace({"grid.nodes": 129, "grid.refine": 1e-4})
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("ehlectric.contact.refinement._MOST_DOUBLED_ROUGH", {"point": 1})
+        patched.setattr("ehlectric.contact.contact_refinement._MOST_DOUBLED_ROUGH", {"point": 1})
         result = solve(first)
     film = result.film
     assert film.converged

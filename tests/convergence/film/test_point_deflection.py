@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad, quad
 
+from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import geometry_of
-from ehlectric.contact.resolve import resolve_point
 from ehlectric.film.deflection import Deflection, point_geometry, point_influence
 from ehlectric.film.mesh import Mesh, Width
-from ehlectric.formulas.hertz_point import dry_contact
+from ehlectric.formulas.hertz import dry_contact
 from tests.helpers.each import each
 from tests.reference.hertz_point import potential_outside, radii_ratio
 from tests.unit.cases.test_point_case import point

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
+from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.contact.resolve import resolve_point
-from ehlectric.film.point import solve_point_film
+from ehlectric.film.isothermal_film import solve_point_film
 from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share
 

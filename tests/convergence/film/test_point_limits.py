@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.contact.resolve import resolve
-from ehlectric.formulas.hertz_point import dry_contact, point_pressure
+from ehlectric.contact.conditions import resolve
+from ehlectric.formulas.hertz import dry_contact, point_pressure
 from tests.reference.hertz_point import potential_outside, radii_ratio
 
 RADIUS, MODULUS = 10e-3, 226e9

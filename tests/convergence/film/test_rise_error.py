@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.contact.heat import oil as oil_of_case
-from ehlectric.film.heated import nested
+from ehlectric.contact import contact_heat as oil_of_case
+from ehlectric.film import heated_film
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.share import share
 
@@ -30,9 +30,11 @@ def overrun(monkeypatch, *values):
     coarse = solve(contact(*values))
     if not coarse.converged:
         return None
-    posed, times = nested._course, 2 if values[-1] == "newtonian" else 4
+    posed, times = heated_film._course, 2 if values[-1] == "newtonian" else 4
     with monkeypatch.context() as patch:
-        patch.setattr(nested, "_course", lambda *given, **keys: replace(posed(*given, **keys), degree=DEGREE))
+        patch.setattr(
+            heated_film, "_course", lambda *given, **keys: replace(posed(*given, **keys), degree=DEGREE)
+        )
         patch.setattr(oil_of_case, "_ABOVE", ABOVE)
         fine = solve(contact(*values, nodes=times * (coarse.film.x.size - 1) + 1))
     if not fine.converged:

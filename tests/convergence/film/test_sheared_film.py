@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ehlectric.film.across_film import Across
 from ehlectric.film.mesh import Mesh, Width
-from ehlectric.film.sheared.flow import ShearedFlow
-from ehlectric.film.sheared.laws import Rheology
-from ehlectric.film.sheared.profile import Across
-from ehlectric.film.sheared.traction import traction
+from ehlectric.film.shear_flow import ShearedFlow, traction
+from ehlectric.film.shear_laws import Rheology
 from tests.helpers.share import share
 from tests.unit.film.sheared.contacts import (
     ALPHA,

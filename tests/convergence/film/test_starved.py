@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 
 from ehlectric import Case
 from ehlectric.film.flow import Fluid
-from ehlectric.film.line import solve_film
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.problem import FilmProblem, OilSupply
 from tests.helpers.each import each

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
-from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.gap import Gap
 from ehlectric.film.mesh import at_centre
+from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.contact import TransientContact
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.share import share
 
 WAVE = {"generator": "sinusoid", "amplitude": "50 nm", "wavelength": "60 um", "orientation": "20 deg"}

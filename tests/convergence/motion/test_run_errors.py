@@ -5,10 +5,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from ehlectric.motion.accuracy import run_errors
-from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion
+from ehlectric.motion.summary import run_errors
 from tests.helpers.moving_cases import LINE, POINT, moving
 from tests.helpers.share import share
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from ehlectric.film import unsteady
-from ehlectric.film.accuracy.moving_patch import MovingFilm
 from ehlectric.film.flow import flow
 from ehlectric.film.mesh import at_centre
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.film.moving_patch import MovingFilm
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.starved_motion import layer_of, line, motion, oil_sums, point, smooth
 from tests.helpers.transient_films import ridge
 

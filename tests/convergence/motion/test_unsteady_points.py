@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
+from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.contact.resolve import resolve_point
 from tests.helpers.transient_films import last, ridge, steady
 
 # A ball on a plane, 20 N and 2 m/s, as among the examples.

@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from ehlectric.runs.kinds import command_of_file
+from ehlectric.runs.file_kinds import command_of_file
 from ehlectric.version import __version__
 
 HERE = Path(__file__).parent

@@ -6,21 +6,22 @@ import tomllib
 
 import pytest
 
-from ehlectric.app.answers.bearing import BearingAnswer
-from ehlectric.app.answers.told import Told, beside, counts, elsewhere
-from ehlectric.app.compute.bearing import (
+from ehlectric.app.answers import BearingAnswer
+from ehlectric.app.compute.answer_parts import told_of
+from ehlectric.app.compute.bearing_answers import (
     answer_of,
     bearing_case,
+    differences,
+    judged,
     quick_answer,
+    shown_numbers,
     solve_contacts,
     whole_quick_answer,
 )
-from ehlectric.app.compute.bearing_numbers import differences, shown_numbers
-from ehlectric.app.compute.bearing_verdict import judged
-from ehlectric.app.compute.warnings import told_of
-from ehlectric.app.figures.bearing_speeds import OverSpeed, speed_rows
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.discharge.verdict import Verdict, ratio_text
+from ehlectric.app.figures.bearing_charts import OverSpeed, speed_rows
+from ehlectric.app.page_warnings import Told, beside, counts, elsewhere
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning
 from ehlectric.quantities.bearing_results import BEARING_BOOK
 from ehlectric.quantities.formats import amount
@@ -126,7 +127,7 @@ def test_the_critical_speed_comes_with_the_whole_answer(quick, whole, summary):
 
 @pytest.mark.slow
 def test_the_details_are_the_rows_that_the_command_prints(whole, quick):
-    from ehlectric.tables.bearing import total_rows
+    from ehlectric.tables.bearing_tables import total_rows
 
     result = solve_bearing(bearing_case(inputs(), "atlas"), workers=1)
     rows = [(row.name, row.text) for row in total_rows(result.summary()) if row.name != "computing time"]

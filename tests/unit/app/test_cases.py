@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.app.compute.cases import case_of, drive_of, kind_of, names_in, sweep_of, with_own_files
-from ehlectric.app.inputs import Inputs
+from ehlectric.app.compute.answer_parts import case_of, drive_of, kind_of, names_in, sweep_of, with_own_files
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, EXAMPLES

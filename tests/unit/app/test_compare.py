@@ -6,12 +6,12 @@ from html.parser import HTMLParser
 import pytest
 
 from ehlectric import BearingCase, solve
-from ehlectric.app.answers.compare import Effect, Result, effects, in_both, input_rows, only_in
-from ehlectric.app.compute.compare import side, whole_side
-from ehlectric.app.compute.contact import check_contact
-from ehlectric.app.figures import compare as figures
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.tables import effects_table, inputs_table
+from ehlectric.app.answers import Effect, Result, effects, in_both, input_rows, only_in
+from ehlectric.app.compute.compare_answers import side, whole_side
+from ehlectric.app.compute.contact_answers import check_contact
+from ehlectric.app.figures import compare_charts as figures
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.compare_page import effects_table, inputs_table
 from ehlectric.errors import InputError
 from tests.helpers.bearings import numbers_of
 from tests.helpers.places import EXAMPLES

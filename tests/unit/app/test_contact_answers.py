@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from ehlectric import Case
-from ehlectric.app.compute.cards import concerned
-from ehlectric.app.compute.contact import (
+from ehlectric.app.compute.answer_parts import concerned
+from ehlectric.app.compute.contact_answers import (
     check_contact,
     contact_case,
     cuts_of,
@@ -16,21 +16,21 @@ from ehlectric.app.compute.contact import (
     solve_contact,
     view_of,
 )
-from ehlectric.app.fields.contact import geometry_of, groups_of, switched
-from ehlectric.app.fields.defaults import default_of
-from ehlectric.app.fields.rules import changed
-from ehlectric.app.fields.words import written_text
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.starts import contact_start
+from ehlectric.app.fields.contact_fields import geometry_of, groups_of, switched
+from ehlectric.app.fields.field import written_text
+from ehlectric.app.fields.field_defaults import default_of
+from ehlectric.app.fields.field_rules import changed
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.frame import contact_start
 from ehlectric.contact.solver import solve
 from ehlectric.errors import CODES, InputError
 from ehlectric.quantities.units import to_si
 from ehlectric.report.light import light_of
 from ehlectric.runs.by_kind import read_case, run_contact
 from ehlectric.runs.meaning import check
-from ehlectric.runs.results import load
+from ehlectric.runs.solve import load
 from ehlectric.runtime.progress import silent
-from ehlectric.tables.contact import result_rows
+from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import EXAMPLES

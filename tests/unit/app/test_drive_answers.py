@@ -5,12 +5,13 @@ from dataclasses import asdict
 
 import pytest
 
-from ehlectric.app.compute.drives.answer import quick_answer, simulate
-from ehlectric.app.pages.starts import DRIVE
-from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.drive.quick import expected, quick_drive
+from ehlectric.app.compute.drive_answers import quick_answer, simulate
+from ehlectric.app.pages.frame import DRIVE
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.drive.quick_drive import expected, quick_drive
 from ehlectric.errors import InputError
 from ehlectric.quantities.formats import number_text
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.meaning import check
 

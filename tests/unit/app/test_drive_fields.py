@@ -3,23 +3,22 @@
 import pytest
 
 from ehlectric.app.catalogue import choices
-from ehlectric.app.fields.defaults import default_of
-from ehlectric.app.fields.drive import DRIVE_GROUPS, OTHER
-from ehlectric.app.fields.drive_rules import (
+from ehlectric.app.fields.drive_fields import (
+    DRIVE_GROUPS,
     HALF,
+    OTHER,
     PRESETS,
     changes_of,
     remedies_of,
     with_remedy,
     without_remedy,
 )
-from ehlectric.app.fields.ends import bearing_at, end_and_key
-from ehlectric.app.fields.memory import Memory
-from ehlectric.app.fields.rules import changed, is_own, own_values
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.starts import BEARING, DRIVE, drive_with
+from ehlectric.app.fields.field_defaults import bearing_at, default_of, end_and_key
+from ehlectric.app.fields.field_rules import Memory, changed, is_own, own_values
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.frame import BEARING, DRIVE, drive_with
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.drives.case import DriveCase
+from ehlectric.cases.drive_case import DriveCase
 from ehlectric.cases.input_keys import describe, input_field, number_of
 from ehlectric.quantities import units
 from ehlectric.quantities.inputs import ENDS

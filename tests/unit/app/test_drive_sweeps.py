@@ -4,12 +4,11 @@ from urllib.parse import parse_qsl
 
 import pytest
 
-from ehlectric.app.compute import sweep, sweep_view
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.starts import DRIVE
-from ehlectric.app.ranges import Range, case_of_link, with_ranges
-from ehlectric.cases.drives.case import DriveCase
-from ehlectric.sweep.plan import case_key
+from ehlectric.app.compute import sweep_answers
+from ehlectric.app.page_inputs import Inputs, Range, case_of_link, with_ranges
+from ehlectric.app.pages.frame import DRIVE
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.sweep.engine import case_key
 from ehlectric.sweep.store import read_sweep
 
 CASE = dict(DRIVE.changed({"drive.duration": "1 ms", "remedies": None}).table)
@@ -26,13 +25,13 @@ TABLE = {
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     place = str(tmp_path_factory.mktemp("sweep") / "out")
-    found = sweep.solved(TABLE, place, 1, lambda *_: None)
+    found = sweep_answers.solved(TABLE, place, 1, lambda *_: None)
     assert found["solved"] == 4
     return place
 
 
 def test_first_inputs_and_results():
-    found = sweep.choices(CASE)
+    found = sweep_answers.choices(CASE)
     assert found.kind == "drive"
     assert [one.key for one in found.variables[:3]] == [
         "drive.speed",
@@ -49,29 +48,29 @@ def test_first_inputs_and_results():
 
 
 def test_bearings_that_differ_have_keys_of_their_own():
-    keys = {one.key for one in sweep.choices({**CASE, "non_drive_end": OTHER}).variables}
+    keys = {one.key for one in sweep_answers.choices({**CASE, "non_drive_end": OTHER}).variables}
     assert {"drive_end.bearing.radial_load", "non_drive_end.bearing.radial_load"} <= keys
     assert not any(key.startswith("bearings.") for key in keys)
 
 
 def test_offered_ranges_are_valid():
-    offered = sweep.choices(CASE).variables
+    offered = sweep_answers.choices(CASE).variables
     assert len(offered) > 20
     for one in offered:
         asked = with_ranges(Inputs({"case": CASE}), [Range(one.key, one.low, one.high, 2)])
-        assert sweep.sweep_of(dict(asked.table)).size == 2
+        assert sweep_answers.sweep_of(dict(asked.table)).size == 2
 
 
 def test_the_size_is_told_before_the_run():
-    found = sweep.planned(TABLE, 1)
+    found = sweep_answers.planned(TABLE, 1)
     assert (found.points, found.refused, found.seconds) == (4, 0, None)
 
 
 @pytest.mark.slow
 def test_every_offered_result_has_a_value(folder):
     results = read_sweep(folder)
-    for key in sweep.choices(CASE).values:
-        view = sweep_view.seen(folder, key, TABLE)
+    for key in sweep_answers.choices(CASE).values:
+        view = sweep_answers.seen(folder, key, TABLE)
         assert view is not None
         assert len(view.chart.points) == 4
     assert results.values("drive_end.peak_voltage").min() > 0.0
@@ -82,7 +81,7 @@ def test_the_link_of_a_point_is_its_case(folder):
     results = read_sweep(folder)
     base = DriveCase.from_written(CASE)
     for number, one in enumerate(results.points):
-        found = sweep.point(folder, TABLE, number)
+        found = sweep_answers.point(folder, TABLE, number)
         assert found.path == "/drive"
         table = Inputs.of_query(parse_qsl(found.query)).table
         assert "bearings" not in table

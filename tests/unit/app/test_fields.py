@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 
 from ehlectric.app.catalogue import choices
 from ehlectric.app.fields import BEARING_GROUPS, Field
-from ehlectric.app.inputs import Inputs
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.any_case import case_of_dict
+from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import input_field, number_of
-from ehlectric.cases.library.grade import GRADES
+from ehlectric.lubricant.data_sheet import GRADES
 from ehlectric.quantities import units
 from ehlectric.quantities.units import in_unit, si_unit
 from ehlectric.runs.example_files import example_text

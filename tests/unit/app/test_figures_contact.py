@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
-from ehlectric.app.compute.contact import view_of
-from ehlectric.app.figures.cuts import point_cuts
-from ehlectric.app.figures.line import line_figures
-from ehlectric.app.figures.look import values
-from ehlectric.app.figures.point import point_figures, reach_of
+from ehlectric.app.compute.contact_answers import view_of
+from ehlectric.app.figures.charts import values
+from ehlectric.app.figures.line_charts import line_figures
+from ehlectric.app.figures.point_charts import point_cuts, point_figures, reach_of
 from ehlectric.contact.solver import solve
-from ehlectric.figures.contact.profiles import Line, heat
+from ehlectric.figures.contact_profiles import Line, heat
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.hot_cases import HOT_LINE
 from tests.helpers.places import EXAMPLES
@@ -133,7 +132,7 @@ _MAPS = ("film-map", "pressure-map", "field-map")
 
 
 def test_thinned_surface_keeps_smallest_film_and_largest_field(point, monkeypatch):
-    monkeypatch.setattr("ehlectric.app.figures.rotated._MOST", 12)
+    monkeypatch.setattr("ehlectric.app.figures.point_charts._MOST", 12)
     shown = by_name(point_figures(point))["surface"]
     surface = written(shown)["data"][0]
     gap = point.field.z[:, :, -1] - point.field.z[:, :, 0]

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ehlectric.app.inputs import LONGEST_QUERY, History, Inputs
+from ehlectric.app.page_inputs import LONGEST_QUERY, History, Inputs
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
@@ -157,7 +157,7 @@ def test_changes_within_a_step_are_undone_together():
 
 def test_a_drag_is_one_step_until_it_pauses(monkeypatch):
     now = 100.0
-    monkeypatch.setattr("ehlectric.app.inputs.time.monotonic", lambda: now)
+    monkeypatch.setattr("ehlectric.app.page_inputs.time.monotonic", lambda: now)
     history = History(Inputs({"a": 0}))
 
     def drag(key, value):
@@ -179,5 +179,5 @@ def test_a_drag_is_one_step_until_it_pauses(monkeypatch):
 
 
 def test_the_process_of_the_server_loads_no_physics_for_the_inputs():
-    code = "import sys; import ehlectric.app.inputs; assert 'numpy' not in sys.modules"
+    code = "import sys; import ehlectric.app.page_inputs; assert 'numpy' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -5,9 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from ehlectric.app.compute import motion
-from ehlectric.app.figures.motion import instants, nodes_shown
-from ehlectric.app.figures.over_time import history
+from ehlectric.app.compute import motion_answers
+from ehlectric.app.figures.motion_charts import history, instants, nodes_shown
 from ehlectric.cases.case import Case
 from ehlectric.errors import InputError
 from ehlectric.motion.result import MotionResult
@@ -30,7 +29,7 @@ def solved(request, tmp_path_factory):
     """Answer of a run, and the run that was stored."""
     folder = tmp_path_factory.mktemp(request.param)
     table = TABLES[request.param]
-    answer = motion.run(table, str(folder), silent)
+    answer = motion_answers.run(table, str(folder), silent)
     (place,) = folder.glob("motion-*")
     return answer, MotionResult.of(read_motion(place)), table, folder
 
@@ -93,8 +92,8 @@ def test_history_meets_the_recorded_instants(solved):
 @pytest.mark.slow
 def test_stored_motion_is_read_again(solved):
     answer, _, table, folder = solved
-    assert motion.stored(table, str(folder)) == answer
-    assert motion.stored(table | {"title": "other"}, str(folder)) is None
+    assert motion_answers.stored(table, str(folder)) == answer
+    assert motion_answers.stored(table | {"title": "other"}, str(folder)) is None
 
 
 @pytest.mark.slow
@@ -106,12 +105,12 @@ def test_a_stopped_run_is_shown_as_incomplete_and_resumed(tmp_path):
             raise StoppedError
 
     with pytest.raises(StoppedError):
-        motion.run(table, str(tmp_path), stop)
-    part = motion.stored(table, str(tmp_path))
+        motion_answers.run(table, str(tmp_path), stop)
+    part = motion_answers.stored(table, str(tmp_path))
     assert not part.complete
     assert 1 < len(part.times) < 9
     done = []
-    whole = motion.run(table, str(tmp_path), lambda done_, _of, text: done.append((done_, text)))
+    whole = motion_answers.run(table, str(tmp_path), lambda done_, _of, text: done.append((done_, text)))
     assert whole.complete
     assert min(number for number, text in done if text == "time steps") >= 6
 
@@ -121,7 +120,7 @@ def test_runs_of_other_inputs_are_removed(tmp_path):
     for height in ("20 nm", "30 nm"):
         rough = [LINE["roughness"][0] | {"height": height}]
         table = TABLES["line"] | {"roughness": rough, "motion": {"passes": 0.1, "steps": 2, "record": 2}}
-        motion.run(table, str(tmp_path), silent)
+        motion_answers.run(table, str(tmp_path), silent)
     assert len(list(tmp_path.glob("motion-*"))) == 1
 
 
@@ -139,8 +138,8 @@ def test_halved_steps_are_marked(solved):
 @pytest.mark.slow
 def test_many_instants_are_thinned_with_the_extremes(solved, monkeypatch):
     _, run, _, _ = solved
-    monkeypatch.setattr("ehlectric.app.figures.motion.MOST_INSTANTS", 5)
-    monkeypatch.setattr("ehlectric.app.figures.motion.MOST_INSTANTS_OF_MAPS", 5)
+    monkeypatch.setattr("ehlectric.app.figures.motion_charts.MOST_INSTANTS", 5)
+    monkeypatch.setattr("ehlectric.app.figures.motion_charts.MOST_INSTANTS_OF_MAPS", 5)
     chosen = instants(run)
     assert chosen.size <= 5
     assert int(np.argmax(run.values("max_strength"))) in chosen
@@ -149,5 +148,5 @@ def test_many_instants_are_thinned_with_the_extremes(solved, monkeypatch):
 def test_a_case_without_motion_is_refused(tmp_path):
     table = {key: value for key, value in LINE.items() if key != "motion"}
     with pytest.raises(InputError, match="motion: missing"):
-        motion.run(table, str(tmp_path), silent)
+        motion_answers.run(table, str(tmp_path), silent)
     assert Case.from_dict(table).motion is None

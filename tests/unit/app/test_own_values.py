@@ -5,14 +5,13 @@ import tomllib
 import pytest
 
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.bearing import OIL
-from ehlectric.app.fields.contact import groups_of
-from ehlectric.app.fields.defaults import default_of
-from ehlectric.app.fields.memory import Memory
-from ehlectric.app.fields.oil import EXPANSION, assumed
-from ehlectric.app.fields.rules import changed
-from ehlectric.app.inputs import Inputs
-from ehlectric.cases.any_case import case_of_dict
+from ehlectric.app.fields.bearing_fields import OIL
+from ehlectric.app.fields.contact_fields import groups_of
+from ehlectric.app.fields.field_defaults import default_of
+from ehlectric.app.fields.field_rules import Memory, changed
+from ehlectric.app.fields.oil_fields import EXPANSION, assumed
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.quantities.units import to_si
 from ehlectric.runs.example_files import example_text
 from tests.helpers.each import each

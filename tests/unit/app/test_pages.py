@@ -7,8 +7,8 @@ import time
 import pytest
 from nicegui import Client
 
-from ehlectric.app import junk, server
-from ehlectric.app.quotas import MOST_PAGES
+from ehlectric.app import security, server
+from ehlectric.app.security import MOST_PAGES
 
 
 class Page:
@@ -49,6 +49,6 @@ def test_an_error_of_the_program_keeps_its_traceback():
             exec(compile(code, f"/packages/{first}", "exec"))
         except ZeroDivisionError:
             record = logging.LogRecord("asyncio", logging.ERROR, "", 0, "two\nlines", (), sys.exc_info())
-        assert junk._OneLine().filter(record)
+        assert security._OneLine().filter(record)
         assert (record.exc_info is None) == ("engineio" in last)
         assert ("\n" in record.getMessage()) == ("engineio" not in last)

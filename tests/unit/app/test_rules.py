@@ -6,9 +6,9 @@ import pytest
 
 from ehlectric.app.catalogue import choices
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.rules import changed, own_values
-from ehlectric.app.inputs import Inputs
-from ehlectric.cases.any_case import case_of_dict
+from ehlectric.app.fields.field_rules import changed, own_values
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import ONLY
 from ehlectric.runs.example_files import example_text

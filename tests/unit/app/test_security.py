@@ -7,9 +7,14 @@ from http.cookies import SimpleCookie
 import pytest
 from starlette.exceptions import HTTPException
 
-from ehlectric.app.policy import with_policy
-from ehlectric.app.quotas import with_bounded_bodies, with_bounded_pages
-from ehlectric.app.security import Guard, is_any, is_loopback
+from ehlectric.app.security import (
+    Guard,
+    is_any,
+    is_loopback,
+    with_bounded_bodies,
+    with_bounded_pages,
+    with_policy,
+)
 from tests.helpers.each import each
 
 LOCAL = Guard("127.0.0.1", 8080)

@@ -7,10 +7,9 @@ import tempfile
 
 import pytest
 
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.scratch import Scratch, clear_left_behind
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.session import Session
-from ehlectric.app.work import Work
+from ehlectric.app.work import Scratch, Work, clear_left_behind
 from ehlectric.errors import LostError
 
 
@@ -63,7 +62,7 @@ def test_closed_work_leaves_no_folder(temporary):
 
 
 def test_folders_of_servers_that_were_killed_are_removed(temporary):
-    code = "import os; from ehlectric.app.scratch import Scratch; Scratch().new(); os._exit(1)"
+    code = "import os; from ehlectric.app.work import Scratch; Scratch().new(); os._exit(1)"
     subprocess.run([sys.executable, "-c", code], env=os.environ | {"TMPDIR": str(temporary)}, check=False)
     running = Scratch()
     other = temporary / "ehlectric-app-of-something-else"

@@ -8,9 +8,9 @@ import pytest
 from typer.testing import CliRunner
 
 from ehlectric import Case, solve
-from ehlectric.app.compute.surface import look
-from ehlectric.app.figures.surface import line_figure, map_figure
-from ehlectric.app.figures.thinning import coarser
+from ehlectric.app.compute.surface_answers import look
+from ehlectric.app.figures.charts import coarser
+from ehlectric.app.figures.surface_charts import line_figure, map_figure
 from ehlectric.app.roughness_keys import (
     FILE_KEYS,
     FIRST_VALUES,
@@ -19,9 +19,9 @@ from ehlectric.app.roughness_keys import (
     PLACE_KEYS,
     STEP_KEYS,
 )
-from ehlectric.app.uploads import new_file, own_file, shown_name, stored_name
-from ehlectric.cases.roughness import GENERATORS, Roughness
-from ehlectric.commands.app import app
+from ehlectric.app.session import new_file, own_file, shown_name, stored_name
+from ehlectric.cases.roughness_inputs import GENERATORS, Roughness
+from ehlectric.commands.command_line import app
 from ehlectric.errors import InputError
 from ehlectric.surfaces.maps import Map
 from tests.helpers.each import each

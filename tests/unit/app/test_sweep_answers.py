@@ -9,18 +9,16 @@ from urllib.parse import parse_qsl
 
 import pytest
 
-from ehlectric.app.answers.calls import SWEEP_SOLVED
-from ehlectric.app.compute import sweep, sweep_view
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.starts import SWEEP, start
-from ehlectric.app.ranges import Range, with_ranges
+from ehlectric.app.calls import SWEEP_SOLVED
+from ehlectric.app.compute import sweep_answers
+from ehlectric.app.page_inputs import Inputs, Range, with_ranges
+from ehlectric.app.pages.frame import SWEEP, start
 from ehlectric.app.work import Limits, Work
-from ehlectric.cases.any_case import case_of_dict
+from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import kind_of, unit_of
 from ehlectric.errors import CODES, InputError
 from ehlectric.runs.by_kind import read_sweep_file, run_sweep
-from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.plan import case_key
+from ehlectric.sweep.engine import case_key, solve_point
 from ehlectric.sweep.store import read_sweep
 from tests.helpers.each import each
 
@@ -45,7 +43,7 @@ def silent(_done, _of, _text):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "sweep"
-    sweep.solved(TABLE, str(path), 1, silent)
+    sweep_answers.solved(TABLE, str(path), 1, silent)
     return path
 
 
@@ -84,7 +82,7 @@ def test_resume_solves_only_the_missing_point(folder, tmp_path):
             return dict(file.execute("SELECT key, date FROM results"))
 
     kept, told = dates(again), []
-    sweep.solved(TABLE, str(again), 1, lambda done, of, _: told.append((done, of)))
+    sweep_answers.solved(TABLE, str(again), 1, lambda done, of, _: told.append((done, of)))
     # Points that are refused or failed are done.
     assert told[0] == (3, 4)
     assert told[-1] == (4, 4)
@@ -122,7 +120,7 @@ def test_a_stopped_job_resumes_without_solving_a_point_twice(tmp_path):
 
 @pytest.mark.slow
 def test_a_refused_point_has_its_reason_and_no_number(folder):
-    view = sweep_view.seen(str(folder), "bearing.first_break", TABLE)
+    view = sweep_answers.seen(str(folder), "bearing.first_break", TABLE)
     assert view.counts == {"solved": 1, "failed": 3}
     refused = [point for point in view.chart.points if point.state == "failed"]
     assert [point.value for point in refused] == [None, None, None]
@@ -144,22 +142,22 @@ def test_a_refused_point_has_its_reason_and_no_number(folder):
     ids=["order", "range", "case"],
 )
 def test_a_folder_with_another_sweep_is_not_shown_as_the_one_that_is_asked_for(folder, other):
-    assert sweep_view.seen(str(folder), "bearing.first_break", TABLE) is not None
-    assert sweep_view.seen(str(folder), "bearing.first_break", other) is None
+    assert sweep_answers.seen(str(folder), "bearing.first_break", TABLE) is not None
+    assert sweep_answers.seen(str(folder), "bearing.first_break", other) is None
     with pytest.raises(InputError, match="replaced by another"):
-        sweep.point(str(folder), other, 0)
+        sweep_answers.point(str(folder), other, 0)
 
 
 @pytest.mark.slow
 def test_warnings_of_a_map_have_no_codes(folder):
-    told = sweep_view.seen(str(folder), "bearing.first_break", TABLE).warnings
+    told = sweep_answers.seen(str(folder), "bearing.first_break", TABLE).warnings
     assert told
     assert not any(code in one.text for one in told for code in CODES if "-" in code)
 
 
 @pytest.mark.slow
 def test_the_map_has_the_numbers_of_the_summaries(folder):
-    view, results = sweep_view.seen(str(folder), "bearing.capacitance", TABLE), read_sweep(folder)
+    view, results = sweep_answers.seen(str(folder), "bearing.capacitance", TABLE), read_sweep(folder)
     factor = {"Capacitance of the bearing [pF]": 1e12, "Capacitance of the bearing [nF]": 1e9}[
         view.chart.title
     ]
@@ -179,9 +177,9 @@ def test_links_reproduce_the_results_of_the_points_exactly(folder):
     for point in results.points:
         if point.number > 1:
             with pytest.raises(InputError, match=r"bearing\.bore"):
-                sweep.point(str(folder), TABLE, point.number)
+                sweep_answers.point(str(folder), TABLE, point.number)
             continue
-        link = sweep.point(str(folder), TABLE, point.number)
+        link = sweep_answers.point(str(folder), TABLE, point.number)
         table = Inputs.of_query(parse_qsl(link.query)).table
         assert link.path == "/"
         assert table["bearing"]["temperature"] == "70 degC"
@@ -205,8 +203,8 @@ def test_a_point_has_the_unit_of_its_range_where_that_has_the_same_number(key, e
     """Exact: a text that reads back as another float would be another case."""
     _, name = key.split(".")
     vary = {"bearing": {name: {"from": ends[0], "to": ends[1], "count": count}}}
-    asked, unit = sweep.sweep_of({"case": CASE, "vary": vary}), ends[0].partition(" ")[2]
-    texts = [sweep._text(key, value, unit) for value in asked.axes[key]]
+    asked, unit = sweep_answers.sweep_of({"case": CASE, "vary": vary}), ends[0].partition(" ")[2]
+    texts = [sweep_answers._text(key, value, unit) for value in asked.axes[key]]
     assert [kind_of(key).parse(text, written=True) for text in texts] == list(asked.axes[key])
     assert texts[0] == ends[0]
     assert texts[-1] == ends[1]
@@ -218,36 +216,36 @@ def test_a_link_has_the_varied_load_and_not_the_pressure_that_it_replaces():
     contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": "4 m/s"}
     table = {"contact": contact | {"max_hertz_pressure": "1 GPa"}, "lubricant": {"base": "paper"}}
     case, inputs = case_of_dict(table, written=True), {"contact.load_per_length": 1.234567890123e6}
-    found = Inputs.of_query(parse_qsl(Inputs(sweep.point_table(case, table, inputs)).address())).table
+    found = Inputs.of_query(parse_qsl(Inputs(sweep_answers.point_table(case, table, inputs)).address())).table
     assert "max_hertz_pressure" not in found["contact"]
     assert case_key(case_of_dict(found, written=True)) == case_key(case.replace(inputs))
 
 
 def test_the_size_is_told_before_the_run():
-    found = sweep.planned(TABLE, 1)
+    found = sweep_answers.planned(TABLE, 1)
     assert (found.points, found.refused, found.corners) == (4, 2, 4)
     assert "bearing.bore" in found.reason
     assert found.seconds > 0.0
 
 
 def test_the_first_inputs_can_run():
-    found = sweep.choices(CASE)
+    found = sweep_answers.choices(CASE)
     assert [one.key for one in found.variables[:2]] == ["bearing.inner_speed", "bearing.radial_load"]
-    assert sweep.sweep_of(dict(SWEEP.table)).size == 64
+    assert sweep_answers.sweep_of(dict(SWEEP.table)).size == 64
 
 
 def test_a_bearing_with_a_motor_is_ranked_by_its_margin_on_its_page_too():
     """Its map shows what the capacitances of the motor change; without a motor there is no margin."""
     alone = {name: table for name, table in CASE.items() if name != "motor"}
-    assert list(sweep.choices(CASE).values)[:2] == ["bearing.margin", "bearing.first_break"]
-    assert next(iter(sweep.choices(alone).values)) == "bearing.first_break"
+    assert list(sweep_answers.choices(CASE).values)[:2] == ["bearing.margin", "bearing.first_break"]
+    assert next(iter(sweep_answers.choices(alone).values)) == "bearing.first_break"
 
 
 def test_a_line_of_margins_is_compared_with_one(tmp_path):
     vary = {"motor": {"winding_rotor_capacitance": ["5 pF", "20 pF"]}}
     table = {"case": CASE, "vary": vary}
-    sweep.solved(table, str(tmp_path / "sweep"), 1, silent)
-    chart = sweep_view.seen(str(tmp_path / "sweep"), "bearing.margin", table).chart
+    sweep_answers.solved(table, str(tmp_path / "sweep"), 1, silent)
+    chart = sweep_answers.seen(str(tmp_path / "sweep"), "bearing.margin", table).chart
     low, high = chart.points
     assert low.value > 2.0 * high.value
     assert (low.voltage, high.voltage) == (1.0, 1.0)
@@ -257,11 +255,11 @@ def test_a_line_of_margins_is_compared_with_one(tmp_path):
 @pytest.mark.parametrize("name", ["bearing_6208", "discharge", "oil_contact"])
 def test_offered_ranges_are_valid(name):
     table = dict(start(name).table)
-    offered = sweep.choices(table).variables
+    offered = sweep_answers.choices(table).variables
     assert len(offered) > 5
     for one in offered:
         asked = with_ranges(Inputs({"case": table}), [Range(one.key, one.low, one.high, 2)])
-        assert sweep.sweep_of(dict(asked.table)).size == 2
+        assert sweep_answers.sweep_of(dict(asked.table)).size == 2
 
 
 @pytest.mark.parametrize(
@@ -277,14 +275,14 @@ def test_offered_ranges_are_valid(name):
 )
 def test_ranges_that_are_refused(vary, says):
     with pytest.raises(InputError, match=says):
-        sweep.planned({"case": CASE, "vary": vary}, 1)
+        sweep_answers.planned({"case": CASE, "vary": vary}, 1)
 
 
 def test_files_of_this_machine_are_not_read():
     with pytest.raises(InputError, match=r"^case: "):
-        sweep.sweep_of({"case": "/etc/passwd", "vary": VARY})
+        sweep_answers.sweep_of({"case": "/etc/passwd", "vary": VARY})
     with pytest.raises(InputError, match=r"case\.roughness\.1\.file.*uploaded"):
-        sweep.sweep_of({"case": {**CASE, "roughness": [{"file": "/etc/passwd"}]}, "vary": VARY})
+        sweep_answers.sweep_of({"case": {**CASE, "roughness": [{"file": "/etc/passwd"}]}, "vary": VARY})
 
 
 @pytest.mark.slow
@@ -292,5 +290,5 @@ def test_tables_of_an_unfinished_sweep_can_be_downloaded(folder, tmp_path):
     again = tmp_path / "sweep"
     again.mkdir()
     shutil.copy(folder / "sweep.sqlite", again)
-    assert {"sweep.sqlite", "sweep.csv", "sweep.nc"} <= set(sweep.files(str(again)))
+    assert {"sweep.sqlite", "sweep.csv", "sweep.nc"} <= set(sweep_answers.files(str(again)))
     assert (again / "sweep.csv").read_bytes() == (folder / "sweep.csv").read_bytes()

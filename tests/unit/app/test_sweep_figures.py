@@ -2,8 +2,8 @@
 
 import json
 
-from ehlectric.app.answers.sweep import Axis, Chart, ChartPoint
-from ehlectric.app.figures.sweep import chosen_trace, figure_of, place
+from ehlectric.app.answers import Axis, Chart, ChartPoint
+from ehlectric.app.figures.sweep_charts import chosen_trace, figure_of, place
 from tests.helpers.each import each
 
 STATES = ("failed", "not converged", "do not use", "no value", "open")

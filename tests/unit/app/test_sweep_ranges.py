@@ -3,9 +3,8 @@
 import tomllib
 from dataclasses import replace
 
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.starts import BEARING, SWEEP
-from ehlectric.app.ranges import (
+from ehlectric.app.page_inputs import (
+    Inputs,
     Range,
     case_of_link,
     lists_of,
@@ -14,7 +13,8 @@ from ehlectric.app.ranges import (
     sweep_inputs,
     with_ranges,
 )
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.app.pages.frame import BEARING, SWEEP
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
 
 

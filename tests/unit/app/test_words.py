@@ -6,10 +6,10 @@ import tomllib
 import pytest
 
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.words import in_field_unit, shown_text, written_text
-from ehlectric.app.inputs import Inputs
+from ehlectric.app.fields.field import in_field_unit, shown_text, written_text
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.cases.amounts import Amount
-from ehlectric.cases.any_case import case_of_dict
+from ehlectric.cases.drive_case import case_of_dict
 from ehlectric.cases.input_keys import input_field, number_of
 from ehlectric.errors import InputError
 from ehlectric.quantities.units import in_unit, printed, si_unit

@@ -5,20 +5,23 @@ import pytest
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.bearing.accuracy import film_error
-from ehlectric.bearing.breakdown import breakdown_of
-from ehlectric.bearing.kinds import kind_of
-from ehlectric.bearing.quick.by_atlas import _around_ball, _around_roller, _edge, _integral
-from ehlectric.bearing.quick.dry import quick_solutions
-from ehlectric.bearing.quick.ways import quick_case
-from ehlectric.bearing.solution import capacitance
-from ehlectric.bearing.solving.contacts_and_circuit import solution_of
+from ehlectric.bearing.bearing_discharges import breakdown_of
+from ehlectric.bearing.bearing_kinds import kind_of
+from ehlectric.bearing.quick_contacts import (
+    _around_ball,
+    _around_roller,
+    _edge,
+    _integral,
+    quick_case,
+    quick_solutions,
+)
+from ehlectric.bearing.solution import capacitance, film_error
+from ehlectric.bearing.solving import solution_of
 from ehlectric.bearing.warnings import bearing_warnings
-from ehlectric.cases.bearings.ways import quick_way
+from ehlectric.cases.defaults import quick_way
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.contact import contact_film
-from ehlectric.formulas.hertz_line import line_gap
-from ehlectric.formulas.hertz_point import dry_contact, point_deflection
+from ehlectric.film.atlas.atlas_films import contact_film
+from ehlectric.formulas.hertz import dry_contact, line_gap, point_deflection
 from tests.helpers.bearings import (
     BALLS,
     ROLLERS,

@@ -8,11 +8,9 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
-from ehlectric.bearing.gaps.groove import LoadedContact, outside_capacitance
-from ehlectric.bearing.gaps.raceway import Raceway
-from ehlectric.bearing.gaps.roller import RollerRaceway, roller_tails
-from ehlectric.bearing.quick.dry import _unit_opening
-from ehlectric.formulas.hertz_point import DryContact, axis_ratio, dry_contact, point_deflection
+from ehlectric.bearing.gaps import LoadedContact, Raceway, RollerRaceway, outside_capacitance, roller_tails
+from ehlectric.bearing.quick_contacts import _unit_opening
+from ehlectric.formulas.hertz import DryContact, axis_ratio, dry_contact, point_deflection
 from tests.helpers.bearings import (
     BALLS,
     ROLLERS,

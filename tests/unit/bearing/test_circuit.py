@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ehlectric.bearing.bearing_discharges import voltage_ratio
 from ehlectric.bearing.circuit import Circuit, leaking_admittance
-from ehlectric.bearing.shaft_voltage import voltage_ratio
 from tests.helpers.each import each
 
 capacitances = st.floats(1e-12, 1e-9)

@@ -8,7 +8,7 @@ import pytest
 
 from ehlectric.bearing.loads.geometry import BallBearing
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
-from ehlectric.formulas.inlet_heating import inlet_shear_factor
+from ehlectric.formulas.inlet_supply import inlet_shear_factor
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_of, ring_of
 
 D, PITCH = 11.906e-3, 60e-3

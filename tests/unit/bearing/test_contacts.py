@@ -7,16 +7,21 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.bearing.contacts import ContactCurve, without_regime
-from ehlectric.bearing.gaps.groove import groove_capacitance, match_film, outside_capacitance
-from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
-from ehlectric.bearing.kinds import kind_of
-from ehlectric.bearing.ring_contacts import raceway_of
+from ehlectric.bearing.bearing_kinds import kind_of
+from ehlectric.bearing.gaps import (
+    RollerRaceway,
+    groove_capacitance,
+    match_film,
+    outside_capacitance,
+    roller_capacitance,
+    roller_tails,
+)
+from ehlectric.bearing.result import check_bearing
+from ehlectric.bearing.ring_contacts import ContactCurve, raceway_of, without_regime
 from ehlectric.bearing.solution import ring_state
-from ehlectric.bearing.solver import check_bearing
-from ehlectric.contact.resolve import resolve_point
+from ehlectric.contact.conditions import resolve_point
 from ehlectric.errors import ResultWarning
-from ehlectric.formulas.hertz_point import dry_contact
+from ehlectric.formulas.hertz import dry_contact
 from tests.helpers.bearings import (
     BALLS,
     ROLLERS,

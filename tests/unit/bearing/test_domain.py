@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from ehlectric import BearingCase, solve
-from ehlectric.bearing.domain import ball_grid, roller_grid
 from ehlectric.bearing.preparation import least_load
-from ehlectric.cases.grid import Grid
-from ehlectric.contact.resolve import resolve, resolve_point
+from ehlectric.bearing.ring_contacts import ball_grid, roller_grid
+from ehlectric.cases.grid_inputs import Grid
+from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.formulas.film_line import LineContact, moes
 from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
-from ehlectric.formulas.hertz_point import dry_contact
+from ehlectric.formulas.hertz import dry_contact
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_case, contact_of, ring_of
 from tests.helpers.each import each
 from tests.helpers.oils import alpha_star

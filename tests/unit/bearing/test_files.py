@@ -9,10 +9,9 @@ import pytest
 import xarray as xr
 
 from ehlectric import InputError, load
-from ehlectric.bearing.files import CONTACTS, FILES, IMPEDANCE, NETCDF, SUMMARY, save
 from ehlectric.bearing.impedance import impedance_of
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing.run import CONTACTS, FILES, IMPEDANCE, NETCDF, SUMMARY, save
 from ehlectric.errors import ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 

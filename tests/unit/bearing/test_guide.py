@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from tests.helpers.bearings import ROLLERS, bearing_case
 from tests.helpers.places import ROOT
 

@@ -6,7 +6,7 @@ import tomli_w
 from typer.testing import CliRunner
 
 from ehlectric.bearing.impedance import impedance_of, oil_relaxation_time
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from tests.unit.figures.bearing.test_save import TABLE, by_hand
 
 
@@ -45,7 +45,7 @@ def test_the_impedance_of_an_earlier_bearing_is_taken_away(monkeypatch, tmp_path
     file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
     for changes, there in (({}, True), ({"discharge": None}, False)):
         result = by_hand(positions=1, **changes)
-        monkeypatch.setattr("ehlectric.bearing.files.solve_bearing", lambda *_, r=result, **__: r)
+        monkeypatch.setattr("ehlectric.bearing.run.solve_bearing", lambda *_, r=result, **__: r)
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(out), "-q", "--no-plots"])
         assert done.exit_code == 0, done.output
         assert (out / "impedance.csv").exists() == there

@@ -1,6 +1,6 @@
 """Warnings of inputs that a machine hardly has, and of inputs that stand for a range."""
 
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.warnings import input_warnings, library_viscosity
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each

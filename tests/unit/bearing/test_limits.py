@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from ehlectric import ConvergenceError, InputError
-from ehlectric.bearing.limits import check_film, shoulder_angle
-from ehlectric.bearing.loads.balls import ball_equilibrium
+from ehlectric.bearing.loads.ball_loads import ball_equilibrium
 from ehlectric.bearing.loads.ring import Operation
-from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
+from ehlectric.bearing.preparation import check_film, equilibria_of, resolve_bearing, shoulder_angle
+from ehlectric.bearing.result import check_bearing, solve_bearing
 from ehlectric.bearing.ring_contacts import RollerContact
-from ehlectric.bearing.solver import check_bearing, solve_bearing
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, ring_of
 from tests.helpers.each import each
 

@@ -6,11 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.contacts import ContactCurve
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts
 from ehlectric.bearing.solution import lambda_ratio, lubrication
-from ehlectric.bearing.solver import solve_bearing
 from tests.helpers.bearings import (
     BALLS,
     bearing_case,

@@ -6,16 +6,15 @@ import json
 import numpy as np
 import pytest
 
+from ehlectric.bearing.bearing_discharges import bearing_voltage_ratio
 from ehlectric.bearing.conditions import Solid
-from ehlectric.bearing.contacts import ContactCurve
 from ehlectric.bearing.impedance import oil_relaxation_time
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.shaft_voltage import bearing_voltage_ratio
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.solution import lambda_ratio, plate_capacitance
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.tables.bearing import total_rows
+from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of, with_values
 
 

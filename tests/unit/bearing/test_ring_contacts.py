@@ -5,13 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.gaps.groove import (
+from ehlectric.bearing.gaps import (
     LoadedContact,
+    Raceway,
+    RollerRaceway,
     groove_capacitance,
+    groove_gap,
     outside_capacitance,
+    roller_capacitance,
+    roller_tails,
 )
-from ehlectric.bearing.gaps.raceway import Raceway, groove_gap
-from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
 from ehlectric.bearing.ring_contacts import (
     BallContact,
     RollerContact,
@@ -19,7 +22,7 @@ from ehlectric.bearing.ring_contacts import (
     around_roller,
     raceway_of,
 )
-from ehlectric.formulas.hertz_point import dry_contact, point_deflection
+from ehlectric.formulas.hertz import dry_contact, point_deflection
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, rigid_capacitance, ring_of
 from tests.helpers.each import each
 from tests.helpers.oils import alpha_star

@@ -3,12 +3,12 @@
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.margin.sensitivity import _standard
+from ehlectric.bearing.margin import _standard
 from ehlectric.bearing.preparation import resolve_bearing
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.tables.bearing import input_rows
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.tables.bearing_tables import input_rows
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 

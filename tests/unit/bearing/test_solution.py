@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from ehlectric.bearing.contacts import ContactCurve
+from ehlectric.bearing.ring_contacts import ContactCurve
 from ehlectric.bearing.solution import ring_state
-from ehlectric.formulas.hertz_line import line_half_width, line_max_pressure
-from ehlectric.formulas.hertz_point import dry_contact
+from ehlectric.formulas.hertz import dry_contact, line_half_width, line_max_pressure
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, contact_solution, rigid_capacitance, ring_of
 
 FILM = 6e-7

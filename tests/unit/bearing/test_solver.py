@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.kinds import KINDS
+from ehlectric.bearing.bearing_kinds import KINDS
 from ehlectric.bearing.preparation import least_load
-from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.solver import check_bearing, solve_bearing
-from ehlectric.bearing.solving.contacts_and_circuit import POSITIONS
-from ehlectric.contact.resolve import resolve, resolve_point
+from ehlectric.bearing.result import BearingResult, check_bearing, solve_bearing
+from ehlectric.bearing.solving import POSITIONS
+from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.errors import MemoryLimitError
 from ehlectric.formulas.film_point import PointContact, chittenden
 from tests.helpers.bearings import (
@@ -144,7 +143,7 @@ def test_a_load_wider_than_the_balls_is_refused_before_anything_is_solved(contac
 @pytest.mark.parametrize(("tables", "size"), [(BALLS, "129 x 129"), (ROLLERS, "801")])
 def test_a_contact_beyond_the_memory_is_named(monkeypatch, tables, size):
     """By both that check and solve; the contact is one of the ring's, its grid no table of the file."""
-    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e6)
+    monkeypatch.setattr("ehlectric.contact.contact_memory.available_memory", lambda: 1e6)
     case = bearing_case(tables)
     for refused in (check_bearing, lambda case: solve_bearing(case, workers=1)):
         with pytest.raises(MemoryLimitError) as error:

@@ -5,7 +5,7 @@ import pytest
 from benchmarks.atlas_nodes import LINES, POINTS, groups_of
 from benchmarks.atlas_table import extend, fill_between, fill_beyond
 
-from ehlectric.film.atlas.groups import lubricant_coordinate
+from ehlectric.film.atlas.atlas_groups import lubricant_coordinate
 
 AXES = [np.linspace(0.0, 2.0, 5), np.linspace(0.0, 3.0, 9)]
 

@@ -5,7 +5,7 @@ import pytest
 from benchmarks.asperity_models import Compared, Surface, load_line, one_rough, time_line, two_rough
 from benchmarks.moving_asperities import POSED, standard_error, stored
 
-from ehlectric.formulas.asperities.spectrum import SpectralMoments
+from ehlectric.formulas.asperities import SpectralMoments
 from tests.helpers.places import ROOT
 
 MOMENTS = SpectralMoments(m0=1e-14, m2=2.2e-5, m4=1.5e5)

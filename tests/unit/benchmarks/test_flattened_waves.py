@@ -6,8 +6,8 @@ from benchmarks.flattened_waves import flattened, line_amplitude_ratio, point_am
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.formulas.asperities.spectrum import map_moments, profile_moments
-from ehlectric.surfaces import made_maps, made_profiles
+from ehlectric.formulas.asperities import map_moments, profile_moments
+from ehlectric.surfaces import generated_maps, generated_profiles
 from tests.helpers.places import ROOT
 
 RATIOS = [line_amplitude_ratio, point_amplitude_ratio]
@@ -69,7 +69,7 @@ def test_linear_in_the_heights(seed, factor):
 
 def test_flattening_takes_height_and_leaves_curvature():
     """Long waves carry the height, short ones the curvature: m0 falls far more than m4."""
-    made = made_profiles.self_affine(
+    made = generated_profiles.self_affine(
         rq=1e-7, hurst=0.8, rolloff_wavelength=1e-4, length=0.02, seed=1, shortest=2e-6
     )
     deformed = flattened(made.heights, made.spacing, lambda w: line_amplitude_ratio(w, 1e-4, 300.0, 10.0))
@@ -83,7 +83,7 @@ def test_flattening_takes_height_and_leaves_curvature():
 
 def test_map_of_one_wavelength():
     """All waves are short or all are long: the moments follow with the square of the ratio."""
-    made = made_maps.gaussian(rq=1e-7, correlation_length=1e-5, reach_x=3e-4, reach_y=3e-4, seed=1)
+    made = generated_maps.gaussian(rq=1e-7, correlation_length=1e-5, reach_x=3e-4, reach_y=3e-4, seed=1)
     spacing = (made.spacing_x, made.spacing_y)
     deformed = flattened(made.heights, spacing, lambda w: np.full_like(w, 0.3))
     one, two = (map_moments(z, *spacing).isotropic for z in (made.heights, deformed))

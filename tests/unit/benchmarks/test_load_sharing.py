@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import optimize
 
-from ehlectric.formulas.asperities.statistical import Summits
+from ehlectric.formulas.asperities import Summits
 
 ROUGH = Summits(density=2e11, radius=2e-6, height_deviation=100e-9)
 

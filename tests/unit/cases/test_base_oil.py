@@ -6,9 +6,9 @@ from typing import get_args
 import pytest
 
 from ehlectric import InputError
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.oils.temperature import OilTemperature
-from ehlectric.lubricant.estimates import BASE_OILS
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.oil_inputs import OilTemperature
+from ehlectric.lubricant.data_sheet import BASE_OILS
 
 SHEET = {
     "kinematic_viscosity_40": "32 mm^2/s",

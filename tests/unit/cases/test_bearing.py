@@ -11,12 +11,12 @@ from ehlectric import InputError
 from ehlectric.bearing.conditions import Solid
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
+from ehlectric.bearing.result import check_bearing, solve_bearing
 from ehlectric.bearing.solution import lambda_ratio
-from ehlectric.bearing.solver import check_bearing, solve_bearing
 from ehlectric.cases import library
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.formulas.film_point import hamrock_dowson
-from ehlectric.formulas.inlet_heating import inlet_shear_factor
+from ehlectric.formulas.inlet_supply import inlet_shear_factor
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed, contact_of, ring_of
 from tests.helpers.each import each
 

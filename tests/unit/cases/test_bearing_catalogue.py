@@ -6,12 +6,12 @@ from dataclasses import replace
 import pytest
 
 from ehlectric.bearing.loads import ratings
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.cases import library
-from ehlectric.cases.bearings.bearing import Bearing
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.cases.library.bearing_catalogue import bearing_catalogue, catalogue_bearing
-from ehlectric.cases.library.sources import KINDS, sources_of, weakest
+from ehlectric.cases.library.library_oils import KINDS, sources_of, weakest
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 

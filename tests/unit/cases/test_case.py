@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, solve
-from ehlectric.contact.case_warnings import line_case_warnings
-from ehlectric.contact.resolve import resolve
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.warnings import line_case_warnings
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 

@@ -6,7 +6,7 @@ import pytest
 from scipy.constants import epsilon_0
 
 from ehlectric.cases import library
-from ehlectric.cases.bearings.coating import Coating
+from ehlectric.cases.coating_inputs import Coating
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each

@@ -3,8 +3,8 @@
 import pytest
 
 from ehlectric import InputError
-from ehlectric.cases.drives.case import DriveCase
-from ehlectric.cases.drives.circuit import Circuit
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.drive_inputs import Circuit
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 

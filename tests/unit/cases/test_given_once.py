@@ -5,8 +5,7 @@ import math
 import pytest
 
 from ehlectric import Case
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.oils.resolution import depends_on_temperature
+from ehlectric.cases.case_oil import Lubricant, depends_on_temperature
 from ehlectric.contact.check import check_case
 from tests.helpers.each import each
 

@@ -96,7 +96,7 @@ def test_the_error_that_was_asked_for_is_reached_and_said(tables, asked):
 
 def test_a_rough_grid_that_needs_too_many_nodes_says_so(monkeypatch):
     """The roughness of noise is never resolved, so its refinement ends after some grids."""
-    monkeypatch.setattr("ehlectric.contact.refinement._MOST_DOUBLED_ROUGH", {"line": 1})
+    monkeypatch.setattr("ehlectric.contact.contact_refinement._MOST_DOUBLED_ROUGH", {"line": 1})
     result = solve(
         Case.from_dict({**LINE, "roughness": [WAVE], "grid": {"error": 1e-4}}), beside_smooth=False
     )

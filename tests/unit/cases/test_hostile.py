@@ -7,22 +7,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ehlectric
-from ehlectric.cases import depth, table
+from ehlectric.cases import key_names, table
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.case import Case
-from ehlectric.cases.depth import MOST_DEEP, refuse_deep, refuse_long_keys
-from ehlectric.cases.library.grade import Grade
+from ehlectric.cases.key_names import MOST_DEEP, refuse_deep, refuse_long_keys
+from ehlectric.cases.library.library_oils import Grade
 from ehlectric.cases.table import nearest, read_toml
 from ehlectric.errors import InputError
-from ehlectric.figures.names import _OF_UNIT
+from ehlectric.figures.figure_names import _OF_UNIT
 from ehlectric.quantities import units
 from ehlectric.quantities.units import ROTATION, length_unit
-from ehlectric.runs import folders
-from ehlectric.runtime.tables import _FORMULA
-from ehlectric.runtime.tables import _NUMBER as _NUMBER_OF_CELL
-from ehlectric.surfaces import text_files
-from ehlectric.surfaces.files import read_surface
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.runs import result_folders
+from ehlectric.runtime.files import _FORMULA
+from ehlectric.runtime.files import _NUMBER as _NUMBER_OF_CELL
+from ehlectric.surfaces import surface_files
+from ehlectric.surfaces.surface_files import read_surface
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
 
 CASE = {
@@ -142,18 +142,18 @@ PATTERNS = {
     "exponent": units._EXPONENT.findall,
     "superscript": units._SUPERSCRIPT.findall,
     "comma": units._COMMA.fullmatch,
-    "token": depth._TOKENS.findall,
+    "token": key_names._TOKENS.findall,
     "place": table._PLACE.findall,
     "quoted": table._QUOTED.findall,
     "comma number": table._COMMA_NUMBER.findall,
     "unit number": table._UNIT_NUMBER.findall,
-    "point number": text_files._NUMBER["."].fullmatch,
-    "decimal comma number": text_files._NUMBER[","].fullmatch,
-    "spaced number": text_files._SPACED_NUMBER.fullmatch,
-    "pair": text_files._WHOLE_PAIR.fullmatch,
-    "single": text_files._SINGLE.fullmatch,
-    "brackets": text_files._BRACKETED.findall,
-    "bracketed fields": text_files._BRACKETED_FIELDS.fullmatch,
+    "point number": surface_files._NUMBER["."].fullmatch,
+    "decimal comma number": surface_files._NUMBER[","].fullmatch,
+    "spaced number": surface_files._SPACED_NUMBER.fullmatch,
+    "pair": surface_files._WHOLE_PAIR.fullmatch,
+    "single": surface_files._SINGLE.fullmatch,
+    "brackets": surface_files._BRACKETED.findall,
+    "bracketed fields": surface_files._BRACKETED_FIELDS.fullmatch,
     "number of a unit": _OF_UNIT.findall,
     "csv": _FORMULA.match,
     "number of a csv": _NUMBER_OF_CELL.fullmatch,
@@ -204,7 +204,7 @@ def test_the_time_of_a_regular_expression_grows_with_the_length_of_the_text(sear
 def test_names_of_files_of_maps_are_recognised_soon():
     name = ("map_" + "_at_=" * 60)[:255]
     began = time.thread_time()
-    assert folders._MAP.fullmatch(name) is None
+    assert result_folders._MAP.fullmatch(name) is None
     assert time.thread_time() - began < SOON
 
 

@@ -3,12 +3,12 @@
 import pytest
 
 from ehlectric import InputError
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
 from ehlectric.cases.input_keys import TABLES, describe, descriptions, input_field
 from ehlectric.cases.table import Table, table_of
 from ehlectric.quantities.inputs import form
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
 
 # Keys of the forms of the app, without the title, which stands in no table.

@@ -9,8 +9,8 @@ import pint
 import pytest
 
 from ehlectric import BearingCase, Case, InputError, LineCase, PointCase
-from ehlectric.cases.bearings.bearing import Bearing, BearingKeys
-from ehlectric.cases.contact import Contact, LineKeys, PointKeys
+from ehlectric.cases.bearing_inputs import Bearing, BearingKeys
+from ehlectric.cases.contact_inputs import Contact, LineKeys, PointKeys
 from ehlectric.cases.keywords import keys_of
 from ehlectric.quantities.alternatives import ONLY
 from tests.helpers.each import each

@@ -7,13 +7,10 @@ import pytest
 
 import ehlectric
 from ehlectric import InputError
-from ehlectric.cases.library.oils import library_oil, library_oils
-from ehlectric.cases.oils.known import known_oil
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.oils.named import named_oil
-from ehlectric.cases.oils.properties import Properties
-from ehlectric.cases.oils.report import oil_report
-from ehlectric.cases.oils.survey import PROPERTIES, usual_temperatures
+from ehlectric.cases.case_oil import Lubricant, known_oil, named_oil
+from ehlectric.cases.library.library_oils import library_oil, library_oils
+from ehlectric.cases.oil_inputs import Properties
+from ehlectric.cases.oil_report import PROPERTIES, oil_report, usual_temperatures
 from tests.helpers.each import each
 
 COMPLETE = [oil.name for oil in library_oils() if not oil.needs]

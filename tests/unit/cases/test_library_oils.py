@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.cases.library.oils import library_oil, library_oils
-from ehlectric.cases.library.sources import sources_of
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.lubricant.viscosity_index import GRADE_WIDTH, grade_middle
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.library.library_oils import library_oil, library_oils, sources_of
+from ehlectric.lubricant.data_sheet import GRADE_WIDTH, grade_middle
 from tests.helpers.each import each
 
 # What a case gives for an oil that lacks it: values of similar oils.

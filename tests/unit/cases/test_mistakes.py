@@ -5,8 +5,8 @@ import tomllib
 import pytest
 
 from ehlectric import Case, DriveCase, InputError
-from ehlectric.cases.aliases import ALIASES
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.key_names import ALIASES
 from ehlectric.cases.table import nearest_key
 from tests.helpers.places import EXAMPLES
 

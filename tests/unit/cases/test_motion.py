@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, InputError, solve
-from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.runs.by_kind import run_motion
 from ehlectric.runs.meaning import check
 from tests.helpers.each import each

@@ -8,10 +8,9 @@ from hypothesis import given, settings
 
 from ehlectric import Case, InputError
 from ehlectric.cases.amounts import Amount
-from ehlectric.contact.case_warnings import point_case_warnings
-from ehlectric.contact.conditions import default_side
-from ehlectric.contact.memory import check_memory
-from ehlectric.contact.resolve import resolve, resolve_point
+from ehlectric.contact.conditions import default_side, resolve, resolve_point
+from ehlectric.contact.contact_memory import check_memory
+from ehlectric.contact.warnings import point_case_warnings
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.strategies import point_tables
@@ -261,7 +260,7 @@ def test_any_case_means_something_or_is_refused_in_words(table):
 
 
 def test_grids_that_do_not_fit_into_memory(monkeypatch):
-    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
+    monkeypatch.setattr("ehlectric.contact.contact_memory.available_memory", lambda: 1e9)
     check_memory(point())
     with pytest.raises(InputError, match=r"grid\.nodes: .*2049 x 2049 .* 1 GB"):
         check_memory(point(grid={"nodes": 2049}))

@@ -2,8 +2,7 @@
 
 import pytest
 
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.cases.ranges import InputRange
+from ehlectric.cases.bearing_case import BearingCase, InputRange
 from tests.helpers.bearings import BALLS, bearing_case, changed
 
 STRENGTH, TEMPERATURE = "discharge.dielectric_strength", "bearing.temperature"

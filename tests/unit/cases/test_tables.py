@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from ehlectric import Case, InputError
 from ehlectric.cases.amounts import Amount, Count
-from ehlectric.cases.contact import Body, Contact
-from ehlectric.cases.discharge import Discharge, Pit, Weibull
-from ehlectric.cases.grid import Electric, Grid, Solver
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.cases.roughness import Roughness
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.contact_inputs import Body, Contact
+from ehlectric.cases.discharge_inputs import Discharge, Pit, Weibull
+from ehlectric.cases.grid_inputs import Electric, Grid, Solver
+from ehlectric.cases.roughness_inputs import Roughness
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.strategies import tables

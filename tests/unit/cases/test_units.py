@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from ehlectric import Case, InputError
 from ehlectric.cases.amounts import Amount, Amounts, Count
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.quantities import units
 from ehlectric.quantities.units import comma_advice, plain
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, changed
 from tests.helpers.each import each
 

@@ -3,8 +3,8 @@
 from rich.console import Console
 
 from ehlectric.commands.terminal import print_verdict
-from ehlectric.discharge.verdict import Verdict
-from ehlectric.tables.bearing import input_range
+from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.tables.bearing_tables import input_range
 from tests.helpers.each import each
 
 TEXT = "No breakdown expected: " + "words " * 30 + "end."

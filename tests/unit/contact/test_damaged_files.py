@@ -8,16 +8,16 @@ import pytest
 import xarray as xr
 
 from ehlectric import Case, InputError, load, save, solve, solve_drive
-from ehlectric.bearing import files as of_bearings
-from ehlectric.contact import files as of_contacts
-from ehlectric.drive import files as of_drives
+from ehlectric.bearing import run as of_bearings
+from ehlectric.contact import run as of_contacts
+from ehlectric.drive import run as of_drives
 from ehlectric.errors import DamagedError
-from ehlectric.figures.results import draw_figures
+from ehlectric.figures.result_figures import draw_figures
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored import solved_part
-from ehlectric.runtime.checks.schema import refusing
-from ehlectric.runtime.checks.seal import sealed
+from ehlectric.runtime.file_rules import refusing
+from ehlectric.runtime.hdf5_soundness import sealed
 from ehlectric.runtime.netcdf import read_dataset
 from tests.helpers.damage import with_damaged_bytes, with_edited_values
 from tests.helpers.drives import drive_with_remedy

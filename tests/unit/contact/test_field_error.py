@@ -5,12 +5,12 @@ import dataclasses
 import pytest
 
 from ehlectric import Case, load, save, solve
-from ehlectric.cases.grid import Grid
-from ehlectric.contact.result_warnings import accuracy_warnings, inaccurate_field
+from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.solver import OWN
 from ehlectric.contact.solver import solve as solve_with
+from ehlectric.contact.warnings import accuracy_warnings, inaccurate_field
 from ehlectric.errors import ConvergenceError
-from ehlectric.tables.contact import result_rows
+from ehlectric.tables.contact_tables import result_rows
 
 CONTACT = {
     "reduced_radius": "14.1 mm",
@@ -83,7 +83,7 @@ def test_a_contact_whose_windows_do_not_converge_has_the_warning(result, monkeyp
     def failing(*_arguments):
         raise ConvergenceError("the electric field did not converge")
 
-    monkeypatch.setattr("ehlectric.field.accuracy._peak_error", failing)
+    monkeypatch.setattr("ehlectric.field.field_accuracy._peak_error", failing)
     found = solve(result.case)
     assert found.field.strength_error is None
     assert found.field.max_strength == pytest.approx(result.field.max_strength, rel=1e-9)

@@ -5,9 +5,9 @@ import pytest
 
 from ehlectric import InputError, solve
 from ehlectric.contact.check import check_case
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
-from ehlectric.film.line import solve_film
+from ehlectric.film.isothermal_film import solve_film
 from tests.helpers.share import share_of
 
 

@@ -8,16 +8,15 @@ import pytest
 import typer
 
 from ehlectric import Case, InputError, save, solve
-from ehlectric.commands.check import check
-from ehlectric.commands.contact import run
+from ehlectric.commands.solve_commands import check, run
 from ehlectric.contact.check import check_case
 from ehlectric.contact.conditions import line_conditions, point_conditions
-from ehlectric.contact.kinds import KINDS
-from ehlectric.contact.results import RESULTS
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.result import RESULTS
 from ehlectric.contact.solver import OWN, solve_contact
 from ehlectric.contact.solver import solve as solve_prepared
-from ehlectric.surfaces import rough_maps, rough_profiles
-from ehlectric.surfaces.files import read_surface
+from ehlectric.surfaces import rough_surfaces
+from ehlectric.surfaces.surface_files import read_surface
 from tests.helpers.places import DEKTAK
 
 CASES = {
@@ -71,7 +70,7 @@ def read(monkeypatch):
         files.append(path)
         return read_surface(path, **units)
 
-    for module in (rough_maps, rough_profiles):
+    for module in (rough_surfaces, rough_surfaces):
         monkeypatch.setattr(module, "read_surface", reading)
     return files
 

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from ehlectric import Case, InputError
-from ehlectric.contact.memory import KRYLOV_VECTORS, check_memory, point_memory
+from ehlectric.contact.contact_memory import KRYLOV_VECTORS, check_memory, point_memory
 from ehlectric.film import newton
 from ehlectric.runtime.memory import physical_memory
 from tests.helpers.films import film_alone
@@ -23,7 +23,7 @@ def point(*roughness, **grid):
 
 
 def test_grids_that_do_not_fit_into_memory(monkeypatch, paper_case):
-    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
+    monkeypatch.setattr("ehlectric.contact.contact_memory.available_memory", lambda: 1e9)
     check_memory(paper_case)
     with pytest.raises(InputError, match=r"grid\.nodes: .*5000001 .* GB.* 1 GB"):
         check_memory(paper_case.replace({"grid.nodes": 5_000_001}))
@@ -39,7 +39,7 @@ def test_contacts_that_are_no_mirror_image_of_themselves_take_twice_as_much(monk
     whole, half = (sum(point_memory(point(nodes=513).grid, rough=rough)) for rough in (True, False))
     assert whole == pytest.approx(2.0 * half, rel=0.01)  # but for the line they share
     assert sum(point_memory(point(nodes=512).grid, rough=False)) == pytest.approx(whole, rel=0.01)
-    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 0.7 * whole)
+    monkeypatch.setattr("ehlectric.contact.contact_memory.available_memory", lambda: 0.7 * whole)
     check_memory(point(nodes=513))
     with pytest.raises(InputError, match=r"grid\.nodes: got 513 x 513"):
         check_memory(point(PIT, nodes=513))
@@ -62,8 +62,8 @@ def test_krylov_space_that_is_reckoned_with(paper_case, monkeypatch):
 # Solves in a fresh process; what the system counts as its highest memory, before and after.
 MEASURED = """
 from ehlectric import Case
-from ehlectric.contact.resolve import resolve_point
-from ehlectric.film.point import solve_point_film
+from ehlectric.contact.conditions import resolve_point
+from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.contact.problems import point_film_problem
 
 def highest():
@@ -92,12 +92,12 @@ def test_film_of_a_point_contact_takes_what_is_reckoned_with(nodes_y):
 
 def test_instants_of_a_motion_that_fit_into_no_memory_are_refused(monkeypatch):
     """64 bytes a node and instant; no more instants than time steps and one are kept."""
-    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 64e6)
+    monkeypatch.setattr("ehlectric.contact.contact_memory.available_memory", lambda: 64e6)
     check_memory(moving(motion={"passes": 1.0, "record": 20_000}))
     with pytest.raises(InputError, match=r"^motion\.record: .*20000 .* 15384 "):
         check_memory(moving(motion={"duration": "1 s", "record": 20_000}))
     ball = moving(TABLES["point"], motion={"duration": "1 s", "record": 300})
     with pytest.raises(InputError, match=r"^motion\.record: .*300 .* 4225 "):
         check_memory(ball)
-    monkeypatch.setattr("ehlectric.contact.memory.available_memory", lambda: 1e9)
+    monkeypatch.setattr("ehlectric.contact.contact_memory.available_memory", lambda: 1e9)
     check_memory(ball)

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, load, save, solve
-from ehlectric.contact import memory
+from ehlectric.contact import contact_memory
+from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.contact.resolve import resolve_point
-from ehlectric.film.point import solve_point_film
+from ehlectric.film.isothermal_film import solve_point_film
 from ehlectric.formulas import film_point
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.strategies import discharges
@@ -353,9 +353,9 @@ def test_refinement_that_does_not_get_there_is_said(kind, monkeypatch):
     second, third = 2 * case.grid.nodes - 1, 4 * case.grid.nodes - 3
 
     def fits(nodes, size):
-        monkeypatch.setattr(memory, "available_memory", lambda: size)
+        monkeypatch.setattr(contact_memory, "available_memory", lambda: size)
         try:
-            memory.check_memory(case.replace({"grid.nodes": nodes}))
+            contact_memory.check_memory(case.replace({"grid.nodes": nodes}))
         except InputError:
             return False
         return True

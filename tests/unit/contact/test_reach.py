@@ -6,9 +6,9 @@ import pytest
 
 from ehlectric import Case
 from ehlectric.contact.check import check_case
-from ehlectric.contact.reach import ExpectedGrid, FilmProgress, Reach
+from ehlectric.contact.contact_refinement import ExpectedGrid, FilmProgress, Reach
 from ehlectric.contact.run import run
-from ehlectric.film.point import solve_point_film
+from ehlectric.film.isothermal_film import solve_point_film
 
 BALL = {"geometry": "point", "radius_x": 10e-3, "radius_y": 10e-3, "reduced_modulus": 226e9}
 # M = 2.5e5 at 2.1 GPa: the film is 1.3 nm thick.

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError, load, save, solve
-from ehlectric.cases.measurements.reading import read_measurement
-from ehlectric.contact.measured.film import contact_factors
-from ehlectric.paper.solvers import PAPER
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.cases.measurements import read_measurement
+from ehlectric.contact.measured_film import contact_factors
+from ehlectric.paper.paper_contacts import PAPER
 from ehlectric.sweep.run import run_sweep
-from ehlectric.tables.contact import result_rows
+from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.tables.contact_tables import result_rows
 
 LINE = Case.line(
     reduced_radius="14.1 mm",

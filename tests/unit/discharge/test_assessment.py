@@ -8,9 +8,9 @@ from scipy.constants import epsilon_0
 from scipy.integrate import dblquad, quad
 
 from ehlectric import Case
-from ehlectric.contact.resolve import resolve, resolve_point
+from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.discharge.assessment import assess, discharge_warnings
-from ehlectric.discharge.columns import at_columns
+from ehlectric.discharge.film_capacitance import at_columns
 from ehlectric.field.zones import areas, line_zone_areas, node_areas, part_widths, point_zone_areas
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.discharge.laws import (
+from ehlectric.discharge.discharge_laws import (
     WeakestLink,
     breakdown_voltage,
     melted_volume,

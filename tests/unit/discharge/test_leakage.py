@@ -7,9 +7,9 @@ import pytest
 from scipy.constants import epsilon_0
 
 from ehlectric import Case, InputError, solve
-from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.oils.lubricant import Lubricant
-from ehlectric.discharge.leakage import leakage, mean_conductivity
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.discharge_laws import leakage, mean_conductivity
 from tests.helpers.hot_cases import HOT_LINE, OIL
 
 ARRHENIUS = {

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.cases.discharge import Discharge
-from ehlectric.discharge.limits import MOST_OF_LIQUIDS, field_warnings, strength_warnings
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.film_breakdown import MOST_OF_LIQUIDS, field_warnings, strength_warnings
 from tests.helpers.each import each
 
 LINE = {

@@ -13,12 +13,11 @@ from scipy.integrate import quad
 from ehlectric import Case, load, save, solve
 from ehlectric.contact.problems import field_problem
 from ehlectric.discharge.assessment import Assessment
-from ehlectric.discharge.capacitance import capacitance_beyond
-from ehlectric.discharge.outlet_filling import filled_permittivity, oil_fraction
-from ehlectric.field.line import solve_field
+from ehlectric.discharge.film_capacitance import capacitance_beyond, filled_permittivity, oil_fraction
+from ehlectric.field.line_field import solve_field
 from ehlectric.field.zones import part_widths
-from ehlectric.paper.solvers import PAPER
-from ehlectric.tables.contact import result_rows
+from ehlectric.paper.paper_contacts import PAPER
+from ehlectric.tables.contact_tables import result_rows
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.places import EXAMPLES
 from tests.reference.field import near

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.discharge.capacitance import zone_capacitances
-from ehlectric.discharge.outlet_filling import OUTLETS, filled_permittivity, oil_fraction
+from ehlectric.discharge.film_capacitance import OUTLETS, filled_permittivity, oil_fraction, zone_capacitances
 from ehlectric.field.zones import line_zone_areas
 from tests.reference.field import near
 from tests.reference.gaps import line_gap, line_gap_field

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from ehlectric.discharge.roughness_factor import LEAST_RATIO, TOUCHING, roughness_factor
+from ehlectric.discharge.film_capacitance import LEAST_RATIO, TOUCHING, roughness_factor
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 

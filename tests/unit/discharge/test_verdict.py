@@ -5,9 +5,9 @@ import dataclasses
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.cases.discharge import Discharge
-from ehlectric.discharge.breakdown import Breakdown
-from ehlectric.discharge.verdict import contact_verdict, ratio_text, weibull_part
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.film_breakdown import Breakdown
+from ehlectric.discharge.film_verdict import contact_verdict, ratio_text, weibull_part
 from ehlectric.errors import ResultWarning
 from tests.helpers.each import each
 

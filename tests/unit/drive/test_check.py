@@ -3,9 +3,9 @@
 import pytest
 
 from ehlectric import DriveCase, InputError, solve_drive
-from ehlectric.cases.drives.case import ENDS
 from ehlectric.drive.solver import solve
 from ehlectric.drive.summary import drive_summary
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.runs.meaning import check
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.drives.case import ENDS, DriveCase
-from ehlectric.drive.bearings import bearing_element
-from ehlectric.drive.discharges.record import FILM, OFF, ON
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.drive.drive_bearings import bearing_element
+from ehlectric.drive.drive_record import FILM, OFF, ON
+from ehlectric.drive.netlist import equivalent_of
 from ehlectric.drive.result import solve_drive
 from ehlectric.drive.solver import prepare, solve
-from ehlectric.drive.spice.equivalent import equivalent_of
 from ehlectric.drive.warnings import bearing_warnings
+from ehlectric.quantities.inputs import ENDS
 from tests.helpers.drives import small_drive
 from tests.helpers.places import EXAMPLES
 from tests.unit.cases.test_drive import TABLE

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.drive.statistics import Spread, event_rate, spread
+from ehlectric.drive.drive_record import Spread, event_rate, spread
 
 
 def test_bounds_hold_the_rate_in_95_percent_of_the_cases():

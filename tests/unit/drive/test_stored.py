@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError, load, save, solve_drive
-from ehlectric.drive import files as of_drives
+from ehlectric.drive import run as of_drives
 from ehlectric.drive.result import DriveResult
 from ehlectric.drive.stored import check
 from ehlectric.errors import ResultWarning
-from ehlectric.runtime.checks.schema import UnfitError
+from ehlectric.runtime.file_rules import UnfitError
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.each import each
 

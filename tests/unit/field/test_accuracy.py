@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from ehlectric.errors import ConvergenceError
-from ehlectric.field.accuracy import strength_error
-from ehlectric.field.line import solve_field
-from ehlectric.field.point import solve_point_field
+from ehlectric.field.field_accuracy import strength_error
+from ehlectric.field.line_field import solve_field
+from ehlectric.field.point_field import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 from tests.helpers.each import each

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 
-from ehlectric.field.line import solve_field
+from ehlectric.field.line_field import solve_field
 from ehlectric.field.poisson import FieldProblem, lobatto_nodes
 from tests.helpers.each import each
 

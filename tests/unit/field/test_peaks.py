@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric.field import accuracy
-from ehlectric.field.line import solve_field
-from ehlectric.field.peaks import first_order_strength, places
-from ehlectric.field.point import solve_point_field
+from ehlectric.field import field_accuracy
+from ehlectric.field.field_accuracy import first_order_strength, places
+from ehlectric.field.line_field import solve_field
+from ehlectric.field.point_field import solve_point_field
 from ehlectric.field.poisson import FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
 
@@ -53,13 +53,13 @@ def test_waves_that_stay_lower_do_not_raise_the_degree():
 
 def counted(monkeypatch):
     columns = []
-    around = accuracy._Window.around.__func__
+    around = field_accuracy._Window.around.__func__
 
     def count(cls, problem, column):
         columns.append(column)
         return around(cls, problem, column)
 
-    monkeypatch.setattr(accuracy._Window, "around", classmethod(count))
+    monkeypatch.setattr(field_accuracy._Window, "around", classmethod(count))
     return columns
 
 
@@ -78,7 +78,7 @@ def test_what_windows_did_not_try_counts_as_error(monkeypatch):
     """With one window only, on the constriction, the promise of the waves is the estimate."""
     problem = patch_beside_constriction(0.5e-6, 0.6)
     exact = solve_field(replace(problem, degree=32)).max_strength
-    monkeypatch.setattr(accuracy, "_MOST_WINDOWS", {1: 1})
+    monkeypatch.setattr(field_accuracy, "_MOST_WINDOWS", {1: 1})
     columns = counted(monkeypatch)
     field = solve_field(problem)
     assert len(columns) == 1

@@ -4,9 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ehlectric.figures.axes import scale_axis
-from ehlectric.figures.style import figure_of, new_panels, style
-from ehlectric.paper import figures
+from ehlectric.figures.style import figure_of, new_panels, scale_axis, style
+from ehlectric.paper import paper_figures
 
 
 def extents(figure, artists):
@@ -20,7 +19,7 @@ def test_both_titles_of_a_panel_stand_apart():
         panels = new_panels(2, 3, (10.0, 6.8))
         for ax in panels:
             ax.set_title("$V_{12}/h_\\mathrm{min}$ = 11.8 V/µm", loc="right")
-            figures._title(ax, "(a) M12L15, $u_1+u_2$ = 8 m/s")
+            paper_figures._title(ax, "(a) M12L15, $u_1+u_2$ = 8 m/s")
         ax = panels[0]
         left, right = extents(figure_of(ax), (ax._left_title, ax._right_title))
     # The empty line below the left title is no text.
@@ -34,7 +33,7 @@ def test_legends_of_two_panels_lie_in_their_figure():
         for ax in panels:
             for number in range(4):
                 ax.plot([0.0, 1.0], [0.0, 1.0], label=f"M68L13 (M = 69.5), $u_1+u_2$ = {number} m/s")
-            figures._legend_of_readings(ax)
+            paper_figures._legend_of_readings(ax)
         figure = figure_of(panels[0])
         first, second = extents(figure, [ax.get_legend() for ax in panels])
     assert first.x1 < second.x0

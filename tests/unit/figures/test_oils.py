@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ehlectric.cases.oils.report import oil_report
-from ehlectric.figures.oils import over_pressure, over_temperature, save_oil
+from ehlectric.cases.oil_report import oil_report
+from ehlectric.figures.oil_figures import over_pressure, over_temperature, save_oil
 from ehlectric.figures.style import figure_of
 
 LARSSON = {"thermal_conductivity_law": "larsson", "thermal_conductivity": 0.137}
@@ -121,7 +121,7 @@ def test_files_have_the_look_of_all_figures(tmp_path, monkeypatch):
     """A program that calls it outside of any style gets no overlapping titles either."""
     sizes = []
     monkeypatch.setattr(
-        "ehlectric.figures.oils.save_figure",
+        "ehlectric.figures.oil_figures.save_figure",
         lambda figure, *_: (
             sizes.append((figure.get_layout_engine(), figure.axes[0].xaxis.label.get_size())) or []
         ),

@@ -14,14 +14,14 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ehlectric import BearingCase, Case, InputError, figure, read_motion, save_figures, solve, solve_bearing
-from ehlectric.figures import names
-from ehlectric.figures.bearing import save as of_bearings
-from ehlectric.figures.contact.line import FIGURES
-from ehlectric.figures.contact.point import POINT_FIGURES
-from ehlectric.figures.motion import save as of_motions
-from ehlectric.figures.results import draw_figures, figure_names
+from ehlectric.figures import bearing_figure_files as of_bearings
+from ehlectric.figures import figure_names as files
+from ehlectric.figures import motion_figures as of_motions
+from ehlectric.figures import sweep_figures as of_sweeps
+from ehlectric.figures.line_figures import FIGURES
+from ehlectric.figures.point_figures import POINT_FIGURES
+from ehlectric.figures.result_figures import draw_figures, figure_names
 from ehlectric.figures.style import name_over, new_panels, style
-from ehlectric.figures.sweep import save as of_sweeps
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun
 from tests.conftest import PAPER_CONTACT
@@ -57,16 +57,16 @@ def motion(tmp_path_factory):
 
 
 def test_names_are_those_of_the_tables_of_figures():
-    assert tuple(FIGURES) == names.FIGURE_FILES
-    assert tuple(POINT_FIGURES) == names.POINT_FIGURE_FILES
-    assert tuple(of_bearings.FIGURES) == names.BEARING_FIGURE_FILES
-    assert tuple(of_bearings.SPEED_FIGURES) == names.SPEED_FIGURE_FILES
-    assert tuple(of_motions.FIGURES) == names.MOTION_FIGURE_FILES
-    assert [name.partition("_")[0] for name in names.map_files("film.error")] == list(of_sweeps.FIGURES)
+    assert tuple(FIGURES) == files.FIGURE_FILES
+    assert tuple(POINT_FIGURES) == files.POINT_FIGURE_FILES
+    assert tuple(of_bearings.FIGURES) == files.BEARING_FIGURE_FILES
+    assert tuple(of_bearings.SPEED_FIGURES) == files.SPEED_FIGURE_FILES
+    assert tuple(of_motions.FIGURES) == files.MOTION_FIGURE_FILES
+    assert [name.partition("_")[0] for name in files.map_files("film.error")] == list(of_sweeps.FIGURES)
 
 
 def test_names_need_no_matplotlib():
-    code = "import sys, ehlectric.figures.names; print('matplotlib' in sys.modules)"
+    code = "import sys, ehlectric.figures.figure_names; print('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "False\n"
 
 
@@ -74,7 +74,7 @@ def test_names_need_no_matplotlib():
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_figures_of_a_contact(kind, tmp_path):
     result = contact(kind)
-    expected = {"line": names.FIGURE_FILES, "point": names.POINT_FIGURE_FILES}[kind]
+    expected = {"line": files.FIGURE_FILES, "point": files.POINT_FIGURE_FILES}[kind]
     assert [f"{name}.png" for name in figure_names(result)] == list(expected)
     drawn = figure(result, expected[0])
     assert isinstance(drawn, Figure)
@@ -91,13 +91,13 @@ def test_figures_of_a_contact(kind, tmp_path):
 def test_the_roughness_is_among_the_figures_of_a_rough_contact():
     table = {"contact": PAPER_CONTACT, "lubricant": OIL, "roughness": [ROUGH], "grid": {"nodes": 401}}
     result = solve(Case.from_dict(table), beside_smooth=False)
-    assert f"{figure_names(result)[-1]}.png" == names.ROUGHNESS_FIGURE
+    assert f"{figure_names(result)[-1]}.png" == files.ROUGHNESS_FIGURE
     assert "Rq" in figure(result, "roughness.png").axes[0].get_legend().get_texts()[0].get_text()
 
 
 @pytest.mark.slow
 def test_figures_of_a_bearing(bearing, tmp_path):
-    every = (*names.BEARING_FIGURE_FILES, *names.SPEED_FIGURE_FILES)
+    every = (*files.BEARING_FIGURE_FILES, *files.SPEED_FIGURE_FILES)
     assert [f"{name}.png" for name in figure_names(bearing)] == list(every)
     assert len(figure(bearing, "bearing_circuit.png").axes) == 2
     over_speed = figure(bearing, "capacitance_over_speed.png")
@@ -105,7 +105,10 @@ def test_figures_of_a_bearing(bearing, tmp_path):
     with pytest.raises(InputError, match=r"^figure: .*'film\.png'.* bearing_loads.*_over_speed"):
         figure(bearing, "film.png")
     drawn = draw_figures(bearing, tmp_path)
-    assert [file.name for file in drawn.files] == [*names.BEARING_FIGURE_FILES, *names.SPEED_FIGURE_FILES]
+    assert [file.name for file in drawn.files] == [
+        *files.BEARING_FIGURE_FILES,
+        *files.SPEED_FIGURE_FILES,
+    ]
     assert all(file.is_file() for file in drawn.files)
     assert drawn.warnings == ()
 
@@ -113,7 +116,7 @@ def test_figures_of_a_bearing(bearing, tmp_path):
 @pytest.mark.slow
 def test_figures_of_a_motion(motion, tmp_path):
     """Of the dataset and of the run; it does not reach the instant that is compared."""
-    expected = [name.removesuffix(".png") for name in names.MOTION_FIGURE_FILES[:2]]
+    expected = [name.removesuffix(".png") for name in files.MOTION_FIGURE_FILES[:2]]
     assert figure_names(motion) == figure_names(MotionRun.of(motion)) == expected
     assert len(figure(motion, "motion_history.png").axes) == 2
     with pytest.raises(InputError, match=r"^figure: .*'motion_beside_stationary\.png'"):
@@ -222,9 +225,9 @@ def line():
 @pytest.mark.slow
 def test_files_of_each_format_are_whole_and_say_the_finding(line, tmp_path):
     """The title is in the metadata, no date is, and the same figure gives the same bytes again."""
-    drawn = draw_figures(line, tmp_path, names.FORMATS)
-    assert [file.name for file in drawn.files] == list(names.in_formats(names.FIGURE_FILES, names.FORMATS))
-    png, svg, pdf = (tmp_path / name for name in names.in_formats(["film.png"], names.FORMATS))
+    drawn = draw_figures(line, tmp_path, files.FORMATS)
+    assert [file.name for file in drawn.files] == list(files.in_formats(files.FIGURE_FILES, files.FORMATS))
+    png, svg, pdf = (tmp_path / name for name in files.in_formats(["film.png"], files.FORMATS))
     title = figure(line, "film").get_label()
     assert title.endswith("By name")
     with Image.open(png) as image:
@@ -236,7 +239,7 @@ def test_files_of_each_format_are_whole_and_say_the_finding(line, tmp_path):
     assert b"/Type42" in pdf.read_bytes() or b"/FontFile2" in pdf.read_bytes()
     again = tmp_path / "again"
     again.mkdir()
-    draw_figures(line, again, names.FORMATS)
+    draw_figures(line, again, files.FORMATS)
     for file in (png, svg, pdf):
         assert (again / file.name).read_bytes() == file.read_bytes()
         assert b"Date" not in file.read_bytes()

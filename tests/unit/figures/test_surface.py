@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from ehlectric.figures.surface import height_map, profile, save_surface
+from ehlectric.figures.surface_figures import height_map, profile, save_surface
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile
 

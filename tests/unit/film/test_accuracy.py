@@ -5,9 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ehlectric.film.accuracy.between_grids import change_near
-from ehlectric.film.accuracy.max_pressure import between_nodes, max_pressure_error
-from ehlectric.film.accuracy.rough_film import change_of_minimum, roughness_between_nodes
+from ehlectric.film.film_error import (
+    between_nodes,
+    change_near,
+    change_of_minimum,
+    max_pressure_error,
+    roughness_between_nodes,
+)
 from ehlectric.film.mesh import Mesh, Width
 from tests.helpers.each import each
 

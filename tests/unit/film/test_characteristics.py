@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from ehlectric.film.characteristics import carried, step_levels
 from ehlectric.film.deflection import LINE
 from ehlectric.film.levels import hierarchy
+from ehlectric.film.unsteady import carried, step_levels
 
 
 @pytest.fixture

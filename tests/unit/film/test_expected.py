@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric.film.accuracy.expected import UNSEEN, expected_error, expected_nodes
 from ehlectric.film.deflection import point_geometry
+from ehlectric.film.film_error import UNSEEN, expected_error, expected_nodes
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Width
 from ehlectric.film.problem import FilmProblem

@@ -8,7 +8,7 @@ import pytest
 from ehlectric.film import flow as flows
 from ehlectric.film import reynolds
 from ehlectric.film.flow import FaceFlow, Flow, Fluid, Sides, evaluate, flow
-from ehlectric.film.line import solve_film
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.density import incompressible

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, load, save, solve
-from ehlectric.film.mixed.dry import dry_contact, relieved
-from ehlectric.film.mixed.newton import mixed_newton
 from ehlectric.film.nested import levels_of
-from ehlectric.film.state import State
+from ehlectric.film.newton import State
+from ehlectric.film.touching_film import mixed_newton
+from ehlectric.film.touching_solver import dry_contact, relieved
 from tests.helpers.mixed_films import gaussian, posed, rough_point
 
 # Half-width 13 um, and waves higher than the indentation.

@@ -6,16 +6,16 @@ import itertools
 import numpy as np
 import pytest
 
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
 from ehlectric.film import multigrid, reynolds
-from ehlectric.film.characteristics import in_time
 from ehlectric.film.deflection import LINE, Deflection
 from ehlectric.film.flow import Fluid, flow
 from ehlectric.film.gap import Gap
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.levels import COARSEST, DIPOLE, SECOND_DIFFERENCE, hierarchy, interpolation
-from ehlectric.film.line import solve_film
 from ehlectric.film.problem import FilmProblem
+from ehlectric.film.unsteady import in_time
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus
 from tests.helpers.each import each

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import film_problem
-from ehlectric.contact.resolve import resolve
 from ehlectric.film import nested, newton
-from ehlectric.film.line import solve_film
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.nested import accurate_film, nested_iteration
-from ehlectric.film.sheared.laws import Rheology
+from ehlectric.film.shear_laws import Rheology
 from tests.helpers.each import each
 from tests.unit.film.sheared.contacts import line_contact
 

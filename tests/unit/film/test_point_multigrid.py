@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
+from ehlectric.contact.conditions import resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.contact.resolve import resolve_point
 from ehlectric.film import multigrid
 from ehlectric.film.flow import flow
 from ehlectric.film.levels import hierarchy
 from ehlectric.film.mesh import Width
 from ehlectric.film.nested import levels_of, nested_iteration
-from ehlectric.film.state import State
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.film.newton import State
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 from tests.helpers.share import share

@@ -4,8 +4,8 @@ import numpy as np
 
 from ehlectric.film.flow import flow
 from ehlectric.film.gap import Gap
+from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.levels import hierarchy
-from ehlectric.film.line import solve_film
 from ehlectric.film.newton import GAP_STEP, PRESSURE_STEP
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike

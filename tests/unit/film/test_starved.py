@@ -8,12 +8,10 @@ import pytest
 from ehlectric import Case
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.nested import levels_of, nested_iteration
-from ehlectric.film.starved.content import Runs, Supply
-from ehlectric.film.starved.jacobian import StarvedJacobian
-from ehlectric.film.starved.newton import assess_content, next_filled
-from ehlectric.film.starved.ratio import first_layer
-from ehlectric.film.state import State
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.film.newton import State
+from ehlectric.film.starved_film import Runs, StarvedJacobian, Supply, assess_content, next_filled
+from ehlectric.film.starved_solver import first_layer
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.starved_films import posed, supplied
 
 LINE = Case.line(

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from ehlectric.film.characteristics import carried, step_levels
 from ehlectric.film.deflection import LINE
 from ehlectric.film.levels import hierarchy
-from ehlectric.film.starved.motion import Oil, sums, supplied_step_levels
+from ehlectric.film.unsteady import Oil, carried, step_levels, sums, supplied_step_levels
 from tests.helpers.each import each
 
 NODES = 101

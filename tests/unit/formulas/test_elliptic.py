@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import elliprd
 
-from ehlectric.formulas.elliptic import both_rd
+from ehlectric.formulas.hertz import both_rd
 from tests.helpers.each import each
 
 

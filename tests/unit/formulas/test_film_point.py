@@ -9,7 +9,7 @@ from ehlectric.formulas import film_line as film_formulas
 from ehlectric.formulas import film_point as point_formulas
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import FORMULAS, PointContact
-from ehlectric.formulas.hertz_point import dry_contact
+from ehlectric.formulas.hertz import dry_contact
 from tests.helpers.each import each
 from tests.reference.rigid_point import rigid_load
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.formulas import hertz_line as hertz
+from ehlectric.formulas import hertz
 
 positive = st.floats(1e-3, 1e3)
 

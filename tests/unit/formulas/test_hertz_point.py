@@ -7,15 +7,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
-from ehlectric.formulas import hertz_line as hertz
-from ehlectric.formulas import hertz_point
-from ehlectric.formulas.hertz_point import (
-    axis_ratio,
-    dry_contact,
-    point_deflection,
-    point_load,
-    point_pressure,
-)
+from ehlectric.formulas import hertz
+from ehlectric.formulas.hertz import axis_ratio, dry_contact, point_deflection, point_load, point_pressure
 from tests.helpers.each import each
 
 E = 226e9
@@ -138,7 +131,7 @@ def test_pressure_carries_the_load():
     x, y = np.linspace(-1.0, 1.0, 801), np.linspace(-3.0, 3.0, 801)
     p = point_pressure(x[:, None], y, 3.0)
     assert np.trapezoid(np.trapezoid(p, y), x) == pytest.approx(2.0 * np.pi, rel=1e-4, abs=0.0)
-    assert hertz_point.point_pressure(1.0, 1.0, 3.0) == 0.0
+    assert hertz.point_pressure(1.0, 1.0, 3.0) == 0.0
 
 
 def test_deflection_around_the_ellipse():

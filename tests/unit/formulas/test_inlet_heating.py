@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.formulas.inlet_heating import inlet_shear_factor
+from ehlectric.formulas.inlet_supply import inlet_shear_factor
 from tests.helpers.places import ROOT
 from tests.reference.inlet_heating import gupta, murch_wilson, wilson_sheu
 

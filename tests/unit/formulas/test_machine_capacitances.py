@@ -11,7 +11,7 @@ from scipy import sparse
 from scipy.constants import epsilon_0
 from scipy.sparse.linalg import spsolve
 
-from ehlectric.formulas.machine_capacitances import Machine, gap_shares, machine_capacitances
+from ehlectric.formulas.capacitances import Machine, gap_shares, machine_capacitances
 
 MACHINE = Machine(0.12, 0.11, 0.5e-3, 36, 3e-3, 2e-3, 2.0, 50e-3, 0.3e-3, 3.5)
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from ehlectric.formulas.replenishment import (
+from ehlectric.formulas.inlet_supply import (
     GEOMETRY_CONSTANTS,
     SUPPLY_CONSTANTS,
     decay_rate,

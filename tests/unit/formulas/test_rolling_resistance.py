@@ -10,8 +10,8 @@ from scipy.special import ellipe
 
 from ehlectric.formulas.film_line import LineContact
 from ehlectric.formulas.film_point import PointContact
-from ehlectric.formulas.hertz_point import axis_ratio
-from ehlectric.formulas.rolling_resistance import line_rolling_force, point_rolling_force
+from ehlectric.formulas.hertz import axis_ratio
+from ehlectric.formulas.inlet_supply import line_rolling_force, point_rolling_force
 from tests.helpers.each import each
 
 MODULUS, RADIUS, VISCOSITY = 226e9, 0.01, 0.02

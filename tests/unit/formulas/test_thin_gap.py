@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.formulas.thin_gap import charge_density, stretched
+from ehlectric.formulas.capacitances import charge_density, stretched
 from tests.helpers.each import each
 
 

@@ -8,9 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.errors import InputError
-from ehlectric.lubricant.atmospheric import ATMOSPHERIC_LAWS, roelands_over_temperature, vogel
-from ehlectric.lubricant.conductivity import CONDUCTIVITY_LAWS, arrhenius, constant_conductivity
-from ehlectric.lubricant.temperature import interpolated
+from ehlectric.lubricant.electrical_laws import CONDUCTIVITY_LAWS, arrhenius, constant_conductivity
+from ehlectric.lubricant.over_temperature import (
+    ATMOSPHERIC_LAWS,
+    interpolated,
+    roelands_over_temperature,
+    vogel,
+)
 from tests.helpers.each import each
 from tests.unit.lubricant.oils import VOGEL
 

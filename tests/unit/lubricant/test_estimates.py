@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.lubricant.estimates import BASE_OILS, LEAST, MOST, Gold, alpha_estimate, so_klaus
+from ehlectric.lubricant.data_sheet import BASE_OILS, LEAST, MOST, Gold, alpha_estimate, so_klaus
 from tests.helpers.each import each
 
 # ESDU 85027 (1985, reissued 2007), table 10.2: viscosity [mPa s] and pressure exponent [1/GPa] at 30, 60 and

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.errors import InputError
-from ehlectric.lubricant import density, permittivity, viscosity
+from ehlectric.lubricant import density, electrical_laws, viscosity
 from tests.helpers.each import each
 
 ROELANDS = {"pressure_viscosity_coefficient": 22e-9, "roelands_z": 0.67, "roelands_pressure": 0.198e9}
@@ -97,12 +97,12 @@ def test_isothermal_laws_take_no_notice_of_the_temperature(law, parameters):
 
 
 def test_permittivity_laws_take_no_notice_of_the_temperature():
-    for law in (permittivity.clausius_mossotti, permittivity.constant_permittivity):
+    for law in (electrical_laws.clausius_mossotti, electrical_laws.constant_permittivity):
         cold, hot = (law(np.array([1.0, 1.2]), at, relative_permittivity=2.4) for at in (None, 350.0))
         np.testing.assert_array_equal(cold, hot)
 
 
-TABLES = (viscosity.VISCOSITY_LAWS, density.DENSITY_LAWS, permittivity.PERMITTIVITY_LAWS)
+TABLES = (viscosity.VISCOSITY_LAWS, density.DENSITY_LAWS, electrical_laws.PERMITTIVITY_LAWS)
 LAWS = [law for table in TABLES for law in table.values()]
 
 
@@ -142,14 +142,14 @@ def test_density_limits():
 @pytest.mark.parametrize(("pressure", "expected"), [(0.0, 2.4), (1e9, 2.888), (2e9, 3.014)])
 def test_permittivity_of_compressed_oil(pressure, expected):
     ratio, _ = density.dowson_higginson(pressure, **DENSITY)
-    relative = permittivity.clausius_mossotti(ratio, relative_permittivity=2.4)
+    relative = electrical_laws.clausius_mossotti(ratio, relative_permittivity=2.4)
     assert relative == pytest.approx(expected, abs=5e-4)
 
 
 @given(ratio=st.floats(0.5, 1.4), reference=st.floats(1.0, 6.0))
 def test_clausius_mossotti_keeps_the_molar_polarisation(ratio, reference):
     """(eps - 1)/(eps + 2) is proportional to the density: the law before it is solved for eps."""
-    eps = permittivity.clausius_mossotti(ratio, relative_permittivity=reference)
+    eps = electrical_laws.clausius_mossotti(ratio, relative_permittivity=reference)
     left = (eps - 1) / (eps + 2)
     assert left == pytest.approx(ratio * (reference - 1) / (reference + 2), rel=1e-9, abs=1e-12)
 
@@ -157,7 +157,7 @@ def test_clausius_mossotti_keeps_the_molar_polarisation(ratio, reference):
 @given(ratio=st.floats(0.0, 1.4), more=st.floats(0.0, 0.1), reference=st.floats(1.0, 3.9))
 def test_clausius_mossotti_limits(ratio, more, reference):
     """Vacuum where there is no liquid, the given value at its own density, and rising between."""
-    eps = permittivity.clausius_mossotti(
+    eps = electrical_laws.clausius_mossotti(
         np.array([0.0, ratio, ratio + more, 1.0]), relative_permittivity=reference
     )
     assert eps[0] == 1.0
@@ -167,10 +167,10 @@ def test_clausius_mossotti_limits(ratio, more, reference):
 
 def test_clausius_mossotti_refuses_its_pole():
     with pytest.raises(InputError, match=r"clausius-mossotti.*pole.*1\.038"):
-        permittivity.clausius_mossotti(np.array([1.0, 1.1]), relative_permittivity=80.0)
+        electrical_laws.clausius_mossotti(np.array([1.0, 1.1]), relative_permittivity=80.0)
 
 
 def test_constant_permittivity():
     np.testing.assert_array_equal(
-        permittivity.constant_permittivity(np.array([1.0, 1.3]), relative_permittivity=80.0), 80.0
+        electrical_laws.constant_permittivity(np.array([1.0, 1.3]), relative_permittivity=80.0), 80.0
     )

@@ -7,8 +7,8 @@ import pytest
 
 from ehlectric import Case, InputError, Laws, load, save, solve
 from ehlectric.lubricant.density import dowson_higginson
-from ehlectric.lubricant.own import SampledLaws
-from ehlectric.lubricant.permittivity import clausius_mossotti
+from ehlectric.lubricant.electrical_laws import clausius_mossotti
+from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.lubricant.viscosity import roelands
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each

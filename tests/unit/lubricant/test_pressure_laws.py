@@ -11,15 +11,14 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import gamma, gammaincc
 
-from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.case_oil import Lubricant
 from ehlectric.errors import InputError
+from ehlectric.lubricant import density as state
 from ehlectric.lubricant import doolittle as free_volume
-from ehlectric.lubricant import equation_of_state as state
-from ehlectric.lubricant import heat_capacity, modulus, permittivity, thermal_conductivity, yasutomi
-from ehlectric.lubricant.alpha import initial_alpha, reciprocal_asymptotic_alpha
+from ehlectric.lubricant import electrical_laws, heat_laws, modulus, yasutomi
 from ehlectric.lubricant.density import DENSITY_LAWS, dowson_higginson, dowson_higginson_pressure
-from ehlectric.lubricant.glass import GLASS_VISCOSITY, LARGEST_EXPONENT
-from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, roelands
+from ehlectric.lubricant.law import GLASS_VISCOSITY, LARGEST_EXPONENT
+from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha, roelands
 from tests.helpers.each import each
 from tests.unit.lubricant.oils import (
     DOOLITTLE,
@@ -40,10 +39,10 @@ LAWS = {
     "doolittle": (free_volume.doolittle, DOOLITTLE),
     "tait": (state.tait, TAIT),
     "murnaghan": (state.murnaghan, MURNAGHAN),
-    "thermal-larsson": (thermal_conductivity.larsson_thermal_conductivity, LARSSON_K),
-    "thermal-scaling": (thermal_conductivity.scaled_thermal_conductivity, SCALED_K),
-    "heat-larsson": (heat_capacity.larsson_heat_capacity, LARSSON_C),
-    "heat-scaling": (heat_capacity.scaled_heat_capacity, SCALED_C),
+    "thermal-larsson": (heat_laws.larsson_thermal_conductivity, LARSSON_K),
+    "thermal-scaling": (heat_laws.scaled_thermal_conductivity, SCALED_K),
+    "heat-larsson": (heat_laws.larsson_heat_capacity, LARSSON_C),
+    "heat-scaling": (heat_laws.scaled_heat_capacity, SCALED_C),
 }
 by_law = pytest.mark.parametrize("name", LAWS)
 temperatures = st.floats(290.0, 420.0)
@@ -336,7 +335,7 @@ def test_tait_against_dowson_and_higginson_at_2_gpa():
     assert of_tait == pytest.approx(1.36, abs=0.005)
     assert of_dowson == pytest.approx(1.2625, abs=5e-5)
     for ratio, expected in ((of_tait, 3.29), (of_dowson, 3.01)):
-        eps = permittivity.clausius_mossotti(ratio, relative_permittivity=2.4)
+        eps = electrical_laws.clausius_mossotti(ratio, relative_permittivity=2.4)
         assert eps == pytest.approx(expected, abs=0.006)
 
 
@@ -346,25 +345,25 @@ def test_tait_against_dowson_and_higginson_at_2_gpa():
 def test_thermal_conductivity_of_larsson():
     """PAO B: 0.154, 0.246, 0.315, 0.411 W/(m K) at 0, 0.5, 1, 2 GPa; a paraffinic oil 0.137 to 0.364."""
     p = np.array([0.0, 0.5e9, 1e9, 2e9])
-    found = thermal_conductivity.larsson_thermal_conductivity(p, **LARSSON_K)[0]
+    found = heat_laws.larsson_thermal_conductivity(p, **LARSSON_K)[0]
     np.testing.assert_allclose(found, [0.154, 0.246, 0.315, 0.411], atol=6e-4)
     paraffinic = {"thermal_conductivity": 0.137, "larsson_c1": 1.72e-9, "larsson_c2": 0.54e-9}
-    found = thermal_conductivity.larsson_thermal_conductivity(p, **paraffinic)[0]
+    found = heat_laws.larsson_thermal_conductivity(p, **paraffinic)[0]
     np.testing.assert_allclose(found, [0.137, 0.230, 0.290, 0.364], atol=6e-4)
 
 
 def test_heat_capacity_of_larsson_by_hand():
     """1 GPa, 50 K above T0: beta = 9.3e-4 (1 + 1.4 - 0.51) = 1.7577e-3, and 1 + 0.47/1.81 = 1.25967."""
-    found = heat_capacity.larsson_heat_capacity(1e9, 345.0, **LARSSON_C)[0]
+    found = heat_laws.larsson_heat_capacity(1e9, 345.0, **LARSSON_C)[0]
     assert found == pytest.approx(1.71e6 * (1.0 + 1.7577e-3 * 50.0) * (1.0 + 0.47 / 1.81), rel=1e-12)
-    assert heat_capacity.larsson_heat_capacity(0.0, 295.0, **LARSSON_C)[0] == 1.71e6
+    assert heat_laws.larsson_heat_capacity(0.0, 295.0, **LARSSON_C)[0] == 1.71e6
 
 
 def test_heat_capacity_of_larsson_does_not_fall_with_temperature_at_high_pressure():
     """Without the hold, beta of the PAO would be negative above 2.1 GPa."""
     pao = LARSSON_C | {"larsson_beta": 6.5e-4, "larsson_b1": 2.7e-9, "larsson_b2": -1.5e-18}
     assert 1.0 + 2.7 * 3.0 - 1.5 * 9.0 < 0.0
-    cold, hot = (heat_capacity.larsson_heat_capacity(3e9, at, **pao)[0] for at in (320.0, 380.0))
+    cold, hot = (heat_laws.larsson_heat_capacity(3e9, at, **pao)[0] for at in (320.0, 380.0))
     held = 6.5e-4 * (1.0 + 2.7**2 / 6.0)
     assert hot / cold == pytest.approx((1.0 + held * 85.0) / (1.0 + held * 25.0), rel=1e-12)
 
@@ -375,22 +374,22 @@ def test_scaled_laws_of_shell_t9_by_hand(pressure):
     volume = (1.0 + 7.734e-4 * 0.15) / float(state.tait(pressure, 298.15, **TAIT)[0])
     ratio = 298.15 / 298.0
     kappa = volume * (1.0 - 0.101 * ratio * volume**3)
-    k = thermal_conductivity.scaled_thermal_conductivity(pressure, 298.15, **SCALED_K)[0]
+    k = heat_laws.scaled_thermal_conductivity(pressure, 298.15, **SCALED_K)[0]
     assert k == pytest.approx(0.053 + 0.026 * kappa**-7.66, rel=1e-12)
     assert k == pytest.approx(0.112 if pressure == 0.0 else 0.25, abs=3e-3)
-    c = heat_capacity.scaled_heat_capacity(pressure, 298.15, **SCALED_C)[0]
+    c = heat_laws.scaled_heat_capacity(pressure, 298.15, **SCALED_C)[0]
     assert c == pytest.approx(1.17e6 + 0.39e6 * ratio / volume**4, rel=1e-12)
 
 
 def test_scaled_conductivity_refuses_a_negative_kappa():
     with pytest.raises(InputError, match=r"^scaling_a: .* -0\.9, .*'scaling'"):
-        thermal_conductivity.scaled_thermal_conductivity(0.0, 400.0, **(SCALED_K | {"scaling_a": -0.9}))
+        heat_laws.scaled_thermal_conductivity(0.0, 400.0, **(SCALED_K | {"scaling_a": -0.9}))
 
 
 def test_constant_laws():
-    k = thermal_conductivity.constant_thermal_conductivity(np.array([0.0, 1e9]), thermal_conductivity=0.134)
+    k = heat_laws.constant_thermal_conductivity(np.array([0.0, 1e9]), thermal_conductivity=0.134)
     np.testing.assert_array_equal(k, [[0.134, 0.134], [0.0, 0.0]])
-    c = heat_capacity.constant_heat_capacity(np.array([0.0, 1e9]), heat_capacity=2000.0, density=850.0)
+    c = heat_laws.constant_heat_capacity(np.array([0.0, 1e9]), heat_capacity=2000.0, density=850.0)
     np.testing.assert_array_equal(c, [[1.7e6, 1.7e6], [0.0, 0.0]])
 
 
@@ -398,8 +397,8 @@ def test_constant_laws():
     ("pressure", "temperature", "count"), [(1e9, 350.0, 0), (1.2e9, 350.0, 1), (1e9, 390.0, 1)]
 )
 def test_laws_of_larsson_warn_outside_their_measurements(pressure, temperature, count):
-    of_k = thermal_conductivity.THERMAL_CONDUCTIVITY_LAWS["larsson"].warnings
-    of_c = heat_capacity.HEAT_CAPACITY_LAWS["larsson"].warnings
+    of_k = heat_laws.THERMAL_CONDUCTIVITY_LAWS["larsson"].warnings
+    of_c = heat_laws.HEAT_CAPACITY_LAWS["larsson"].warnings
     found = [*of_k(pressure, 0.01, temperature, **LARSSON_K), *of_c(pressure, 0.01, temperature, **LARSSON_C)]
     assert [warning.code for warning in found] == ["law-range"] * 2 * count
 

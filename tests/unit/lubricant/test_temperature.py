@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
-from ehlectric.lubricant.temperature import COLD, HOT, Walther, density
+from ehlectric.lubricant.over_temperature import COLD, HOT, Walther, density
 from ehlectric.lubricant.viscosity import roelands, roelands_alpha
 from tests.helpers.each import each
 

@@ -6,13 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.lubricant.viscosity_index import (
-    GRADES,
-    _reference,
-    grade_middle,
-    viscosity_at_100,
-    viscosity_index,
-)
+from ehlectric.lubricant.data_sheet import GRADES, _reference, grade_middle, viscosity_at_100, viscosity_index
 from tests.helpers.each import each
 
 

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from ehlectric.motion.accuracy import estimated, run_errors
 from ehlectric.motion.companion import Companion
-from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import MotionRun, read_motion
-from ehlectric.motion.summary import summary_of
+from ehlectric.motion.summary import estimated, run_errors, summary_of
 from tests.helpers.moving_cases import LINE, POINT, moving
 
 

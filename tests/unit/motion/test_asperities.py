@@ -6,27 +6,25 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-from ehlectric.app.figures import over_time
+from ehlectric.app.figures import motion_charts
 from ehlectric.arrays import Array
-from ehlectric.figures.motion.findings import of_history
-from ehlectric.figures.motion.save import figure
-from ehlectric.film.accuracy.moving_patch import MovingFilm
+from ehlectric.figures.motion_figures import figure, of_history
 from ehlectric.film.flow import flow
 from ehlectric.film.mesh import Mesh, Width
-from ehlectric.film.state import State
-from ehlectric.motion.accuracy import run_errors
-from ehlectric.motion.asperities import Toucher, TouchHistory
-from ehlectric.motion.contact import TransientContact
+from ehlectric.film.moving_patch import MovingFilm
+from ehlectric.film.newton import State
+from ehlectric.motion.motion_touching import Toucher, TouchHistory
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run, run_motion
 from ehlectric.motion.solver import TransientSolver
 from ehlectric.motion.stored import TOUCHING, solved_part
 from ehlectric.motion.stored_run import MotionRun, read_motion
-from ehlectric.motion.summary import summary_of
+from ehlectric.motion.summary import run_errors, summary_of
 from ehlectric.motion.warnings import touch_warnings
 from ehlectric.quantities.motion_results import MOTION_KEYS
 from ehlectric.quantities.quantity import key_of
-from ehlectric.runtime.checks.schema import UnfitError
-from ehlectric.tables.motion import run_rows
+from ehlectric.runtime.file_rules import UnfitError
+from ehlectric.tables.motion_tables import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving
 from tests.unit.motion.test_file import StoppedError, same
 from tests.unit.motion.test_summary import made
@@ -173,7 +171,9 @@ def test_the_summary_tables_figures_and_warnings_say_it(written):
     assert "surfaces touch" in of_history(moving_run)
     labels = [ax.get_ylabel() for ax in figure(moving_run, "motion_history.png").axes]
     assert "share [%]" in labels
-    assert "load share of asperities" in [trace["name"] for trace in over_time.history(moving_run)["data"]]
+    assert "load share of asperities" in [
+        trace["name"] for trace in motion_charts.history(moving_run)["data"]
+    ]
 
 
 @pytest.mark.slow
@@ -191,7 +191,7 @@ def test_a_run_that_never_touches_says_nothing(tmp_path):
     assert not any("asperit" in row.name or "spot" in row.name for row in run_rows(outcome.summary))
     labels = [ax.get_ylabel() for ax in figure(MotionRun.of(outcome.result), "motion_history.png").axes]
     assert "share [%]" not in labels
-    drawn = over_time.history(MotionRun.of(outcome.result))["data"]
+    drawn = motion_charts.history(MotionRun.of(outcome.result))["data"]
     assert "load share of asperities" not in [trace["name"] for trace in drawn]
 
 

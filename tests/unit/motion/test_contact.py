@@ -5,12 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from ehlectric.contact.conditions import resolve, resolve_point
 from ehlectric.contact.problems import domain_of, heights_of, line_domain_of
-from ehlectric.contact.resolve import resolve, resolve_point
-from ehlectric.motion.contact import TransientContact
-from ehlectric.surfaces import made_profiles as generators
-from ehlectric.surfaces.rough_maps import rough_maps
-from ehlectric.surfaces.rough_profiles import rough_surfaces
+from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.surfaces import generated_profiles as generators
+from ehlectric.surfaces.rough_surfaces import rough_maps, rough_surfaces
 from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 

@@ -18,14 +18,13 @@ import pytest
 from ehlectric import InputError
 from ehlectric.errors import ConvergenceError, DamagedError
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.contact import TransientContact
-from ehlectric.motion.file import MotionFile
-from ehlectric.motion.kinds import LINE
+from ehlectric.motion.moving_contact import LINE, TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.solver import TransientSolver
+from ehlectric.motion.storage import MotionFile
 from ehlectric.motion.stored_run import MOTION, MotionRun, read_motion, saved_steps
 from ehlectric.runtime import netcdf as netcdf_files
-from ehlectric.runtime.checks.sound import remember_sound
+from ehlectric.runtime.hdf5_soundness import remember_sound
 from tests.helpers.each import each
 from tests.helpers.moving_cases import POINT, moving
 

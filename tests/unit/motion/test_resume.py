@@ -9,7 +9,7 @@ import pytest
 
 from ehlectric.film.newton import State
 from ehlectric.film.unsteady import History, Instant
-from ehlectric.motion.resume import has_place, keep, kept, make_place
+from ehlectric.motion.storage import has_place, keep, kept, make_place
 
 SHAPE = (5, 3)
 

@@ -6,10 +6,10 @@ import pytest
 
 from ehlectric.errors import ConvergenceError
 from ehlectric.film.unsteady import UnsteadyFilm
-from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run, run_motion
 from ehlectric.motion.stored_run import MOTION
-from ehlectric.surfaces import rough_profiles
+from ehlectric.surfaces import rough_surfaces
 from tests.helpers.moving_cases import LINE, moving
 from tests.helpers.places import DEKTAK
 
@@ -89,13 +89,13 @@ def test_without_a_film_before_the_motion_there_is_nothing_to_sum_up(tmp_path):
 
 def test_a_run_reads_each_surface_once(tmp_path, monkeypatch):
     """Checked, moved and at rest: one surface from one reading of its file."""
-    read, paths = rough_profiles.read_surface, []
+    read, paths = rough_surfaces.read_surface, []
 
     def counted(path, **units):
         paths.append(path)
         return read(path, **units)
 
-    monkeypatch.setattr(rough_profiles, "read_surface", counted)
+    monkeypatch.setattr(rough_surfaces, "read_surface", counted)
     rough = {"surface": 1, "file": str(DEKTAK), "form": "parabola"}
     run(moving(LINE, roughness=[rough], motion={"passes": 0.25, "steps": 2, "record": 2}), tmp_path)
     assert list(map(str, paths)) == [str(DEKTAK)]

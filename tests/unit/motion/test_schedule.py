@@ -5,8 +5,8 @@ import math
 import pytest
 
 from ehlectric import InputError
-from ehlectric.contact.resolve import resolve, resolve_point
-from ehlectric.motion.schedule import schedule_of
+from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.motion.moving_contact import schedule_of
 from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
 

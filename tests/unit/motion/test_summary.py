@@ -8,13 +8,12 @@ import pytest
 import xarray as xr
 
 from ehlectric import Case
-from ehlectric.contact.resolve import resolve, resolve_point
-from ehlectric.figures.motion.save import save_motion_figures
-from ehlectric.figures.names import MOTION_FIGURE_FILES
-from ehlectric.motion import kinds, schedule
-from ehlectric.motion.field_history import time_above
+from ehlectric.contact.conditions import resolve, resolve_point
+from ehlectric.figures.figure_names import MOTION_FIGURE_FILES
+from ehlectric.figures.motion_figures import save_motion_figures
+from ehlectric.motion import moving_contact
 from ehlectric.motion.run import run_motion
-from ehlectric.motion.stored_run import MotionRun, read_motion
+from ehlectric.motion.stored_run import MotionRun, read_motion, time_above
 from ehlectric.motion.summary import SCHEMA, counted, instant_beside, local_maxima, summary_of
 from tests.helpers.each import each
 from tests.helpers.moving_cases import LINE, POINT, moving
@@ -25,7 +24,7 @@ def conditions_of(case):
 
 
 def schedule_of(case):
-    return schedule.schedule_of(case, conditions_of(case))
+    return moving_contact.schedule_of(case, conditions_of(case))
 
 
 def made(case, *, times, x=None, y=None, frame_times=None, complete=True, stationary=None, **values):
@@ -450,7 +449,7 @@ def test_a_stored_run_needs_no_surface_file(tmp_path, table):
 
 def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):
     dataset, calls = beside(), []
-    parse, resolves = Case.from_dict.__func__, kinds.LINE.contact.resolve
+    parse, resolves = Case.from_dict.__func__, moving_contact.LINE.contact.resolve
 
     def parsed(cls, *values):
         calls.append("parsed")
@@ -461,7 +460,7 @@ def test_a_summary_parses_and_resolves_its_case_once(monkeypatch):
         return resolves(case)
 
     monkeypatch.setattr(Case, "from_dict", classmethod(parsed))
-    stationary = replace(kinds.LINE.contact, resolve=resolved)
-    monkeypatch.setitem(kinds.KINDS, "line", replace(kinds.LINE, contact=stationary))
+    stationary = replace(moving_contact.LINE.contact, resolve=resolved)
+    monkeypatch.setitem(moving_contact.KINDS, "line", replace(moving_contact.LINE, contact=stationary))
     assert summary_of(dataset)["beside_stationary"] is not None
     assert calls == ["parsed", "resolved"]

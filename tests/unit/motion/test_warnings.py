@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric.contact.solver import solve
-from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.warnings import LEAST_STEPS, motion_warnings, step_warnings

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from ehlectric import solve
-from ehlectric.field.line import solve_field
+from ehlectric.field.line_field import solve_field
 from ehlectric.field.poisson import FieldProblem, lobatto_nodes
-from ehlectric.paper import errata, fas, report
-from ehlectric.paper.contacts import CONTACTS, LOADS, measured_profile, of_paper
-from ehlectric.paper.figures import FIGURES
+from ehlectric.paper import errata, fas, paper_report
+from ehlectric.paper.paper_contacts import CONTACTS, LOADS, measured_profile, of_paper
+from ehlectric.paper.paper_figures import FIGURES
+from ehlectric.paper.paper_tables import TABLES, agrees, amplitude, printed_table
 from ehlectric.paper.study import Placed, Study, readings_differ_by, straight_line
-from ehlectric.paper.tables import TABLES, agrees, amplitude, printed_table
-from ehlectric.runtime.parallel.workers import cores
+from ehlectric.runtime.worker_processes import cores
 from tests.helpers.places import EXAMPLES, ROOT
 from tests.reference.field import cylinder_potential
 
@@ -45,7 +45,7 @@ def tables_of(study):
 
 
 def verdicts(study):
-    return report.verdicts(tables_of(study))
+    return paper_report.verdicts(tables_of(study))
 
 
 @pytest.mark.slow

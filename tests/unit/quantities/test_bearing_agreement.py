@@ -7,14 +7,14 @@ from html import unescape
 import pytest
 
 from ehlectric import solve
-from ehlectric.app.compute.bearing import answer_of
-from ehlectric.app.compute.compare import side
+from ehlectric.app.compute.bearing_answers import answer_of
+from ehlectric.app.compute.compare_answers import side
 from ehlectric.quantities.bearing_results import BEARING_BOOK
 from ehlectric.quantities.quantity import key_of
-from ehlectric.report.facts import row_tables
-from ehlectric.runs.results import load
+from ehlectric.report.report_facts import row_tables
+from ehlectric.runs.solve import load
 from ehlectric.sweep.labels import label_of
-from ehlectric.tables.bearing import total_rows
+from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.places import ROOT
 

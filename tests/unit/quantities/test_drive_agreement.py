@@ -6,18 +6,18 @@ from html import escape
 import pytest
 
 from ehlectric import load, solve_drive
-from ehlectric.app.compute.drives.numbers import drive_numbers, ends_table
-from ehlectric.cases.drives.case import ENDS
+from ehlectric.app.compute.drive_answers import drive_numbers, ends_table
 from ehlectric.drive.solver import prepare
 from ehlectric.drive.summary import checked_summary
 from ehlectric.quantities.drive_results import DRIVE_BOOK, DRIVE_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.rows import shown_unit
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
-from ehlectric.report.content import Table
-from ehlectric.report.drives.numbers import number_tables
-from ehlectric.tables.drive import drive_rows, prepared_rows
-from ehlectric.tables.drive import ends_table as printed_table
-from ehlectric.tables.html import html_of
+from ehlectric.report.drive_report import number_tables
+from ehlectric.report.report_content import Table
+from ehlectric.tables.drive_tables import drive_rows, prepared_rows
+from ehlectric.tables.drive_tables import ends_table as printed_table
+from ehlectric.tables.html_tables import html_of
 from tests.helpers.drives import small_drive
 from tests.helpers.places import ROOT
 from tests.unit.tables.test_tables import PRIVATE

@@ -14,11 +14,11 @@ from ehlectric.quantities.motion_results import MOTION_BOOK, MOTION_KEYS
 from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.rows import shown_unit, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
-from ehlectric.report.content import Table
-from ehlectric.report.facts import row_tables
+from ehlectric.report.report_content import Table
+from ehlectric.report.report_facts import row_tables
 from ehlectric.sweep.labels import label_of
-from ehlectric.tables.html import html_of
-from ehlectric.tables.motion import run_rows
+from ehlectric.tables.html_tables import html_of
+from ehlectric.tables.motion_tables import run_rows
 from tests.helpers.moving_cases import POINT, moving
 from tests.helpers.places import ROOT
 from tests.unit.tables.test_tables import PRIVATE

@@ -9,7 +9,7 @@ from ehlectric.quantities.formats import UNITS
 from ehlectric.quantities.quantity import Quantity
 from ehlectric.quantities.rows import Row, rows_of, value_at
 from ehlectric.quantities.units import to_si
-from ehlectric.tables.layout import table_of
+from ehlectric.tables.measured_tables import table_of
 from tests.helpers.each import each
 
 KEYS = {"film.minimum_thickness": Quantity("smallest film", "m")}

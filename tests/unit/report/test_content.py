@@ -7,17 +7,16 @@ import pytest
 
 from ehlectric import BearingCase, Case, load, save, solve
 from ehlectric.errors import InputError
-from ehlectric.figures import names
-from ehlectric.figures.names import in_formats
+from ehlectric.figures import figure_names
+from ehlectric.figures.figure_names import in_formats
 from ehlectric.quantities.rows import Row
+from ehlectric.report.background import inputs_of, material_sources
 from ehlectric.report.build import report_of
-from ehlectric.report.captions import CAPTIONS, UNCONVERGED, caption_of
-from ehlectric.report.content import Picture, Table, Text, Warnings
-from ehlectric.report.facts import row_tables
-from ehlectric.report.files import write_report
 from ehlectric.report.light import Light, light_of
 from ehlectric.report.limits import LIMITS, REFERENCES, limits_of, references_of
-from ehlectric.report.origins import inputs_of, material_sources
+from ehlectric.report.report_content import Picture, Table, Text, Warnings
+from ehlectric.report.report_facts import CAPTIONS, UNCONVERGED, caption_of, row_tables
+from ehlectric.report.written_report import write_report
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, OIL, bearing_case, changed
 from tests.helpers.each import each
@@ -157,10 +156,11 @@ def test_figures_have_captions(report):
 
 def test_every_figure_that_a_result_can_have_has_a_caption():
     files = (
-        *names.DRIVE_FIGURE_FILES, *names.FIGURE_FILES, *names.POINT_FIGURE_FILES,
-        names.ROUGHNESS_FIGURE, names.BREAKDOWN_FIGURE,
-        names.METER_FIGURE, *names.MOTION_FIGURE_FILES, *names.BEARING_FIGURE_FILES,
-        *names.SPEED_FIGURE_FILES, names.SENSITIVITY_FIGURE, names.TEMPERATURE_FIGURE, names.SHEAR_FIGURE,
+        *figure_names.DRIVE_FIGURE_FILES, *figure_names.FIGURE_FILES, *figure_names.POINT_FIGURE_FILES,
+        figure_names.ROUGHNESS_FIGURE, figure_names.BREAKDOWN_FIGURE,
+        figure_names.METER_FIGURE, *figure_names.MOTION_FIGURE_FILES, *figure_names.BEARING_FIGURE_FILES,
+        *figure_names.SPEED_FIGURE_FILES, figure_names.SENSITIVITY_FIGURE,
+        figure_names.TEMPERATURE_FIGURE, figure_names.SHEAR_FIGURE,
     )  # fmt: skip
     assert {file.removesuffix(".png") for file in in_formats(files)} == set(CAPTIONS)
     assert caption_of("film", converged=False).startswith(UNCONVERGED)

@@ -8,12 +8,11 @@ from ehlectric import BearingCase, save, solve
 from ehlectric.cases.case import Case
 from ehlectric.errors import ResultWarning
 from ehlectric.report.build import report_of
-from ehlectric.report.content import Picture, Table, Text
-from ehlectric.report.drawn import pictures_of
-from ehlectric.report.facts import warning_block
 from ehlectric.report.limits import references_of
-from ehlectric.report.pdf_parts import _parted
-from ehlectric.report.swept import sweep_part
+from ehlectric.report.pdf import _parted
+from ehlectric.report.report_content import Picture, Table, Text
+from ehlectric.report.report_facts import pictures_of, warning_block
+from ehlectric.report.sweep_report import sweep_part
 from tests.helpers.bearings import BALLS, OIL, ROLLERS, bearing_case, changed
 from tests.helpers.sweep_models import POTENTIAL, SPEED, breakdown, grid
 

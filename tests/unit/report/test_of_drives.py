@@ -9,17 +9,23 @@ import pytest
 from ehlectric import DriveCase, Sweep, run_sweep, save, solve_drive
 from ehlectric.cases.case import Case
 from ehlectric.drive.result import DriveResult
+from ehlectric.report.background import inputs_of, replaced_by
 from ehlectric.report.build import report_of
-from ehlectric.report.content import Picture, Table, Text
-from ehlectric.report.drives.assumptions import assumption_section
-from ehlectric.report.drives.events import LISTED, event_blocks
-from ehlectric.report.drives.limits import DRIVE_LIMITS, DRIVE_REFERENCES, drive_limits, drive_references
-from ehlectric.report.drives.part import drive_part
-from ehlectric.report.drives.swept import swept_verdict
-from ehlectric.report.html import html_of
+from ehlectric.report.drive_report import (
+    DRIVE_LIMITS,
+    DRIVE_REFERENCES,
+    LISTED,
+    assumption_section,
+    drive_limits,
+    drive_part,
+    drive_references,
+    event_blocks,
+    swept_verdict,
+)
 from ehlectric.report.light import Light, light_of
-from ehlectric.report.origins import inputs_of, replaced_by
 from ehlectric.report.pdf import pdf_of
+from ehlectric.report.report_content import Picture, Table, Text
+from ehlectric.report.written_report import html_of
 from tests.helpers.drives import drive_with_remedy, small_drive
 from tests.helpers.places import ROOT
 from tests.helpers.reports import HOSTILE, Page, needs_pdftotext, text_of_pdf

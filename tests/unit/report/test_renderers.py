@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from ehlectric.report.html import html_of
 from ehlectric.report.pdf import pdf_of
+from ehlectric.report.written_report import html_of
 from tests.helpers.reports import HOSTILE, Page, needs_pdftotext, small_report, text_of_pdf
 
 

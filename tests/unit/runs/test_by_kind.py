@@ -8,11 +8,11 @@ import pytest
 
 import ehlectric
 from ehlectric import InputError, read_sweep
-from ehlectric.commands.drawing import load_and_draw
+from ehlectric.commands.draw_commands import load_and_draw
 from ehlectric.runs.by_kind import RUNS, run, run_and_draw
-from ehlectric.runs.kinds import kind_of_file
-from ehlectric.runs.results import load
-from ehlectric.runtime.outcome import RunOutcome
+from ehlectric.runs.file_kinds import kind_of_file
+from ehlectric.runs.solve import load
+from ehlectric.runtime.progress import RunOutcome
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 

@@ -9,9 +9,9 @@ import pytest
 
 from ehlectric import Sweep, load
 from ehlectric.errors import InputError
-from ehlectric.runs.kinds import kind_of_file
+from ehlectric.runs.file_kinds import kind_of_file
 from ehlectric.runs.solve import case_of
-from ehlectric.runtime.checks.seal import seal
+from ehlectric.runtime.hdf5_soundness import seal
 from ehlectric.sweep.store import read_sweep
 from ehlectric.version import __version__
 from tests.helpers.each import each

@@ -7,9 +7,9 @@ import pytest
 from jsonschema import Draft7Validator
 
 from ehlectric.cases.input_keys import TABLES, descriptions
-from ehlectric.commands.start import TEMPLATES, template
-from ehlectric.runs.kinds import kind_of_tables
-from ehlectric.runs.schema import SCHEMAS, schema_of
+from ehlectric.commands.start_commands import TEMPLATES, template
+from ehlectric.runs.file_kinds import kind_of_tables
+from ehlectric.runs.json_schema import SCHEMAS, schema_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES
 

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from ehlectric import Case, InputError, LostError, solve, solve_many
-from ehlectric.runs import solve_many as module
+from ehlectric.runs import solve as module
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each

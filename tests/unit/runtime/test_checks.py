@@ -10,9 +10,9 @@ import xarray as xr
 
 from ehlectric import InputError, load
 from ehlectric.errors import DamagedError
-from ehlectric.runtime.checks import sound
-from ehlectric.runtime.checks.schema import Rule, UnfitError, check_variables, json_of, number_of, refusing
-from ehlectric.runtime.checks.seal import seal, seal_of, sealed
+from ehlectric.runtime import hdf5_soundness
+from ehlectric.runtime.file_rules import Rule, UnfitError, check_variables, json_of, number_of, refusing
+from ehlectric.runtime.hdf5_soundness import seal, seal_of, sealed
 from ehlectric.runtime.netcdf import changed, create, layout_in, read_dataset
 from tests.helpers.each import each
 from tests.helpers.places import ROOT
@@ -70,8 +70,8 @@ def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
     path = tmp_path / "result.nc"
     path.write_bytes(UNSEALED)
     started = []
-    run = sound.subprocess.run
-    monkeypatch.setattr(sound.subprocess, "run", lambda *a, **k: started.append(a) or run(*a, **k))
+    run = hdf5_soundness.subprocess.run
+    monkeypatch.setattr(hdf5_soundness.subprocess, "run", lambda *a, **k: started.append(a) or run(*a, **k))
     assert read_dataset(path).identical(read_dataset(path))
     assert len(started) == 1
     seal(path)
@@ -81,7 +81,7 @@ def test_a_file_without_a_seal_is_tried_once(tmp_path, monkeypatch):
 
 def test_a_file_that_this_process_has_written_is_sound_until_it_changes(tmp_path, monkeypatch):
     path, tried = tmp_path / "film.nc", []
-    monkeypatch.setattr(sound, "_try", lambda _, size: tried.append(size))
+    monkeypatch.setattr(hdf5_soundness, "_try", lambda _, size: tried.append(size))
 
     def fill(file):
         file.dimensions = {"x": None}
@@ -108,20 +108,20 @@ def test_a_file_that_this_process_has_written_is_sound_until_it_changes(tmp_path
 @pytest.mark.slow
 def test_a_file_that_keeps_hdf5_busy_for_ever(damaged, monkeypatch):
     """Zeros in the texts of attributes: HDF5 looks for the next one without end, and no signal ends it."""
-    monkeypatch.setattr(sound, "_LIMIT", 1.0)
+    monkeypatch.setattr(hdf5_soundness, "_LIMIT", 1.0)
     path = damaged(UNSEALED.index(b"units of p/p_h") + 14, bytes(64))
     with pytest.raises(DamagedError, match=r"is damaged: HDF5 reads it without end; compute it again$"):
         read_dataset(path)
 
 
 def test_a_file_on_which_hdf5_crashes(damaged, monkeypatch):
-    monkeypatch.setattr(sound, "_CODE", "import os; os.abort()")
+    monkeypatch.setattr(hdf5_soundness, "_CODE", "import os; os.abort()")
     with pytest.raises(DamagedError, match=r"is damaged: HDF5 crashes on it; compute it again$"):
         read_dataset(damaged(0, b""))
 
 
 def test_a_file_that_is_held_open_by_others(damaged, monkeypatch):
-    monkeypatch.setattr(sound, "_PATIENCE", 0.0)
+    monkeypatch.setattr(hdf5_soundness, "_PATIENCE", 0.0)
     path = damaged(0, b"")
     with path.open("r+b") as holder:
         fcntl.flock(holder, fcntl.LOCK_EX)

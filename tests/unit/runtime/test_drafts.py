@@ -10,8 +10,7 @@ import pytest
 
 from ehlectric import InputError
 from ehlectric.runtime import drafts, netcdf
-from ehlectric.runtime.drafts import Draft
-from ehlectric.runtime.redo import redo_file
+from ehlectric.runtime.drafts import Draft, redo_file
 from tests.helpers.each import each
 
 

@@ -5,8 +5,8 @@ import signal
 
 import pytest
 
-from ehlectric.runtime.interrupts import held_back
-from ehlectric.runtime.parallel.workers import without_interrupts
+from ehlectric.runtime.locks import held_back
+from ehlectric.runtime.worker_processes import without_interrupts
 
 NUMBERS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 

@@ -18,17 +18,16 @@ from rich.console import Console
 from ehlectric.cases.case import Case
 from ehlectric.commands.terminal import echo_files, say, warn
 from ehlectric.errors import InputError, ResultWarning, printable, short, shown, unseen
-from ehlectric.figures.names import literal
+from ehlectric.figures.figure_names import literal
 from ehlectric.figures.style import name_over, save_figure
 from ehlectric.quantities.rows import Row
-from ehlectric.runtime.files import write
-from ehlectric.runtime.log import log_warnings
-from ehlectric.runtime.tables import _FORMULA, csv_of, csv_text
-from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.results import Point
-from ehlectric.sweep.tables import write_tables
-from ehlectric.tables.html import html_of
-from ehlectric.tables.layout import table_of
+from ehlectric.runtime.files import _FORMULA, csv_of, csv_text, write
+from ehlectric.runtime.progress import log_warnings
+from ehlectric.sweep.points import Point
+from ehlectric.sweep.result import write_tables
+from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.tables.html_tables import html_of
+from ehlectric.tables.measured_tables import table_of
 from tests.helpers.each import each
 from tests.helpers.sweep_models import SPEED, grid
 

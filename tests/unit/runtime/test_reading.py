@@ -7,16 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from ehlectric.cases.any_case import case_of_file
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.case import Case
-from ehlectric.drive.source.waveform_file import read_waveform
+from ehlectric.cases.drive_case import case_of_file
+from ehlectric.drive.waveform_file import read_waveform
 from ehlectric.errors import InputError
-from ehlectric.runs.kinds import expect
+from ehlectric.runs.file_kinds import expect
 from ehlectric.runtime.reading import MOST_TEXT, blocks, read_bytes, read_text, refuse_unreadable
-from ehlectric.surfaces.files import read_surface
-from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.plan import plan
+from ehlectric.surfaces.surface_files import read_surface
+from ehlectric.sweep.engine import plan
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.each import each
 
 CASE = """\

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.errors import CODES, ResultWarning, texts_and_codes, warnings_of
-from ehlectric.runtime.checks.schema import UnfitError
+from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.runtime.stored import (
     Part,
     check_parts,
@@ -23,7 +23,7 @@ from ehlectric.runtime.stored import (
     warnings_in,
     warnings_in_tables,
 )
-from ehlectric.sweep.results import Point
+from ehlectric.sweep.points import Point
 from tests.helpers.each import each
 
 words = st.one_of(st.text(), st.sampled_from(["do not use this film", "the film may be 32 % off"]))

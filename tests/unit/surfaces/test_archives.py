@@ -9,9 +9,8 @@ import pytest
 
 from ehlectric.errors import InputError
 from ehlectric.runtime import sizes
-from ehlectric.surfaces import instrument_files
-from ehlectric.surfaces.archives import member, opened
-from ehlectric.surfaces.files import read_surface
+from ehlectric.surfaces import surface_files
+from ehlectric.surfaces.surface_files import member, opened, read_surface
 from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, description, x3p
 
@@ -96,4 +95,4 @@ def test_a_map_that_does_not_fit_into_the_memory(tmp_path, monkeypatch):
     read_surface(path)
     monkeypatch.setattr(sizes, "available_memory", lambda: 10_000.0)
     with pytest.raises(InputError, match=r"20 x 31 .* 11\.2 kB .* 10 kB"):
-        instrument_files.read_x3p(path, path.read_bytes())
+        surface_files.read_x3p(path, path.read_bytes())

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.surfaces.files import _read_other, read_surface
 from ehlectric.surfaces.profiles import Processing, processed, statistics
+from ehlectric.surfaces.surface_files import _read_other, read_surface
 from tests.helpers.each import each
 from tests.helpers.places import DEKTAK, SURFACES
 from tests.helpers.surface_writers import MAP, al3d, x3p

@@ -4,8 +4,8 @@ from inspect import Parameter, signature
 
 import pytest
 
-from ehlectric.cases.roughness import GENERATORS, SHAPES
-from ehlectric.surfaces import made_maps, made_profiles
+from ehlectric.cases.roughness_inputs import GENERATORS, SHAPES
+from ehlectric.surfaces import generated_maps, generated_profiles
 from tests.helpers.each import each
 
 # Keys of point contacts, whose functions alone know a second direction.
@@ -19,18 +19,18 @@ def keywords(function):
 
 
 def test_every_shape_has_a_profile_and_a_map():
-    assert set(SHAPES) == set(made_profiles.SHAPES) == set(made_maps.SHAPES)
+    assert set(SHAPES) == set(generated_profiles.SHAPES) == set(generated_maps.SHAPES)
     assert set(SHAPES) < set(GENERATORS)
 
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_keys_of_a_shape_are_the_keywords_of_its_functions(name):
     needed, optional = map(set, GENERATORS[name])
-    assert keywords(made_maps.SHAPES[name]) == (needed | optional, needed)
-    assert keywords(made_profiles.SHAPES[name]) == ((needed | optional) - ACROSS, needed)
+    assert keywords(generated_maps.SHAPES[name]) == (needed | optional, needed)
+    assert keywords(generated_profiles.SHAPES[name]) == ((needed | optional) - ACROSS, needed)
 
 
-@each("module", [made_profiles, made_maps])
+@each("module", [generated_profiles, generated_maps])
 @each("name", sorted(set(GENERATORS) - set(SHAPES)))
 def test_random_surfaces_take_all_that_their_generators_need(module, name):
     needed, _ = GENERATORS[name]

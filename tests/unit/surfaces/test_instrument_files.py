@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.surfaces.files import read_surface
+from ehlectric.surfaces.surface_files import read_surface
 from tests.helpers.each import each
 from tests.helpers.surface_writers import KINDS, MAP, al3d, x3p
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.surfaces import made_maps as map_generators
-from ehlectric.surfaces import made_profiles as generators
+from ehlectric.surfaces import generated_maps as map_generators
+from ehlectric.surfaces import generated_profiles as generators
 from ehlectric.surfaces.maps import statistics
 
 X = np.linspace(-4e-5, 3e-5, 71)

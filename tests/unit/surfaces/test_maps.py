@@ -6,11 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
-from ehlectric.surfaces.continuation import continued_map
-from ehlectric.surfaces.maps import Map, processed_map, statistics, trimmed, waviness, without_form
+from ehlectric.surfaces.maps import Map, filled, processed_map, statistics, trimmed, waviness, without_form
 from ehlectric.surfaces.profiles import Processing, Profile
 from ehlectric.surfaces.profiles import processed as of_profile
-from ehlectric.surfaces.voids import filled
+from ehlectric.surfaces.rough_surfaces import continued_map
 from tests.helpers.each import each
 
 CUTOFF = 20e-6

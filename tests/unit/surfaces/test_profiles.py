@@ -8,10 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import line_domain_of
-from ehlectric.contact.resolve import resolve
-from ehlectric.surfaces import made_profiles as generators
-from ehlectric.surfaces.continuation import continued
+from ehlectric.surfaces import generated_profiles as generators
 from ehlectric.surfaces.profiles import (
     Processing,
     Profile,
@@ -21,7 +20,7 @@ from ehlectric.surfaces.profiles import (
     waviness,
     without_form,
 )
-from ehlectric.surfaces.rough_profiles import rough_surfaces
+from ehlectric.surfaces.rough_surfaces import continued, rough_surfaces
 from tests.helpers.each import each
 
 CUTOFF = 80e-6

@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError
-from ehlectric.cases.roughness import Roughness, check_geometry
-from ehlectric.surfaces import made_profiles as generators
-from ehlectric.surfaces.domain import Domain
-from ehlectric.surfaces.files import read_surface
+from ehlectric.cases.roughness_inputs import Roughness, check_geometry
+from ehlectric.surfaces import generated_profiles as generators
+from ehlectric.surfaces.generated_profiles import Domain
 from ehlectric.surfaces.maps import Map, statistics
-from ehlectric.surfaces.rough_maps import measured_map, rough_maps, whole_map
-from ehlectric.surfaces.rough_profiles import measured
-from ehlectric.surfaces.warnings import map_surface_warnings
-from ehlectric.surfaces.warnings import map_variance_beyond as variance_beyond
+from ehlectric.surfaces.rough_surfaces import measured, measured_map, rough_maps, whole_map
+from ehlectric.surfaces.surface_files import read_surface
+from ehlectric.surfaces.surface_warnings import map_surface_warnings
+from ehlectric.surfaces.surface_warnings import map_variance_beyond as variance_beyond
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, al3d, x3p
@@ -222,7 +221,7 @@ def test_maps_that_cannot_be_used(tmp_path, monkeypatch):
     ):
         with pytest.raises(InputError, match=message):
             whole_map(Roughness(surface=1, file=str(DEKTAK), **table))
-    monkeypatch.setattr("ehlectric.surfaces.files.MOST_MAP_POINTS", 50_000)
+    monkeypatch.setattr("ehlectric.surfaces.surface_files.MOST_MAP_POINTS", 50_000)
     with pytest.raises(InputError, match=r" 5.92e\+04 points"):
         surfaces_of({"surface": 1, "file": AL3D})
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import line_domain_of, spacing
-from ehlectric.contact.resolve import resolve
 from ehlectric.surfaces.profiles import Profile
-from ehlectric.surfaces.rough_profiles import measured, rough_surfaces
-from ehlectric.surfaces.warnings import profile_surface_warnings
-from ehlectric.surfaces.warnings import profile_variance_beyond as variance_beyond
+from ehlectric.surfaces.rough_surfaces import measured, rough_surfaces
+from ehlectric.surfaces.surface_warnings import profile_surface_warnings
+from ehlectric.surfaces.surface_warnings import profile_variance_beyond as variance_beyond
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.surface_writers import MAP, al3d

@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-from ehlectric.surfaces import made_maps, made_profiles
+from ehlectric.surfaces import generated_maps, generated_profiles
 from ehlectric.surfaces.maps import Map
 from ehlectric.surfaces.profiles import Profile
-from ehlectric.surfaces.summits import summit_statistics, surface_moments
-from ehlectric.tables.surface import summits_table
+from ehlectric.surfaces.surface_warnings import summit_statistics, surface_moments
+from ehlectric.tables.surface_tables import summits_table
 
 LENGTH = 1e-5
 
 
 def profile():
-    return made_profiles.gaussian(rq=1e-7, correlation_length=LENGTH, length=2000 * LENGTH, seed=1)
+    return generated_profiles.gaussian(rq=1e-7, correlation_length=LENGTH, length=2000 * LENGTH, seed=1)
 
 
 def square():
-    return made_maps.gaussian(
+    return generated_maps.gaussian(
         rq=1e-7, correlation_length=LENGTH, reach_x=40 * LENGTH, reach_y=40 * LENGTH, seed=2
     )
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlectric import InputError
-from ehlectric.surfaces import text_files
-from ehlectric.surfaces.files import read_surface
+from ehlectric.surfaces import surface_files
+from ehlectric.surfaces.surface_files import read_surface
 from tests.helpers.each import each
 from tests.unit.surfaces.test_files import DEKTAK
 
@@ -178,7 +178,7 @@ def test_rounded_positions_are_no_gap(tmp_path):
 
 
 def test_a_text_of_too_many_lines(tmp_path, monkeypatch):
-    monkeypatch.setattr(text_files, "MOST_LINES", 50)
+    monkeypatch.setattr(surface_files, "MOST_LINES", 50)
     path = tmp_path / "a.csv"
     path.write_text("\n" * 51 + "1;2\n")
     with pytest.raises(InputError, match=r"a\.csv: .* 52 .* 50$"):

@@ -9,12 +9,12 @@ import pytest
 
 from ehlectric import InputError, read_sweep
 from ehlectric.errors import DamagedError
-from ehlectric.sweep.breakdown_keys import breakdown_of
-from ehlectric.sweep.plan import Outcome, plan
+from ehlectric.sweep.engine import Outcome, plan
+from ehlectric.sweep.result import write_tables
 from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import take
 from ehlectric.sweep.store import NAME, Store, saved_points
-from ehlectric.sweep.tables import write_tables
+from ehlectric.sweep.sweep_inputs import breakdown_of
 from tests.helpers.damage import edited_json, scrambled, with_damaged_bytes
 from tests.helpers.each import each
 from tests.helpers.share import share

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from ehlectric.sweep.design import between, grid, paired, shares, sobol
-from ehlectric.sweep.results import Range
+from ehlectric.sweep.points import Range
+from ehlectric.sweep.sweep_inputs import between, grid, paired, shares, sobol
 from tests.helpers.each import each
 
 lists = st.lists(st.lists(st.integers(), min_size=1, max_size=4, unique=True), min_size=1, max_size=4)

@@ -13,13 +13,12 @@ import numpy as np
 import pytest
 
 from ehlectric import ConvergenceError, InputError, solve
-from ehlectric.bearing.speeds import over_speed
+from ehlectric.bearing.speed_curves import over_speed
 from ehlectric.errors import LostError
-from ehlectric.runtime.parallel import tasks as runtime_tasks
-from ehlectric.runtime.parallel.workers import Crew, cores, crew_of, processes
+from ehlectric.runtime import tasks as runtime_tasks
+from ehlectric.runtime.worker_processes import Crew, cores, crew_of, processes
 from ehlectric.sweep import engine as sweep_engine
-from ehlectric.sweep.engine import run_points, solve_point
-from ehlectric.sweep.plan import Outcome
+from ehlectric.sweep.engine import Outcome, run_points, solve_point
 from ehlectric.version import __version__
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each

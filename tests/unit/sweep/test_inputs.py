@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from ehlectric import Case, InputError, Sweep
 from ehlectric.cases.input_keys import input_field, number_of
-from ehlectric.contact.resolve import resolve
-from ehlectric.sweep.results import Range
+from ehlectric.contact.conditions import resolve
+from ehlectric.sweep.points import Range
 from tests.cli.conftest import CASE as CASE_FILE
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each

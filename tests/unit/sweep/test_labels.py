@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
@@ -16,7 +16,7 @@ from ehlectric.quantities.quantity import key_of
 from ehlectric.quantities.units import to_si
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.labels import label_of, result_keys
-from ehlectric.sweep.results import flat
+from ehlectric.sweep.points import flat
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.drives import small_drive
 from tests.helpers.each import each

@@ -11,18 +11,18 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from ehlectric.bearing.preparation import resolve_bearing
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from ehlectric.errors import InputError
-from ehlectric.figures.names import SPEED_FIGURE_FILES
-from ehlectric.figures.sweep.lines import value_lines
-from ehlectric.figures.sweep.maps import value_map
-from ehlectric.figures.sweep.points import held_text
-from ehlectric.figures.sweep.save import save_speeds
-from ehlectric.sweep.breakdown_keys import CONTACT, FIRST_BREAK, THROUGH, breakdown_of
+from ehlectric.figures.figure_names import SPEED_FIGURE_FILES
+from ehlectric.figures.sweep_figures import save_speeds
+from ehlectric.figures.sweep_lines import value_lines
+from ehlectric.figures.sweep_maps import value_map
+from ehlectric.figures.sweep_points import held_text
 from ehlectric.sweep.labels import label_of
-from ehlectric.sweep.results import Range
+from ehlectric.sweep.points import Range
 from ehlectric.sweep.sensitivity import sensitivity
 from ehlectric.sweep.slices import take
+from ehlectric.sweep.sweep_inputs import CONTACT, FIRST_BREAK, THROUGH, breakdown_of
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 from tests.helpers.sweep_models import case, grid, points, sobol

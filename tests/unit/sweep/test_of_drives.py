@@ -8,18 +8,17 @@ import pytest
 from typer.testing import CliRunner
 
 from ehlectric import DriveCase, InputError, Sweep, read_sweep, run_sweep
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from ehlectric.drive.result import solve_drive
-from ehlectric.figures.sweep.lines import value_lines
-from ehlectric.figures.sweep.maps import value_map
-from ehlectric.report.drawn import swept_names
-from ehlectric.report.drives.swept import swept_values
+from ehlectric.figures.sweep_lines import value_lines
+from ehlectric.figures.sweep_maps import value_map
+from ehlectric.report.drive_report import swept_values
+from ehlectric.report.report_facts import swept_names
 from ehlectric.runs.meaning import check
-from ehlectric.sweep.breakdown_keys import main_value
-from ehlectric.sweep.columns import unit_of_column
-from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.plan import case_key
-from ehlectric.sweep.results import flat
+from ehlectric.sweep.engine import case_key, solve_point
+from ehlectric.sweep.points import flat
+from ehlectric.sweep.result import unit_of_column
+from ehlectric.sweep.sweep_inputs import main_value
 from tests.helpers.drives import small_drive
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

@@ -4,11 +4,10 @@ import pytest
 from click.testing import CliRunner
 from typer.main import get_command
 
-from ehlectric.commands.app import app
+from ehlectric.commands.command_line import app
 from ehlectric.runs.meaning import check
-from ehlectric.sweep.inputs import Sweep
-from ehlectric.sweep.plan import plan
-from ehlectric.sweep.preview import lacking_point
+from ehlectric.sweep.engine import lacking_point, plan
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.drives import small_drive
 
 SPEEDS = {"drive.speed": ["6000 rpm", "200 rpm", "3000 rpm"]}

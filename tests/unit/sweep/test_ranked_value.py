@@ -1,6 +1,6 @@
 """Value to whose spread the inputs of a Sobol design are ranked."""
 
-from ehlectric.sweep.breakdown_keys import main_value, ranked_value
+from ehlectric.sweep.sweep_inputs import main_value, ranked_value
 from tests.helpers.bearings import BALLS, bearing_case
 
 

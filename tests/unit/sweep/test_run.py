@@ -9,7 +9,7 @@ import pytest
 
 from ehlectric import InputError, read_sweep, run_sweep, solve
 from ehlectric.errors import LostError
-from ehlectric.runtime.parallel.workers import Crew, crew_of
+from ehlectric.runtime.worker_processes import Crew, crew_of
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.run import run
 from tests.helpers.sweeps import CASE, LOAD, NODES, PRESSURE, SPEED, speeds, sweep_over
@@ -142,7 +142,7 @@ def test_what_holds_the_crew_up_is_told(tmp_path):
 
 def test_progress_while_nothing_finishes(tmp_path, monkeypatch):
     """Somebody who waits for a cluster is told so again and again."""
-    monkeypatch.setattr("ehlectric.runtime.parallel.tasks._PULSE", 0.01)
+    monkeypatch.setattr("ehlectric.runtime.tasks._PULSE", 0.01)
     told = []
 
     def submit(call, *values):

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from scipy.stats import sobol_indices
 
 from ehlectric import InputError
-from ehlectric.sweep.results import Range, SweepResults
+from ehlectric.sweep.points import Range
+from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.sensitivity import LEVEL, indices, intervals, sensitivity
 from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid, sobol
 

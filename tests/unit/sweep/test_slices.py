@@ -7,11 +7,10 @@ from hypothesis import strategies as st
 
 from ehlectric import InputError
 from ehlectric.quantities.formats import scale_for
-from ehlectric.sweep.breakdown_keys import CONTACT
-from ehlectric.sweep.interpolation import spaced_log, surface_of
 from ehlectric.sweep.labels import label_of
-from ehlectric.sweep.results import Range
-from ehlectric.sweep.slices import take
+from ehlectric.sweep.points import Range
+from ehlectric.sweep.slices import spaced_log, surface_of, take
+from ehlectric.sweep.sweep_inputs import CONTACT
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, case, grid, paired, sobol
 

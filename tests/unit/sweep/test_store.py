@@ -10,8 +10,8 @@ from dataclasses import replace
 import pytest
 
 from ehlectric import Case, InputError, read_sweep
-from ehlectric.sweep.plan import Outcome, case_key, plan
-from ehlectric.sweep.results import Range
+from ehlectric.sweep.engine import Outcome, case_key, plan
+from ehlectric.sweep.points import Range
 from ehlectric.sweep.store import NAME, Store
 from ehlectric.version import __version__
 from tests.helpers.each import each

@@ -12,13 +12,11 @@ import xarray as xr
 from pyarrow import parquet
 
 from ehlectric import read_sweep
-from ehlectric.sweep.columns import columns_of
-from ehlectric.sweep.columns import dataset_of as to_xarray
-from ehlectric.sweep.engine import solve_point
-from ehlectric.sweep.plan import Outcome, plan
-from ehlectric.sweep.results import flat
+from ehlectric.sweep.engine import Outcome, plan, solve_point
+from ehlectric.sweep.points import flat
+from ehlectric.sweep.result import columns_of, write_tables
+from ehlectric.sweep.result import dataset_of as to_xarray
 from ehlectric.sweep.store import NAME, Store
-from ehlectric.sweep.tables import write_tables
 from tests.helpers.sweeps import LOAD, NODES, PRESSURE, SPEED, sweep_over
 
 THICKNESS = "film.minimum_thickness"

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from ehlectric import Case
-from ehlectric.sweep.results import Point, Range, SweepResults
-from ehlectric.sweep.verdict import crossing, sweep_verdict, value_text
+from ehlectric.sweep.points import Point, Range
+from ehlectric.sweep.result import SweepResults
+from ehlectric.sweep.sweep_verdict import crossing, sweep_verdict, value_text
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 

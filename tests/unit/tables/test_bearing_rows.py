@@ -5,7 +5,7 @@ import re
 import pytest
 
 from ehlectric import BearingCase, solve
-from ehlectric.tables.bearing import films_table, loads_table, total_rows
+from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
 from tests.helpers.bearings import BALLS, bearing_case, changed
 
 # A unit at the end of a value, and at the beginning of a note.

@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 
 from ehlectric import InputError, Sweep, solve, solve_motion
 from ehlectric.runtime.values import WIDTH
-from ehlectric.sweep.results import Range
-from ehlectric.tables.bearing import total_rows
-from ehlectric.tables.contact import result_rows
-from ehlectric.tables.motion import run_rows
-from ehlectric.tables.sweep import sweep_rows
+from ehlectric.sweep.points import Range
+from ehlectric.tables.bearing_tables import total_rows
+from ehlectric.tables.contact_tables import result_rows
+from ehlectric.tables.motion_tables import run_rows
+from ehlectric.tables.sweep_summary import sweep_rows
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.sweep_models import LOAD, SPEED, breakdown, grid, sobol

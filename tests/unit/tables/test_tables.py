@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 from ehlectric.cases.case import Case
-from ehlectric.contact.resolve import resolve
+from ehlectric.contact.conditions import resolve
 from ehlectric.contact.solver import solve
 from ehlectric.contact.summary import case_summary
-from ehlectric.motion.contact import TransientContact
+from ehlectric.motion.moving_contact import TransientContact
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
-from ehlectric.tables.contact import case_rows, condition_rows, result_rows
-from ehlectric.tables.motion import run_rows, schedule_rows
-from ehlectric.tables.surface import surface_table
-from ehlectric.tables.sweep import sweep_rows
+from ehlectric.tables.contact_tables import case_rows, condition_rows, result_rows
+from ehlectric.tables.motion_tables import run_rows, schedule_rows
+from ehlectric.tables.surface_tables import surface_table
+from ehlectric.tables.sweep_summary import sweep_rows
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each
 from tests.helpers.moving_cases import moving

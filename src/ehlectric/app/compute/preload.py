@@ -5,12 +5,21 @@ from __future__ import annotations
 import tomllib
 from importlib import import_module
 
-from ehlectric.app.compute.bearing import quick_answer
+from ehlectric.app.compute.bearing_answers import quick_answer
 from ehlectric.runs.example_files import example_text
 
 # Functions of the other pages; that of drives loads a compiler, in a quarter of a second, and the others take
 # less than a tenth of a second each.
-for name in ("drives.answer", "descriptions", "contact", "motion", "surface", "sweep", "sweep_view", "files"):
+for name in (
+    "drive_answers",
+    "answer_parts",
+    "contact_answers",
+    "motion_answers",
+    "surface_answers",
+    "sweep_answers",
+    "sweep_answers",
+    "page_files",
+):
     import_module(f"ehlectric.app.compute.{name}")
 
 # Units, files of the library and modules that are imported where they are used are read once, here.

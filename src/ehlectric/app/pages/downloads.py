@@ -9,13 +9,13 @@ from typing import Any, Literal
 
 from nicegui import ui
 
-from ehlectric.app.answers.calls import FILES_CONVERTED, FILES_DRAWN, FILES_PACKED, FILES_WRITTEN
-from ehlectric.app.answers.files import Download, Written, file_title
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.parts import JobBox, card
+from ehlectric.app.answers import Download, Written, file_title
+from ehlectric.app.calls import FILES_CONVERTED, FILES_DRAWN, FILES_PACKED, FILES_WRITTEN
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.page_parts import JobBox, card
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
-from ehlectric.cases.bearings.ways import quick_way
+from ehlectric.cases.defaults import quick_way
 from ehlectric.errors import InputError, LostError
 
 # What is downloaded from a folder of results: data-testid, words, and kind.

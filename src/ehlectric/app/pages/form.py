@@ -9,20 +9,17 @@ from typing import Any
 
 from nicegui import ui
 
-from ehlectric.app.answers.calls import FIELD_HELP
+from ehlectric.app.calls import FIELD_HELP
 from ehlectric.app.catalogue import choices
 from ehlectric.app.fields import BEARING_GROUPS
-from ehlectric.app.fields.contact import geometry_of, groups_of
-from ehlectric.app.fields.defaults import default_of
-from ehlectric.app.fields.drive import DRIVE_GROUPS
-from ehlectric.app.fields.ends import end_and_key
-from ehlectric.app.fields.field import Field, Group
-from ehlectric.app.fields.memory import Memory
-from ehlectric.app.fields.rules import changed, is_own
-from ehlectric.app.fields.words import in_field_unit, shown_text, written_text
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.control import Control, GroupBox, brief
+from ehlectric.app.fields.contact_fields import geometry_of, groups_of
+from ehlectric.app.fields.drive_fields import DRIVE_GROUPS
+from ehlectric.app.fields.field import Field, Group, in_field_unit, shown_text, written_text
+from ehlectric.app.fields.field_defaults import default_of, end_and_key
+from ehlectric.app.fields.field_rules import Memory, changed, is_own
+from ehlectric.app.page_inputs import Inputs
 from ehlectric.app.pages.frame import session_here
+from ehlectric.app.pages.page_parts import Control, GroupBox, brief
 from ehlectric.errors import InputError, LostError
 
 Change = Callable[[str, Any], Awaitable[None]]

@@ -1,19 +1,95 @@
-"""Frame of every page: its head with links, light and dark, and the session of the tab."""
+"""Frame and toolbar of every page: links, undo and redo, opened files, and the inputs with which pages
+begin.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import json
+import tomllib
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
 from importlib import resources
+from typing import Any
 
-from nicegui import Client, ui
+from nicegui import Client, events, ui
 
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.control import ThemeButton
-from ehlectric.app.pages.parts import heading
+from ehlectric.app.answers import MOST_CASE, MOST_FILES, MOST_SURFACE, Uploaded
+from ehlectric.app.calls import FILES_UPLOADED
+from ehlectric.app.fields.field_rules import changed
+from ehlectric.app.page_inputs import LONGEST_QUERY, Inputs
+from ehlectric.app.pages.page_parts import ThemeButton, brief, heading, weakly
 from ehlectric.app.session import Session
 from ehlectric.app.work import Work
+from ehlectric.errors import InputError, LostError
+from ehlectric.runs.example_files import example_text
+
+
+@cache
+def start(name: str) -> Inputs:
+    """Inputs of an example."""
+    return Inputs(tomllib.loads(example_text(name)))
+
+
+BEARING = start("bearing_6208")
+
+# The way to the films stands in the table of the drive, where the form has it for both bearings.
+DRIVE = start("drive").changed({"drive_end.contacts": None, "drive.contacts": "atlas"})
+
+
+# Tables of a bearing that a drive does not take over: of its title and its margin, and of the motor, whose
+# capacitances go into the circuit.
+_NOT_OF_DRIVES = ("title", "contacts", "ranges", "motor")
+_OF_MOTOR = {
+    "motor.winding_rotor_capacitance": "circuit.winding_rotor_capacitance",
+    "motor.rotor_frame_capacitance": "circuit.rotor_frame_capacitance",
+    "motor.switching_frequency": "source.switching_frequency",
+    "motor.rise_time": "source.rise_time",
+}
+
+
+def drive_with(bearing: Inputs) -> Inputs:
+    """Drive of the example with a bearing at both ends, at its speed and temperature."""
+    own = bearing.changed({**dict.fromkeys(_NOT_OF_DRIVES), "discharge.peak_current": None})
+    strength = {} if own.value("discharge") else _STRENGTH
+    changes = {
+        "drive_end": dict(own.changed(strength).table),
+        "drive.speed": bearing.value("bearing.inner_speed"),
+        "drive.temperature": bearing.value("bearing.temperature"),
+        "title": bearing.value("title"),
+    }
+    motor = {theirs: bearing.value(key) for key, theirs in _OF_MOTOR.items()}
+    given = {key: value for key, value in motor.items() if value is not None}
+    return changed(DRIVE, changes | given)
+
+
+# Strength of the first answers, that of the bearing: an assumption.
+_STRENGTH = {"discharge.dielectric_strength": "15 V/um"}
+
+# Domain of the point contact, larger than that of the example, so that the film has no warning about it, also
+# with the oil and the speed of the line contact with which the page begins.
+_POINT_DOMAIN = {"grid.inlet": -6.0, "grid.side": 5.0}
+
+
+def contact_start(geometry: str) -> Inputs:
+    """Inputs with which the page of a line contact or of a point contact begins, with an assumed strength."""
+    if geometry == "point":
+        return start("ball_contact").changed({**_STRENGTH, **_POINT_DOMAIN})
+    return start("line_contact").changed(_STRENGTH)
+
+
+SWEEP = Inputs(
+    {
+        "case": dict(BEARING.changed({"contacts": "atlas"}).table),
+        "vary": {
+            "bearing": {
+                "inner_speed": {"from": "300 rpm", "to": "6000 rpm", "count": 8, "spacing": "log"},
+                "radial_load": {"from": "500 N", "to": "8000 N", "count": 8},
+            }
+        },
+    }
+)
+
 
 # Links at the top: address, name.
 LINKS = (
@@ -85,3 +161,235 @@ def session_of(work: Work, inputs: Inputs) -> Session:
 def show_address(inputs: Inputs, path: str) -> None:
     """Put the inputs into the address of the page."""
     ui.navigate.history.replace(f"{path}?{inputs.address()}")
+
+
+# Called after the inputs changed in another way than by the form.
+Show = Callable[[], Awaitable[None] | None]
+
+# Pages of the kinds of files.
+PATHS = {"bearing": "/", "drive": "/drive", "contact": "/contact", "motion": "/contact", "sweep": "/sweep"}
+
+# Undo and redo by keys, unless they belong to a text that is being typed.
+_KEYS = """<script>
+document.addEventListener("keydown", event => {
+  const key = event.key.toLowerCase();
+  if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== "z" && key !== "y")) return;
+  const focus = document.activeElement;
+  const typed = focus && focus.tagName === "INPUT" && !focus.readOnly
+    && !["range", "checkbox", "radio", "button"].includes(focus.type);
+  if (typed || (focus && (focus.isContentEditable || focus.tagName === "TEXTAREA"))) return;
+  const name = key === "y" || event.shiftKey ? "redo" : "undo";
+  const button = document.querySelector(`[data-testid="${name}"]`);
+  if (!button || button.disabled) return;
+  event.preventDefault();
+  button.click();
+});
+</script>"""
+
+# Copies the link to an address, and says whether the browser allowed it: other machines need https for it,
+# and browsers may ask their user first.
+_COPY = """
+const link = window.location.origin + {};
+const board = navigator.clipboard;
+const copied = board ? board.writeText(link).then(() => true, () => false) : false;
+const asking = new Promise((done) => setTimeout(() => done(false), 3000));
+return [link, await Promise.race([copied, asking])];
+"""
+
+# Time in which the browser answers, also where it draws figures without a graphics card [s].
+_ANSWER = 60.0
+
+
+def address_of(path: str, inputs: Inputs) -> str:
+    """Address of a page with inputs."""
+    return f"{path}?{inputs.address()}"
+
+
+class Toolbar:
+    """Toolbar of a page, at the place where it is made.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab, whose inputs are those of the page.
+    path : str
+        Address of the page, such as "/".
+    show : callable
+        Called after the inputs have changed by undo, redo or a file; the page then shows ``session.inputs``.
+    opens : bool
+        Whether files are opened, and other pages with the case.
+    """
+
+    def __init__(self, session: Session, path: str, show: Show, *, opens: bool = True) -> None:
+        self.session, self._path, self._show = session, path, show
+        # Opened files, and those that the case among them names and that are not there yet.
+        self._pending: dict[str, bytes] = {}
+        self._asked: tuple[str, ...] = ()
+        ui.add_body_html(_KEYS)
+        with ui.element("div").classes("toolbar").props('role="toolbar" aria-label="Case"'):
+            self._undo = _button("Undo", "undo", self.undo, "Control+Z")
+            self._redo = _button("Redo", "redo", self.redo, "Control+Shift+Z")
+            _button("Copy link", "copy-link", self.copy_link)
+            if opens:
+                if path != PATHS["drive"]:
+                    _button("Compare", "compare", self.compare)
+                if path != PATHS["sweep"]:
+                    _button("Vary", "vary", self.vary)
+                if path == PATHS["bearing"]:
+                    _button("In its drive", "in-drive", self.in_drive)
+                self._files()
+            self._link = ui.input("Link to this page").props('readonly dense outlined data-testid="link"')
+            self._link.classes("link").set_visibility(False)
+            self._status = ui.label().classes("told-status").props('role="status"')
+            self._toast = ui.label().classes("toast").props('role="status" data-testid="toast"')
+            self._error = ui.label().classes("wrong").props('role="alert" data-testid="error-file"')
+        session.history.told.append(self._look)
+        self._look()
+
+    async def undo(self) -> None:
+        """Go back to the inputs before."""
+        self.session.history.undo()
+        await self._changed("Undone")
+
+    async def redo(self) -> None:
+        """Take back an undo."""
+        self.session.history.redo()
+        await self._changed("Redone")
+
+    async def copy_link(self) -> None:
+        """Copy the address of the page with its inputs, and show it."""
+        if not self.session.inputs.linkable:
+            self._tell(error=f"no link holds these inputs: it has more than {LONGEST_QUERY} characters")
+            return
+        address = address_of(self._path, self.session.inputs)
+        answer = await ui.run_javascript(_COPY.format(json.dumps(address)), timeout=_ANSWER)
+        if answer is None:  # The tab was closed meanwhile.
+            return
+        self._link.value, copied = answer
+        self._link.set_visibility(True)
+        brief(self._toast, "Link copied" if copied else "Copy the link from the field.")
+        if not copied:
+            self._link.run_method("select")
+
+    def compare(self) -> None:
+        """Open the page that compares, with this case on both sides."""
+        table = dict(self.session.inputs.table)
+        case = table.get("case", table)
+        if "drive_end" in case:
+            self._tell(error="drives are compared by their remedies, on the page Drive")
+            return
+        self._go("/compare", Inputs({"a": case, "b": case}))
+
+    def vary(self) -> None:
+        """Open the page of sweeps with this case."""
+        self._go("/sweep", Inputs({"case": dict(self.session.inputs.table)}))
+
+    def in_drive(self) -> None:
+        """Open the page of drives with this bearing at both ends."""
+        self._go(PATHS["drive"], drive_with(self.session.inputs))
+
+    def _go(self, path: str, inputs: Inputs) -> None:
+        """Open another page with inputs; files stay in the session of this one."""
+        if _has_files(self.session.inputs.table):
+            self._tell(error="the case has data from files, which other pages do not have: open it there")
+        elif not inputs.linkable:
+            self._tell(error="the case is too long for an address; open its file on the other page")
+        else:
+            ui.navigate.to(address_of(path, inputs))
+
+    def _files(self) -> None:
+        """Button that opens files, and the element that takes them up."""
+        self._upload = ui.upload(
+            multiple=True,
+            auto_upload=True,
+            max_file_size=MOST_SURFACE,
+            max_files=MOST_FILES,
+            on_multi_upload=weakly(self._uploaded),
+            on_rejected=weakly(self._rejected),
+            label="Case and surfaces",
+        )
+        self._upload.classes("out-of-sight").props(
+            'data-testid="upload-case" aria-hidden="true" tabindex="-1"'
+        )
+        open_file = ui.button("Open file").props('outline no-caps dense data-testid="open-file"')
+        open_file.tooltip("A case, bearing, drive or sweep file (TOML), with the files that it names")
+        open_file.on("click", js_handler=f"() => getElement({self._upload.id}).$refs.qRef.pickFiles()")
+
+    def _rejected(self, _: events.UiEventArguments) -> None:
+        """Say why the browser sends no file."""
+        self._tell(
+            error=f"a file is too large; expected a case of at most {MOST_CASE // 1000} kB, "
+            f"surfaces of at most {MOST_SURFACE // 1_000_000} MB"
+        )
+
+    async def _uploaded(self, event: events.MultiUploadEventArguments) -> None:
+        """Take up files: a case, or those that the case opened before names."""
+        self._upload.reset()
+        contents = {file.name: await file.read() for file in event.files}
+        self._pending = {**self._pending, **contents} if set(contents) & set(self._asked) else contents
+        await self._read()
+
+    async def _read(self) -> None:
+        """Read the opened files, and ask for those that are missing."""
+        try:
+            found = await self.session.work.quick(FILES_UPLOADED, self._pending, self.session.folder)
+        except (InputError, LostError) as error:
+            self._pending, self._asked = {}, ()
+            self._tell(error=str(error))
+            return
+        self._asked = found.missing
+        if found.missing:
+            self._tell(f"{found.name} names {', '.join(found.missing)}: open it, too.")
+            return
+        self._pending = {}
+        await self._opened(found)
+
+    async def _opened(self, found: Uploaded) -> None:
+        """Show an opened case on its page."""
+        inputs, path = Inputs(found.table), PATHS[found.kind]
+        if path == self._path:
+            self.session.history.push(inputs)
+            await self._changed(f"{found.name} is open.")
+        elif _has_files(found.table):
+            self._tell(error=f"{found.name} names files and belongs to the page {path}: open them there")
+        elif not inputs.linkable:
+            self._tell(error=f"{found.name} belongs to the page {path}: open it there")
+        else:
+            ui.navigate.to(address_of(path, inputs))
+
+    async def _changed(self, text: str) -> None:
+        """Show changed inputs, in the address, too."""
+        if self.session.inputs.linkable:
+            show_address(self.session.inputs, self._path)
+        brief(self._toast, text)
+        showing = self._show()
+        if showing is not None:
+            await showing
+
+    def _tell(self, text: str = "", *, error: str = "") -> None:
+        self._status.text, self._error.text = text, error
+
+    def _look(self) -> None:
+        """Allow what can be done, and take away what was told of earlier inputs."""
+        self._tell()
+        brief(self._toast, "")
+        self._link.set_visibility(False)
+        history = self.session.history
+        self._undo.set_enabled(bool(history.before))
+        self._redo.set_enabled(bool(history.after))
+
+
+def _has_files(table: Mapping[str, Any]) -> bool:
+    """Whether a case, or that of a sweep, has data from files, which stay in their session."""
+    case = table.get("case", table)
+    source = case.get("source") if isinstance(case, Mapping) else None
+    if isinstance(source, Mapping) and "file" in source:
+        return True
+    rough = case.get("roughness") if isinstance(case, Mapping) else None
+    return isinstance(rough, list) and any(isinstance(one, Mapping) and "file" in one for one in rough)
+
+
+def _button(name: str, test: str, click: Callable[[], Any], keys: str = "") -> ui.button:
+    """Button of the toolbar, with the keys that do the same."""
+    button = ui.button(name, on_click=click).props(f'outline no-caps dense data-testid="{test}"')
+    return button.props(f'aria-keyshortcuts="{keys}"').tooltip(keys) if keys else button

@@ -10,9 +10,9 @@ from typing import Generic, Protocol, TypeVar
 
 from nicegui import ui
 
-from ehlectric.app.answers.call import Call
-from ehlectric.app.inputs import Inputs
-from ehlectric.app.pages.parts import JobBox
+from ehlectric.app.calls import Call
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.page_parts import JobBox
 from ehlectric.app.session import Session
 from ehlectric.app.work import Job
 from ehlectric.errors import LostError

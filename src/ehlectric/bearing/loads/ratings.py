@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from ehlectric.formulas.hertz_point import point_load
+from ehlectric.formulas.hertz import point_load
 
 _MILLIMETRES = 1e3
 

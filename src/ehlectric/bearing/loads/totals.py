@@ -8,9 +8,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.loads.balls import BallEquilibrium
-from ehlectric.bearing.loads.kinematics import Speeds
-from ehlectric.bearing.loads.rollers import RollerEquilibrium
+from ehlectric.bearing.loads.ball_loads import BallEquilibrium
+from ehlectric.bearing.loads.geometry import Speeds
+from ehlectric.bearing.loads.roller_loads import RollerEquilibrium
 
 Equilibrium: TypeAlias = BallEquilibrium | RollerEquilibrium
 
@@ -70,7 +70,7 @@ def mechanics_of(at: Equilibrium) -> dict[str, Any]:
 
     >>> from ehlectric.bearing.loads.geometry import RollerBearing
     >>> from ehlectric.bearing.loads.ring import Operation
-    >>> from ehlectric.bearing.loads.rollers import roller_equilibrium
+    >>> from ehlectric.bearing.loads.roller_loads import roller_equilibrium
     >>> bearing = RollerBearing(14, 11e-3, 60e-3, 11e-3, 0.0, "none")
     >>> state = roller_equilibrium(bearing, Operation(5000.0, inner_speed=100.0), 226e9, 7800.0)
     >>> mechanics = mechanics_of(state)

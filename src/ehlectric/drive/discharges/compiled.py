@@ -19,7 +19,7 @@ from typing import Any, TypeVar, cast
 import numba
 from numba.core import event
 
-from ehlectric.runtime.log import MACHINE
+from ehlectric.runtime.progress import MACHINE
 
 F = TypeVar("F", bound=Callable[..., Any])
 

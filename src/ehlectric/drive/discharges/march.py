@@ -1,4 +1,5 @@
-"""Discharges over time: films that break down, conduct and insulate again; compiled. SI units.
+"""Discharges over time: films that break down, conduct and insulate again, and what is measured meanwhile;
+compiled.
 
 Between two changes, of the source or of a film, the circuit is linear and its solution exact. The march goes
 from change to change: edges of the source, elements that pass, films that are renewed or touch, voltages that
@@ -16,9 +17,7 @@ from numpy.typing import NDArray
 
 from ehlectric.arrays import Array
 from ehlectric.drive.discharges.compiled import compiled, inner
-from ehlectric.drive.discharges.course import Course, all_at, course_at, course_of, unfold
-from ehlectric.drive.discharges.meters import Meters, measure
-from ehlectric.drive.discharges.pieces import (
+from ehlectric.drive.discharges.voltages_in_time import (
     FALLS,
     FURTHER,
     RATE,
@@ -27,35 +26,398 @@ from ehlectric.drive.discharges.pieces import (
     START,
     Circuits,
     Complex,
+    Course,
     Source,
+    all_at,
     begin,
+    course_at,
+    course_of,
     crossing,
     curvature_bound,
     move,
     states_at,
+    unfold,
     voltages,
 )
-from ehlectric.drive.discharges.record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
-from ehlectric.drive.discharges.spectrum import add_parabola
-from ehlectric.drive.discharges.states import (
-    ARC,
-    INSULATING,
-    POSITION,
-    RECOVERING,
-    RECOVERY,
-    RENEWAL,
-    RESERVE,
-    TOUCH,
-    TOUCHING,
-    Films,
-    Segments,
-    State,
-    burns_in,
-    next_film,
-    state_of,
-    threshold,
-    waits,
-)
+from ehlectric.drive.drive_record import CHARGE, COLUMNS, ENERGY, FILM, OFF, ON, PEAK, PLACE, VOLTAGE
+
+# Largest number of lines of a spectrum, and the frequency above which it has none [Hz]: edges of 100 ns have
+# their corner at 1/(pi 100 ns) = 3 MHz.
+LINES, HIGHEST = 200_000, 1e7
+
+# Means for each line. With eight of them the highest line takes up 1/49 of the first frequency that is folded
+# onto it.
+_MEANS = 8
+
+# Abscissae of Gauss and Legendre for two points on (-1, 1), exact for a parabola times a straight line.
+_GAUSS = 1.0 / math.sqrt(3.0)
+
+
+def empty_means(duration: float) -> Array:
+    """Means of a voltage over a duration [s], all zero: as many as its spectrum needs."""
+    lines = max(int(min(HIGHEST * duration, LINES)), 1)
+    return np.zeros(_MEANS * lines)
+
+
+@inner
+def add_parabola(means: Array, start: float, duration: float, first: float, middle: float, last: float
+                 ) -> None:  # fmt: skip
+    """Add a voltage that goes on a parabola to its means.
+
+    Each mean is weighted by a triangle, which is 1 at a time of the mean and 0 at those before and after it.
+
+    Parameters
+    ----------
+    means : ndarray, shape (n,)
+        Means at evenly spaced times; the time after the last one is that of the first one again.
+    start, duration : float
+        Where the parabola begins, and how long it goes on, in spacings of the means.
+    first, middle, last : float
+        Voltage at its begin, in its middle and at its end [V].
+    """
+    straight, bend = last - first, 2.0 * (first + last - 2.0 * middle)
+    at, end = start, start + duration
+    while at < end:
+        cell = math.floor(at)
+        to = min(cell + 1.0, end)
+        k = int(cell) % means.size
+        after = (k + 1) % means.size
+        for sign in (-1.0, 1.0):
+            x = 0.5 * (at + to) + sign * _GAUSS * 0.5 * (to - at)
+            part = (x - start) / duration
+            value = 0.5 * (to - at) * (first + straight * part - bend * part * (1.0 - part))
+            means[k] += value * (cell + 1.0 - x)
+            means[after] += value * (x - cell)
+        at = to
+
+
+def spectrum_of(means: Array) -> Array:
+    """Amplitudes of the lines of a spectrum from triangular means.
+
+    Parameters
+    ----------
+    means : ndarray, shape (n,)
+        Means of a voltage at evenly spaced times of the measured one [V].
+
+    Returns
+    -------
+    ndarray, shape (n/8 + 1,)
+        Absolute mean, and the amplitudes of the lines at whole multiples of one over the measured time [V].
+
+    Notes
+    -----
+    A triangular mean multiplies the Fourier coefficient of line m by sinc(m/n)^2, with
+    sinc(x) = sin(pi x)/(pi x), which is divided out. Sampling adds the coefficients of lines n - m, n + m and
+    so on; that of line n - m has the weight (m/(n - m))^2.
+
+    Examples
+    --------
+    Means of 1 V and a cosine of 2 V with three periods in the measured time:
+
+    >>> time = np.arange(80) / 80.0
+    >>> means = 1.0 + 2.0 * np.sinc(3.0 / 80.0) ** 2 * np.cos(6.0 * np.pi * time)
+    >>> spectrum_of(means).round(6)[:5].tolist()
+    [1.0, 0.0, 0.0, 2.0, 0.0]
+    """
+    lines = np.arange(means.size // _MEANS + 1)
+    found = np.fft.rfft(means)[: lines.size] / means.size
+    amplitudes: Array = np.where(lines > 0, 2.0, 1.0) * np.abs(found) / np.sinc(lines / means.size) ** 2
+    return amplitudes
+
+
+Integers = NDArray[np.int64]
+
+# Phases of a film.
+INSULATING, ARC, RECOVERING, TOUCHING = range(4)
+
+# Clocks of a film: time left to the next position, next film, its insulation, and the next touch.
+POSITION, RENEWAL, RECOVERY, TOUCH = range(4)
+
+# Streams of random numbers of a film; the march stops where one has fewer than the reserve left.
+_THRESHOLDS, _TIMES = range(2)
+RESERVE = 16
+
+
+class Films(NamedTuple):
+    """Films of both bearings.
+
+    Attributes
+    ----------
+    scale : ndarray, shape (2, positions)
+        Breakdown voltage at which a draw is 1 [V]; infinite for films that do not break down.
+    positions : ndarray of int, shape (2,)
+        Number of positions of the elements.
+    step : ndarray, shape (2,)
+        Time from one position to the next [s].
+    shape : ndarray, shape (2,)
+        Shape of Weibull's law; infinite without scatter.
+    renewal : ndarray, shape (2,)
+        Mean time after which a new film with a new threshold is in the contacts [s].
+    arc : ndarray, shape (2,)
+        Arc resistance [Ohm].
+    extinction : ndarray, shape (2,)
+        Voltage across the arc below which it goes out [V].
+    recovery : ndarray, shape (2,)
+        Time from there until the film insulates again [s].
+    touch : ndarray, shape (2, 2)
+        Mean times without and with touching asperities [s].
+    states : ndarray of int, shape (1,)
+        States of one film: 2, or 3 where films touch.
+    """
+
+    scale: Array
+    positions: Integers
+    step: Array
+    shape: Array
+    renewal: Array
+    arc: Array
+    extinction: Array
+    recovery: Array
+    touch: Array
+    states: Integers
+
+
+class State(NamedTuple):
+    """Where a march stands; it is changed in place.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n,)
+        States of the circuit.
+    ring : ndarray of complex, shape (1,)
+        Amplitude of the ringing [V].
+    clocks : ndarray, shape (2, 4)
+        Times left [s].
+    place : ndarray of int, shape (2,)
+        Position of the elements.
+    phase : ndarray of int, shape (2,)
+        Phase of each film.
+    draw : ndarray, shape (2,)
+        Threshold of each film over its scale.
+    event : ndarray, shape (2, 8)
+        Event of each film so far.
+    time : ndarray, shape (2,)
+        Time [s], as a sum of whole chunks and of what has passed since.
+    cursor : ndarray, shape (3,)
+        Next segment, what has passed of it [s], and whether it has begun (1) or not (0).
+    random : ndarray, shape (2, 2, m)
+        Random numbers of an exponential distribution of mean 1, of each film for thresholds and for times.
+    used : ndarray of int, shape (2, 2)
+        How many of them are used.
+    """
+
+    x: Array
+    ring: Complex
+    clocks: Array
+    place: Integers
+    phase: Integers
+    draw: Array
+    event: Array
+    time: Array
+    cursor: Array
+    random: Array
+    used: Integers
+
+
+class Segments(NamedTuple):
+    """Pieces of the source: duration [s], value at the start [V], slope [V/s], and what rings from then."""
+
+    duration: Array
+    level: Array
+    slope: Array
+    ring: Complex
+
+
+@inner
+def state_of(films: Films, state: State) -> int:
+    """Number of the circuit's state: what both films do, and where their elements are."""
+    number = 0
+    for b in range(2):
+        doing = 0
+        if state.phase[b] == TOUCHING:
+            doing = 2
+        elif state.phase[b] != INSULATING:
+            doing = 1
+        number = number * films.states[0] + doing
+    return int((number * films.positions[0] + state.place[0]) * films.positions[1] + state.place[1])
+
+
+@inner
+def threshold(films: Films, state: State, b: int) -> float:
+    """Voltage at which a film breaks down now [V]; below the voltage of extinction there is no arc."""
+    return float(max(films.scale[b, state.place[b]] * state.draw[b], films.extinction[b]))
+
+
+@inner
+def _random(state: State, b: int, stream: int) -> float:
+    """Next random number of a film."""
+    k = state.used[b, stream]
+    state.used[b, stream] = k + 1
+    return float(state.random[b, stream, k])
+
+
+@inner
+def next_film(films: Films, state: State, b: int) -> None:
+    """Draw the threshold of a new film from Weibull's law of scale 1; 1 without scatter."""
+    if math.isfinite(films.shape[b]):
+        state.draw[b] = _random(state, b, _THRESHOLDS) ** (1.0 / films.shape[b])
+    else:
+        state.draw[b] = 1.0
+
+
+@inner
+def waits(state: State, b: int, mean: float) -> float:
+    """Waiting time of a Poisson process of a mean interval [s]."""
+    return mean * _random(state, b, _TIMES) if math.isfinite(mean) else math.inf
+
+
+@inner
+def burns_in(state: State, b: int) -> bool:
+    """Whether an arc burns in a film, or has gone out while the film does not insulate yet."""
+    return bool(state.phase[b] == ARC or state.phase[b] == RECOVERING)
+
+
+class Meters(NamedTuple):
+    """Measured values; they are changed in place.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (2,)
+        Lowest and highest voltage of the histograms [V], which are doubled where a voltage is beyond them.
+    histogram : ndarray, shape (2, bins)
+        Time at the voltages of each bin [s]; the number of bins is a multiple of four, and half of them are
+        below zero.
+    limits : ndarray, shape (l,)
+        Limits of the voltage [V].
+    above : ndarray, shape (2, l)
+        Time at which the absolute voltage is above each limit [s].
+    peak : ndarray, shape (2,)
+        Largest absolute voltage [V].
+    shaft : ndarray, shape (n,)
+        Triangular means of the shaft voltage over the measured time [V], as in ``spectrum``.
+    spaced : ndarray, shape (2,)
+        Time of the first mean and spacing of the means [s].
+    touching : ndarray, shape (2,)
+        Largest absolute voltage while asperities touch [V].
+    square : ndarray, shape (2,)
+        Integral of the squared voltage over time [V^2 s].
+    trace : ndarray, shape (m, 4)
+        Time [s], voltage of the source without its ringing, and both voltages [V], until the table is full.
+    traced : ndarray of int, shape (1,)
+        Rows of the trace that are filled.
+    until : ndarray, shape (2,)
+        Time interval of the trace [s].
+    rough : ndarray, shape (2,)
+        Tolerances of the voltage: within which it is taken as straight between two times, and below which
+        the ringing of the source is over [V].
+    """
+
+    edges: Array
+    histogram: Array
+    limits: Array
+    above: Array
+    peak: Array
+    shaft: Array
+    spaced: Array
+    touching: Array
+    square: Array
+    trace: Array
+    traced: Array
+    until: Array
+    rough: Array
+
+
+@inner
+def measure(
+    meters: Meters, now: float, duration: float, source: float,
+    first: tuple[float, float], last: tuple[float, float], bend: tuple[float, float],
+) -> None:  # fmt: skip
+    """Measure voltages that go on parabolas from first to last values in a duration [s].
+
+    In its middle a parabola lies by ``bend`` [V] below the straight line between its ends. It is taken as
+    straight if it turns back between them.
+    """
+    largest = max(max(abs(first[0]), abs(last[0])), max(abs(first[1]), abs(last[1])))
+    while largest > meters.edges[1]:
+        _widen(meters)
+    for b in range(2):
+        v, w = first[b], last[b]
+        e = bend[b] if 4.0 * abs(bend[b]) <= abs(w - v) else 0.0
+        highest = max(abs(v), abs(w))
+        meters.peak[b] = max(meters.peak[b], highest)
+        # Integral of (v + (w - v) s - 4 e s (1 - s))^2 over s from 0 to 1.
+        square = (v * v + v * w + w * w - 2.0 * e * (v + w)) / 3.0 + 8.0 * e * e / 15.0
+        meters.square[b] += duration * square
+        _fill(meters, b, v, w, e, duration)
+        for k in range(meters.limits.size):
+            if highest > meters.limits[k]:
+                meters.above[b, k] += duration * _share_above(v, w, e, meters.limits[k])
+    row = meters.traced[0]
+    if row < meters.trace.shape[0] and meters.until[0] <= now < meters.until[1]:
+        meters.trace[row, 0], meters.trace[row, 1] = now, source
+        meters.trace[row, 2], meters.trace[row, 3] = first[0], first[1]
+        meters.traced[0] = row + 1
+
+
+@inner
+def _widen(meters: Meters) -> None:
+    """Double the width of all bins: each takes the time of two neighbours, from zero outwards."""
+    half = meters.histogram.shape[1] // 2
+    for b in range(2):
+        bins = meters.histogram[b]
+        for k in range(half):
+            inside = 2 * k + 1 < half
+            bins[half + k] = bins[half + 2 * k] + bins[half + 2 * k + 1] if inside else 0.0
+            bins[half - 1 - k] = bins[half - 1 - 2 * k] + bins[half - 2 - 2 * k] if inside else 0.0
+    meters.edges[0] *= 2.0
+    meters.edges[1] *= 2.0
+
+
+@inner
+def _share_before(v: float, w: float, e: float, level: float) -> float:
+    """Share of the time on a parabola from v to another value w before it reaches a level, from 0 to 1."""
+    if (level - v) * (w - v) <= 0.0:
+        return 0.0
+    if (level - w) * (w - v) >= 0.0:
+        return 1.0
+    # Smaller root s of v + (w - v) s - 4 e s (1 - s) = level, without cancellation.
+    steep = w - v - 4.0 * e
+    root = math.sqrt(max(steep * steep + 16.0 * e * (level - v), 0.0))
+    return min(2.0 * (level - v) / (steep + math.copysign(root, w - v)), 1.0)
+
+
+@inner
+def _share_above(v: float, w: float, e: float, limit: float) -> float:
+    """Share of the time on a parabola from v to w at which its absolute value is above a limit."""
+    if v == w:
+        return 1.0 if abs(v) > limit else 0.0
+    upper, lower = _share_before(v, w, e, limit), _share_before(v, w, e, -limit)
+    return 1.0 - abs(upper - lower)
+
+
+@inner
+def _fill(meters: Meters, b: int, v: float, w: float, e: float, duration: float) -> None:
+    """Share a duration on a parabola from v to w among the bins between both."""
+    bins = meters.histogram.shape[1]
+    width = (meters.edges[1] - meters.edges[0]) / bins
+    low, high = (min(v, w) - meters.edges[0]) / width, (max(v, w) - meters.edges[0]) / width
+    start, end = min(max(int(low), 0), bins - 1), min(max(int(high), 0), bins - 1)
+    if start == end:
+        meters.histogram[b, start] += duration
+    elif e == 0.0:
+        each = duration / (high - low)
+        meters.histogram[b, start] += each * (start + 1.0 - low)
+        for k in range(start + 1, end):
+            meters.histogram[b, k] += each
+        meters.histogram[b, end] += each * (high - end)
+    else:
+        before = 0.0 if w > v else 1.0
+        for k in range(start, end):
+            share = _share_before(v, w, e, meters.edges[0] + (k + 1) * width)
+            meters.histogram[b, k] += duration * abs(share - before)
+            before = share
+        meters.histogram[b, end] += duration * abs((1.0 if w > v else 0.0) - before)
+
 
 # What ended a piece.
 _NOTHING, _BROKEN, _OUT = range(3)

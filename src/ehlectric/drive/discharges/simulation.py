@@ -10,16 +10,24 @@ from dataclasses import dataclass
 import numpy as np
 
 from ehlectric.arrays import Array
-from ehlectric.cases.drives.breakdown import Breakdown
-from ehlectric.drive.bearings import BearingElement
-from ehlectric.drive.circuit.modes import Modes
+from ehlectric.cases.drive_inputs import Breakdown
 from ehlectric.drive.discharges.compiled import compile_for
-from ehlectric.drive.discharges.march import advance, work_of
-from ehlectric.drive.discharges.meters import Meters
-from ehlectric.drive.discharges.pieces import Circuits
-from ehlectric.drive.discharges.record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
-from ehlectric.drive.discharges.spectrum import empty_means, spectrum_of
-from ehlectric.drive.discharges.states import ARC, RECOVERING, Films, Segments, State
+from ehlectric.drive.discharges.march import (
+    ARC,
+    RECOVERING,
+    Films,
+    Meters,
+    Segments,
+    State,
+    advance,
+    empty_means,
+    spectrum_of,
+    work_of,
+)
+from ehlectric.drive.discharges.voltages_in_time import Circuits
+from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.drive.drive_record import COLUMNS, FILM, KEPT, OFF, ON, VOLTAGE, Record
+from ehlectric.drive.motor_circuit import Modes
 
 # Events and random numbers that are held at once.
 _EVENTS, _RANDOM = 4096, 16384

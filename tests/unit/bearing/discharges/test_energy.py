@@ -5,8 +5,8 @@ import math
 import pytest
 
 from ehlectric import load
-from ehlectric.bearing.files import save
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.bearing.run import save
 from ehlectric.bearing.summary import summary_of
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case

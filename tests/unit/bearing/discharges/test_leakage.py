@@ -7,7 +7,7 @@ import pytest
 from scipy.constants import epsilon_0
 
 from ehlectric.bearing.circuit import leakage_conductance, leaking_admittance
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, bearing_case

@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing.fits.clearance import Mounting, Temperatures, clearance_at
-from ehlectric.bearing.fits.thick_ring import ThickRing
+from ehlectric.bearing.fits import Mounting, Temperatures, ThickRing, clearance_at
 
 STEEL = 208e9, 0.3, 12.5e-6
 ALUMINIUM = 70e9, 0.33, 22e-6

@@ -5,10 +5,10 @@ import tomllib
 
 import pytest
 
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.tables.bearing import input_rows
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.tables.bearing_tables import input_rows
 from tests.helpers.places import ROOT
 
 

@@ -5,12 +5,11 @@ import re
 import pytest
 
 from ehlectric import InputError
-from ehlectric.bearing.fits.mounted import mounted_clearance
-from ehlectric.bearing.fits.warnings import class_warnings, fit_warnings
+from ehlectric.bearing.mounted_clearance import class_warnings, fit_warnings, mounted_clearance
 from ehlectric.bearing.preparation import resolve_bearing
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.sweep.inputs import Sweep
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.sweep_inputs import Sweep
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.each import each
 

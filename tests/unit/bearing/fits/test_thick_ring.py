@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
-from ehlectric.bearing.fits.thick_ring import ThickRing, fit_pressure
+from ehlectric.bearing.fits import ThickRing, fit_pressure
 
 STEEL = 208e9, 0.3, 12.5e-6
 ALUMINIUM = 70e9, 0.33, 22e-6

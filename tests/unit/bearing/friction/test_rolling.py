@@ -7,19 +7,19 @@ import numpy as np
 import pytest
 
 from ehlectric import load
+from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.conditions import ContactFriction
-from ehlectric.bearing.files import NETCDF, save
-from ehlectric.bearing.friction.rolling import rolling_force, rolling_power_loss
-from ehlectric.bearing.kinds import kind_of
+from ehlectric.bearing.film_factor import rolling_force, rolling_power_loss
 from ehlectric.bearing.preparation import largest_load, prepare_bearing, with_film_factor
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.bearing.run import NETCDF, save
 from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.grid import Grid, Solver, point_grid
-from ehlectric.contact.kinds import KINDS
-from ehlectric.contact.setup import Setup
-from ehlectric.runtime.checks.schema import UnfitError
-from ehlectric.tables.bearing import total_rows
+from ehlectric.cases.grid_inputs import Grid, Solver, point_grid
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.problems import Setup
+from ehlectric.runtime.file_rules import UnfitError
+from ehlectric.tables.bearing_tables import total_rows
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 
 HOT = {

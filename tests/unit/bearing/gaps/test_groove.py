@@ -9,16 +9,17 @@ from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 from scipy.integrate import dblquad
 
-from ehlectric.bearing.gaps import groove as capacitances
-from ehlectric.bearing.gaps.groove import (
+from ehlectric.bearing import gaps as capacitances
+from ehlectric.bearing.gaps import (
     LoadedContact,
+    Raceway,
     groove_capacitance,
+    groove_gap,
     match_film,
     outside_capacitance,
 )
-from ehlectric.bearing.gaps.raceway import Raceway, groove_gap
 from ehlectric.errors import InputError
-from ehlectric.formulas.hertz_point import dry_contact, point_deflection
+from ehlectric.formulas.hertz import dry_contact, point_deflection
 from tests.helpers.each import each
 
 D, PITCH = 11.906e-3, 60e-3  # 6208

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
-from ehlectric.formulas.hertz_line import line_gap, reduced_radius
+from ehlectric.bearing.gaps import RollerRaceway, roller_capacitance, roller_tails
+from ehlectric.formulas.hertz import line_gap, reduced_radius
 from tests.helpers.each import each
 
 ROLLER, INNER, OUTER = 5.5e-3, 27.25e-3, 38.25e-3  # nearly an NU 208

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
+from ehlectric.bearing.bearing_touching import duty_of
 from ehlectric.bearing.impedance import impedance_of
-from ehlectric.bearing.intermittency.duty import duty_of
 from tests.helpers.each import each
 from tests.unit.bearing.intermittency.test_duty import solved
 

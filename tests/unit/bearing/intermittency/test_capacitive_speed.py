@@ -2,8 +2,8 @@
 
 import pytest
 
-from ehlectric.bearing.intermittency.duty import CAPACITIVE
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.bearing_touching import CAPACITIVE
+from ehlectric.bearing.result import solve_bearing
 from tests.helpers.bearings import BALLS, bearing_case, numbers_of
 from tests.unit.bearing.intermittency.test_duty import THIN
 

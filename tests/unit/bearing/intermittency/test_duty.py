@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from ehlectric.bearing.intermittency.duty import CAPACITIVE, RESISTIVE, duty_of, regime_of
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.bearing_touching import CAPACITIVE, RESISTIVE, duty_of, regime_of
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import contact_rows, summary_of
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case

@@ -11,10 +11,8 @@ from scipy.optimize import brentq, minimize
 from scipy.special import ellipe, ellipk
 
 from ehlectric import InputError
-from ehlectric.bearing.loads.ball_stiffness import contact_stiffness
-from ehlectric.bearing.loads.balls import ball_equilibrium
-from ehlectric.bearing.loads.geometry import BallBearing
-from ehlectric.bearing.loads.kinematics import rolling_speeds
+from ehlectric.bearing.loads.ball_loads import ball_equilibrium, contact_stiffness
+from ehlectric.bearing.loads.geometry import BallBearing, rolling_speeds
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.formulas.film_point import PointContact
 from tests.helpers.each import each

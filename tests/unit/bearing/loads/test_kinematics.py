@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing.loads.kinematics import centrifugal_force, gyroscopic_moment, rolling_speeds
+from ehlectric.bearing.loads.geometry import centrifugal_force, gyroscopic_moment, rolling_speeds
 
 D, PITCH = 11.906e-3, 60e-3
 RPM = 2.0 * np.pi / 60.0

@@ -12,8 +12,8 @@ from scipy.optimize import minimize
 from ehlectric import InputError
 from ehlectric.bearing.loads.geometry import RollerBearing
 from ehlectric.bearing.loads.ring import Operation
-from ehlectric.bearing.loads.rollers import line_stiffness, roller_equilibrium
-from ehlectric.formulas.hertz_line import body_compliance, reduced_modulus
+from ehlectric.bearing.loads.roller_loads import line_stiffness, roller_equilibrium
+from ehlectric.formulas.hertz import body_compliance, reduced_modulus
 from tests.helpers.each import each
 
 STEEL = reduced_modulus(body_compliance(206e9, 0.3), body_compliance(206e9, 0.3))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from ehlectric.bearing.loads.seating import Grooves, lean_outward, seat
+from ehlectric.bearing.loads.ball_loads import Grooves, lean_outward, seat
 from tests.helpers.each import each
 
 INNER, OUTER = 0.24e-3, 0.30e-3  # distance of ball and groove centres where they touch

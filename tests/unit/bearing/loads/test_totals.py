@@ -7,10 +7,10 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ehlectric.bearing.loads.balls import ball_equilibrium
+from ehlectric.bearing.loads.ball_loads import ball_equilibrium
 from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
 from ehlectric.bearing.loads.ring import Operation
-from ehlectric.bearing.loads.rollers import roller_equilibrium
+from ehlectric.bearing.loads.roller_loads import roller_equilibrium
 from ehlectric.bearing.loads.totals import mirrored
 from tests.helpers.each import each
 

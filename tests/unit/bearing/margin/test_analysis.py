@@ -7,15 +7,19 @@ import re
 import pytest
 
 from ehlectric import load
-from ehlectric.bearing.files import save
-from ehlectric.bearing.margin.analysis import MarginAnalysis
-from ehlectric.bearing.margin.critical_speed import SpeedRange, speed_range
-from ehlectric.bearing.margin.quick_margins import QuickMargins
-from ehlectric.bearing.margin.sensitivity import OF_TABLE, Effect
-from ehlectric.bearing.margin.verdict import bearing_verdict
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.discharge.verdict import ratio_text
+from ehlectric.bearing.margin import (
+    OF_TABLE,
+    Effect,
+    MarginAnalysis,
+    QuickMargins,
+    SpeedRange,
+    bearing_verdict,
+    speed_range,
+)
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.bearing.run import save
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.discharge.film_verdict import ratio_text
 from ehlectric.errors import InputError
 from ehlectric.quantities.units import rpm_text
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
@@ -399,7 +403,7 @@ def test_inputs_beside_the_films_solve_no_bearing_again(balls, monkeypatch):
     changes = {"motor.rotor_frame_capacitance": 5e-10}, {"bearing.composite_rq": 6e-8}
     again = [margin_at(balls, **one) for one in changes]
     with monkeypatch.context() as patched:
-        patched.delattr("ehlectric.bearing.margin.quick_margins.quick_solution")
+        patched.delattr("ehlectric.bearing.margin.quick_solution")
         found = [margins.at(one) for one in changes]
     assert [one.margin for one in found] == pytest.approx(again, rel=1e-3)
     assert found[1].lambda_ratio == pytest.approx(0.5 * margins.own.lambda_ratio, rel=1e-12)

@@ -4,14 +4,11 @@ import dataclasses
 
 import pytest
 
-from ehlectric.bearing.margin.analysis import MarginAnalysis
-from ehlectric.bearing.margin.critical_speed import SpeedRange
-from ehlectric.bearing.margin.verdict import bearing_verdict
-from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.margin import MarginAnalysis, SpeedRange, bearing_verdict
+from ehlectric.bearing.result import BearingResult, solve_bearing
 from ehlectric.bearing.solution import lambda_ratio
-from ehlectric.bearing.solver import solve_bearing
 from ehlectric.bearing.summary import summary_of
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import ResultWarning
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case
 from tests.helpers.places import EXAMPLES

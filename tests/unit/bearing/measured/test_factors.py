@@ -10,12 +10,11 @@ import pandas as pd
 import pytest
 
 import ehlectric
-from ehlectric.bearing.measured import solved
-from ehlectric.bearing.measured.forward import FilmState, OperatingPoint
-from ehlectric.bearing.measured.solved import Correction
-from ehlectric.bearing.meter.reading import meter_capacitance
+from ehlectric.bearing import measured_capacitance
+from ehlectric.bearing.impedance import meter_capacitance
+from ehlectric.bearing.measured_capacitance import Correction, FilmState, OperatingPoint
 from ehlectric.bearing.preparation import with_film_factor
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS, ROLLERS
 from tests.helpers.each import each
@@ -222,14 +221,14 @@ def test_solved_contacts_enter_by_their_ratio_to_the_atlas(case, monkeypatch):
     quick = case.replace({"contacts": "atlas"})
     points = [OperatingPoint.of(quick, {"bearing.inner_speed": n * RPM}) for n in SPEEDS]
     exact = np.array([at.at(0.7).capacitance for at in points])
-    solve = solved.solution_of_prepared
+    solve = measured_capacitance.solution_of_prepared
 
     def thicker(solved_case, prepared, **_):
         assert solved_case.contacts == "solved"
         factor = 1.05 * prepared.conditions.film_factor
         return solve(solved_case.replace({"contacts": "atlas"}), with_film_factor(prepared, factor))
 
-    monkeypatch.setattr(solved, "solution_of_prepared", thicker)
+    monkeypatch.setattr(measured_capacitance, "solution_of_prepared", thicker)
     found = ehlectric.film_factors(case, table(exact), contacts="solved", uncertainty="1 %")
     assert found.columns["film_factor"] == pytest.approx([0.7 / 1.05] * 3, rel=1e-3)
     assert found.solves == 2 * 3

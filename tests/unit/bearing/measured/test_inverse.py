@@ -7,12 +7,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ehlectric.bearing.measured.forward import OperatingPoint
-from ehlectric.bearing.measured.inverse import LEAST, MOST, NoFactorError, film_factor_of, slope_at
-from ehlectric.bearing.meter.reading import meter_capacitance
+from ehlectric.bearing.impedance import meter_capacitance
+from ehlectric.bearing.measured_capacitance import (
+    LEAST,
+    MOST,
+    NoFactorError,
+    OperatingPoint,
+    film_factor_of,
+    slope_at,
+)
 from ehlectric.bearing.solution import capacitance
-from ehlectric.bearing.solving.contacts_and_circuit import solution_of
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.bearing.solving import solution_of
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
 from tests.helpers.bearings import BALLS
 

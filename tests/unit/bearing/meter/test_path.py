@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.bearing.circuit import Circuit
-from ehlectric.bearing.meter.path import Path, shaft_first_break, shaft_through_breakdown
+from ehlectric.bearing.circuit import Circuit, Path, shaft_first_break, shaft_through_breakdown
 
 CAPACITANCES = st.floats(1e-13, 1e-6)
 

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.constants import epsilon_0
 
+from ehlectric.bearing.bearing_discharges import Decay
 from ehlectric.bearing.circuit import series
-from ehlectric.bearing.discharges.leakage import Decay
 from ehlectric.bearing.impedance import impedance_of, oil_relaxation_time
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.summary import summary_of
-from ehlectric.discharge.roughness_factor import roughness_factor
-from ehlectric.sweep.breakdown_keys import breakdown_of
+from ehlectric.discharge.film_capacitance import roughness_factor
+from ehlectric.sweep.sweep_inputs import breakdown_of
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.unit.figures.bearing.test_save import by_hand
 

@@ -5,17 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from ehlectric.bearing.measured.forward import OperatingPoint
+from ehlectric.bearing.film_factor import film_note, half_time, supply_warnings, supply_words, track_length
+from ehlectric.bearing.measured_capacitance import OperatingPoint
 from ehlectric.bearing.preparation import prepare_bearing, resolve_bearing, with_film_factor
-from ehlectric.bearing.solver import solve_bearing
+from ehlectric.bearing.result import solve_bearing
 from ehlectric.bearing.stored import dataset_of, solution_of
 from ehlectric.bearing.summary import summary_of
-from ehlectric.bearing.supply.decay import half_time, track_length
-from ehlectric.bearing.supply.warnings import film_note, supply_warnings, supply_words
-from ehlectric.cases.bearings.case import BearingCase
+from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.errors import InputError
-from ehlectric.formulas.replenishment import replenishment_factor
-from ehlectric.tables.bearing import film_factor_note
+from ehlectric.formulas.inlet_supply import replenishment_factor
+from ehlectric.tables.bearing_tables import film_factor_note
 from tests.helpers.bearings import BALLS, ROLLERS, bearing_case, numbers_of
 from tests.helpers.each import each
 from tests.helpers.places import EXAMPLES

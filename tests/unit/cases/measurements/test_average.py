@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.cases.measurements.average import mean_factor, slope_of
-from ehlectric.cases.measurements.meter import capacitance_of, parallel_circuit
-from ehlectric.cases.measurements.reading import read_measurement
+from ehlectric.cases.film_factors import mean_factor, slope_of
+from ehlectric.cases.measurements import capacitance_of, parallel_circuit, read_measurement
 from ehlectric.errors import InputError
 
 

@@ -7,8 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from ehlectric.cases.measurements.columns import column_of
-from ehlectric.cases.measurements.reading import MOST_ROWS, read_measurement
+from ehlectric.cases.measurements import MOST_ROWS, column_of, read_measurement
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 

@@ -6,21 +6,19 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, InputError, Laws, load, solve
-from ehlectric.app.compute.contact import view_of
+from ehlectric.app.compute.contact_answers import view_of
 from ehlectric.contact.check import check_case
-from ehlectric.contact.files import save
-from ehlectric.contact.heat.oil import hot_oil, oil_over_temperature
-from ehlectric.contact.heat.physics import physics_of
-from ehlectric.contact.heat.warnings import heat_warnings
-from ehlectric.contact.resolve import resolve
-from ehlectric.contact.result_warnings import film_warnings
-from ehlectric.discharge.utilisation import FieldUtilisation
+from ehlectric.contact.conditions import resolve
+from ehlectric.contact.contact_heat import heat_warnings, hot_oil, oil_over_temperature, physics_of
+from ehlectric.contact.run import save
+from ehlectric.contact.warnings import film_warnings
+from ehlectric.discharge.film_breakdown import FieldUtilisation
 from ehlectric.errors import DamagedError
-from ehlectric.figures.contact.save import figure
-from ehlectric.film.sheared.profile import Across
-from ehlectric.paper.solvers import PAPER
+from ehlectric.figures.contact_figure_files import figure
+from ehlectric.film.across_film import Across
+from ehlectric.paper.paper_contacts import PAPER
 from ehlectric.runtime.netcdf import read_dataset
-from ehlectric.tables.contact import result_rows
+from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.hot_cases import HOT_LINE, HOT_POINT
 
 

@@ -7,7 +7,7 @@ import pytest
 import ehlectric
 from ehlectric import Case
 from ehlectric.errors import InputError
-from ehlectric.film.atlas.contact import contact_film
+from ehlectric.film.atlas.atlas_films import contact_film
 from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
 
 BALL = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa", "load": "20 N"}
@@ -24,7 +24,7 @@ def log(films, **more):
 
 
 def formula(case, speed):
-    from ehlectric.contact.resolve import resolve_point
+    from ehlectric.contact.conditions import resolve_point
 
     return nijenbanning_venner_moes(
         resolve_point(case.replace({"contact.entrainment_speed": speed})).contact

@@ -11,11 +11,10 @@ from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
 from ehlectric import Case, load, save, solve
-from ehlectric.contact.meter.profile import meter_profile
-from ehlectric.contact.meter.reading import Metered, meter_warnings
-from ehlectric.discharge.roughness_factor import roughness_factor
-from ehlectric.figures.contact.save import figure
-from ehlectric.tables.contact import result_rows
+from ehlectric.contact.capacitance_meter import Metered, meter_profile, meter_warnings
+from ehlectric.discharge.film_capacitance import roughness_factor
+from ehlectric.figures.contact_figure_files import figure
+from ehlectric.tables.contact_tables import result_rows
 from tests.conftest import PAPER_CONTACT
 from tests.unit.cases.test_point_case import point
 

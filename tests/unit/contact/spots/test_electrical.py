@@ -7,17 +7,17 @@ import pytest
 from scipy.constants import epsilon_0
 
 from ehlectric import Case
-from ehlectric.cases.discharge import Discharge
-from ehlectric.cases.grid import Electric
-from ehlectric.contact.spots.electrical import (
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.grid_inputs import Electric
+from ehlectric.contact.touching import (
+    Spots,
     behaviour_of,
     constriction,
     electrical,
+    spots_of,
     strip_resistance,
     time_share,
 )
-from ehlectric.contact.spots.mechanics import spots_of
-from ehlectric.contact.spots.patches import Spots
 from tests.helpers.each import each
 from tests.unit.contact.spots.cases import POINT, solved
 

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from ehlectric import solve
-from ehlectric.contact.spots.oil_balance import oil_balance
-from ehlectric.contact.spots.warnings import MASS_ERROR
+from ehlectric.contact.touching import MASS_ERROR, oil_balance
 from ehlectric.film import nested
-from ehlectric.tables.contact import result_rows
+from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each
 from tests.helpers.mixed_films import gaussian, mixed_film, rough_line, rough_point, sinusoid
 from tests.unit.contact.spots.cases import LINE, solved

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.contact.spots.patches import Spots, weighted_percentiles
+from ehlectric.contact.touching import Spots, weighted_percentiles
 
 
 def disc(nodes, *centres, radius=0.2):

@@ -7,14 +7,17 @@ import pytest
 from scipy.constants import epsilon_0
 from scipy.integrate import quad
 
-from ehlectric.bearing.gaps.groove import match_film, outside_capacitance
-from ehlectric.bearing.gaps.raceway import Raceway
-from ehlectric.bearing.gaps.roller import RollerRaceway, roller_capacitance, roller_tails
-from ehlectric.discharge.gaps import outside as gaps
-from ehlectric.discharge.gaps.bodies import Bodies, Body, points
-from ehlectric.discharge.gaps.outside import around_line, around_point
-from ehlectric.formulas.hertz_line import line_opening, reduced_radius
-from ehlectric.formulas.hertz_point import dry_contact, point_deflection
+from ehlectric.bearing.gaps import (
+    Raceway,
+    RollerRaceway,
+    match_film,
+    outside_capacitance,
+    roller_capacitance,
+    roller_tails,
+)
+from ehlectric.discharge import outer_gap as gaps
+from ehlectric.discharge.outer_gap import Bodies, Body, around_line, around_point, points
+from ehlectric.formulas.hertz import dry_contact, line_opening, point_deflection, reduced_radius
 
 R, E = 9.525e-3, 230.77e9
 PLANE, BALL = Body(0.0, 0.0), Body(1.0 / R, 1.0 / R)

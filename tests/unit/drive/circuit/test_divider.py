@@ -2,8 +2,8 @@
 
 import pytest
 
-from ehlectric.bearing.meter.path import Path
-from ehlectric.drive.circuit.divider import capacitive_divider
+from ehlectric.bearing.circuit import Path
+from ehlectric.drive.motor_circuit import capacitive_divider
 from tests.helpers.drives import element, motor
 from tests.helpers.each import each
 

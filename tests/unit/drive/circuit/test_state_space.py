@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from ehlectric.drive.circuit.modes import modes_of
-from ehlectric.drive.circuit.state_space import Element, state_space
+from ehlectric.drive.motor_circuit import Element, modes_of, state_space
 
 
 def test_capacitive_divider():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from ehlectric.bearing.meter.path import Path
-from ehlectric.drive.circuit.motor import bearing_elements, film_nodes, motor_elements, source_nodes
-from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, ON, VOLTAGE
+from ehlectric.bearing.circuit import Path
+from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, ON, VOLTAGE
+from ehlectric.drive.motor_circuit import bearing_elements, film_nodes, motor_elements, source_nodes
 from tests.helpers.drives import arc, element, from_rest, march, motor, square, systems
 from tests.helpers.ngspice import waveform
 

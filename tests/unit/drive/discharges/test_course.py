@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric.drive.discharges.compiled import compiled
-from ehlectric.drive.discharges.course import all_at, course_at, course_of, unfold
-from ehlectric.drive.discharges.pieces import (
+from ehlectric.drive.discharges.voltages_in_time import (
     FILMS,
     FORCE,
     RATE,
@@ -15,7 +14,11 @@ from ehlectric.drive.discharges.pieces import (
     SLOPE,
     START,
     VOLTAGES,
+    all_at,
+    course_at,
+    course_of,
     move,
+    unfold,
     voltage,
     voltages,
 )

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from ehlectric.drive.discharges.record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
-from ehlectric.drive.discharges.states import Segments
+from ehlectric.drive.discharges.march import Segments
+from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, OFF, ON, PEAK, VOLTAGE
 from tests.helpers.drives import arc, element, march, motor, square
 
 
@@ -131,7 +131,7 @@ def test_charge_and_energy_with_leak_and_inductance_balance():
     """Over the first event: what the arc takes is what the states say, by an independent integration."""
     from scipy.integrate import solve_ivp
 
-    from ehlectric.drive.circuit.motor import states_of
+    from ehlectric.drive.motor_circuit import states_of
 
     circuit = motor(common_mode_inductance="1 uH", common_mode_resistance="3 ohm")
     bearings = [element(breakdown=4.0, conductance=1e-5), element(conductance=1e-5)]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from ehlectric.drive.circuit.motor import states_of
-from ehlectric.drive.discharges.record import ON, VOLTAGE
+from ehlectric.drive.drive_record import ON, VOLTAGE
+from ehlectric.drive.motor_circuit import states_of
 from tests.helpers.drives import arc, element, march, motor, square
 
 PERIOD = 1e-4

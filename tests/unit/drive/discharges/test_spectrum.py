@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from ehlectric.bearing.meter.path import Path
-from ehlectric.drive.circuit.divider import capacitive_divider
-from ehlectric.drive.discharges.spectrum import LINES, empty_means
+from ehlectric.bearing.circuit import Path
+from ehlectric.drive.discharges.march import LINES, empty_means
+from ehlectric.drive.motor_circuit import capacitive_divider
 from tests.helpers.drives import arc, element, march, motor, square
 
 PERIOD, PERIODS = 1e-4, 20

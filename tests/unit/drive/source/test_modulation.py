@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.cases.drives.source import Source
-from ehlectric.drive.source.modulation import edge_rate, sinusoidal, space_vector, steps_of
-from ehlectric.drive.source.segments import Ringing, edges
+from ehlectric.cases.drive_inputs import Source
+from ehlectric.drive.inverter import edge_rate, sinusoidal, space_vector, steps_of
+from ehlectric.drive.source_pieces import Ringing, edges
 from tests.helpers.each import each
 
 LINK = 600.0

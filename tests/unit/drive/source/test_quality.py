@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive.source.quality import (
+from ehlectric.drive.waveform_file import (
+    Waveform,
     clipped_levels,
     few_levels,
     longest_run,
@@ -12,7 +13,6 @@ from ehlectric.drive.source.quality import (
     repeat_warnings,
     unresolved_edges,
 )
-from ehlectric.drive.source.waveform import Waveform
 from tests.helpers.each import each
 
 COUNT = 20_000

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.signal import firwin, upfirdn
 
-from ehlectric.drive.source.resampling import HALF, resample
-from ehlectric.drive.source.waveform import Waveform
+from ehlectric.drive.measured_source import HALF, resample
+from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.drive.source import waveform_file as reader
-from ehlectric.drive.source.waveform_file import _Choice, _Dialect, _Head, _Layout, _Samples
+from ehlectric.drive import waveform_file as reader
+from ehlectric.drive.waveform_file import _Choice, _Dialect, _Head, _Layout, _Samples
 from ehlectric.errors import InputError
 from tests.helpers.each import each
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ehlectric import solve_bearing, write_netlist
-from ehlectric.bearing.intermittency.admittance import mean_admittance
+from ehlectric.bearing.impedance import mean_admittance
 from ehlectric.bearing.summary import summary_of
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.ngspice import run_netlist, simulate, waveform

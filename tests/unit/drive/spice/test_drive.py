@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from ehlectric import DriveCase, InputError, write_drive_netlist
-from ehlectric.bearing.solver import solve_bearing
-from ehlectric.drive.bearings import bearing_element
-from ehlectric.drive.circuit.divider import capacitive_divider
-from ehlectric.drive.discharges.states import Segments
-from ehlectric.drive.source.modulation import steps_of
-from ehlectric.drive.source.segments import edges
-from ehlectric.drive.spice.drive import drive_netlist
+from ehlectric.bearing.result import solve_bearing
+from ehlectric.drive.discharges.march import Segments
+from ehlectric.drive.drive_bearings import bearing_element
+from ehlectric.drive.drive_netlist import drive_netlist
+from ehlectric.drive.inverter import steps_of
+from ehlectric.drive.motor_circuit import capacitive_divider
+from ehlectric.drive.source_pieces import edges
 from tests.helpers.drives import arc, march, small_drive
 from tests.helpers.ngspice import run_netlist
 

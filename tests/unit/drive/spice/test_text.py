@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlectric import InputError, solve_bearing, write_netlist
-from ehlectric.drive.spice.over_speed import interpolated, speeds_of
-from ehlectric.drive.spice.text import comment, name_of, number
+from ehlectric.drive.netlist import comment, interpolated, name_of, number, speeds_of
 from tests.helpers.bearings import BALLS, bearing_case
 from tests.helpers.each import each
 

@@ -11,28 +11,26 @@ from matplotlib.text import Text
 from typer.testing import CliRunner
 
 from ehlectric import solve_bearing
-from ehlectric.bearing.contacts import ContactCurve
-from ehlectric.bearing.over_speed import critical_speed_of, curves_of
 from ehlectric.bearing.preparation import equilibria_of, resolve_bearing
 from ehlectric.bearing.result import BearingResult
-from ehlectric.bearing.ring_contacts import RingContacts
+from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts
 from ehlectric.bearing.solution import BearingSolution, Position, ring_state
-from ehlectric.bearing.speeds import over_speed
-from ehlectric.cases.bearings.case import BearingCase
-from ehlectric.commands.app import app
-from ehlectric.discharge.verdict import Verdict
-from ehlectric.figures.bearing import circuit as bearing_circuit_plot
-from ehlectric.figures.bearing import impedance as bearing_impedance_plot
-from ehlectric.figures.bearing import pitch as bearing_pitch_plot
-from ehlectric.figures.bearing import polar as bearing_polar
-from ehlectric.figures.bearing import speeds as bearing_speed_plot
-from ehlectric.figures.bearing.save import (
+from ehlectric.bearing.speed_curves import critical_speed_of, curves_of, over_speed
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.commands.command_line import app
+from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.figures import bearing_figures as bearing_circuit_plot
+from ehlectric.figures import bearing_figures as bearing_impedance_plot
+from ehlectric.figures import bearing_figures as bearing_pitch_plot
+from ehlectric.figures import bearing_figures as bearing_polar
+from ehlectric.figures import breakdown_over_speed as bearing_speed_plot
+from ehlectric.figures.bearing_figure_files import (
     bearing_figures_of,
     figure,
     save_speed_figures,
     speed_figure,
 )
-from ehlectric.figures.names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
+from ehlectric.figures.figure_names import BEARING_FIGURE_FILES, SPEED_FIGURE_FILES
 from ehlectric.quantities.palette import BLACK, BLUE
 from tests.helpers.bearings import BALLS, bearing_case, contact_solution
 from tests.helpers.each import each
@@ -303,7 +301,7 @@ def test_a_panel_over_a_pitch_is_drawn_where_its_quantity_varies(monkeypatch):
             "first_breakdowns": 5.0 + 5.0 * first * swing,
         }
         for name, values in of_all.items():
-            monkeypatch.setattr(f"ehlectric.figures.bearing.save.{name}", lambda *_, v=values: v)
+            monkeypatch.setattr(f"ehlectric.figures.bearing_figure_files.{name}", lambda *_, v=values: v)
         assert bearing_figures_of(bearing).get(PITCH, ()) == panels
     monkeypatch.undo()
     assert PITCH not in bearing_figures_of(by_hand(positions=1))
@@ -337,7 +335,7 @@ def test_the_command_draws_unless_told_not_to(result, monkeypatch, tmp_path):
     """And takes the figures of an earlier bearing away."""
     file = tmp_path / "bearing.toml"
     file.write_text(tomli_w.dumps(TABLE), encoding="utf-8")
-    monkeypatch.setattr("ehlectric.bearing.files.solve_bearing", lambda *_args, **_kwargs: result)
+    monkeypatch.setattr("ehlectric.bearing.run.solve_bearing", lambda *_args, **_kwargs: result)
     drawn = *bearing_figures_of(result), *SPEED_FIGURE_FILES
     for option, figures in (("--plots", drawn), ("--no-plots", ())):
         done = CliRunner().invoke(app, ["bearing", str(file), "-o", str(tmp_path / "out"), "-q", option])

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ehlectric.figures.contact.cuts import cuts, field_sections, film_cut
-from ehlectric.figures.contact.profiles import Cut
+from ehlectric.figures.contact_profiles import Cut
+from ehlectric.figures.point_figures import cuts, field_sections, film_cut
 from tests.helpers.each import each
 from tests.helpers.point_pages import KINDS, drawn, result_of
 

@@ -8,14 +8,12 @@ import pytest
 from matplotlib.text import Text
 
 from ehlectric import Case, solve
-from ehlectric.figures.contact.breakdown import breakdown, breakdown_voltages, limit_line, probability
-from ehlectric.figures.contact.cuts import field_cut, field_sections
-from ehlectric.figures.contact.findings import finding, has_spike, per_cent, place_text
-from ehlectric.figures.contact.line import field_deviation, field_profiles, film, roughness
-from ehlectric.figures.contact.line_maps import field_strength
-from ehlectric.figures.contact.save import drawings_of, figure
-from ehlectric.figures.lengths import length_axis
-from ehlectric.figures.style import axes_or_new
+from ehlectric.figures.contact_curves import breakdown, breakdown_voltages, limit_line, probability
+from ehlectric.figures.contact_figure_files import drawings_of, figure
+from ehlectric.figures.contact_findings import finding, has_spike, per_cent, place_text
+from ehlectric.figures.line_figures import field_deviation, field_profiles, field_strength, film, roughness
+from ehlectric.figures.point_figures import field_cut, field_sections
+from ehlectric.figures.style import axes_or_new, length_axis
 from ehlectric.quantities.palette import LIGHT_GREY, OUT_OF_RANGE
 from tests.conftest import PAPER_CONTACT
 from tests.helpers.each import each

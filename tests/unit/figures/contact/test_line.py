@@ -3,7 +3,7 @@
 import pytest
 from matplotlib.figure import Figure
 
-from ehlectric.figures.contact import line as plot
+from ehlectric.figures import line_figures as plot
 from tests.helpers.each import each
 
 

@@ -8,25 +8,23 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from scipy.ndimage import binary_dilation, binary_erosion
 
-from ehlectric.figures.contact.cuts import (
+from ehlectric.figures.contact_maps import film_window
+from ehlectric.figures.figure_names import ALL_FIGURES, POINT_FIGURE_FILES
+from ehlectric.figures.point_figures import (
+    SECTIONS,
     cuts,
     field_cut,
+    field_deviation,
+    field_map,
     field_section,
     field_sections,
     film_cut,
-    pressure_cut,
-)
-from ehlectric.figures.contact.maps import film_window
-from ehlectric.figures.contact.point import (
-    SECTIONS,
-    field_deviation,
-    field_map,
     film_map,
     point_figures_of,
+    pressure_cut,
     pressure_map,
     roughness,
 )
-from ehlectric.figures.names import ALL_FIGURES, POINT_FIGURE_FILES
 from ehlectric.quantities.palette import OUT_OF_RANGE
 from tests.helpers.each import each
 from tests.helpers.point_pages import KINDS, PIT, drawn, on_page, pages, result_of, solved

@@ -7,10 +7,10 @@ import pytest
 from matplotlib.text import Text
 
 from ehlectric import InputError, figure, figure_names, save_figures, solve_drive
-from ehlectric.drive.discharges.record import ENERGY, FILM, ON, VOLTAGE
+from ehlectric.drive.drive_record import ENERGY, FILM, ON, VOLTAGE
 from ehlectric.drive.result import DriveResult
-from ehlectric.figures.drive.histogram import shares_above
-from ehlectric.figures.names import DRIVE_FIGURE_FILES, FORMATS, in_formats
+from ehlectric.figures.drive_figures import shares_above
+from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, FORMATS, in_formats
 from tests.helpers.drives import drive_with_remedy
 from tests.helpers.titles import title_of
 

@@ -13,18 +13,15 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ehlectric import Case, InputError
+from ehlectric.figures import motion_figures as motion_beside
+from ehlectric.figures import motion_figures as motion_history
+from ehlectric.figures import motion_figures as motion_maps
 from ehlectric.figures import style as drawing
-from ehlectric.figures.motion import beside as motion_beside
-from ehlectric.figures.motion import history as motion_history
-from ehlectric.figures.motion import maps as motion_maps
-from ehlectric.figures.motion.animation import save_animation
-from ehlectric.figures.motion.line_frames import line_frames
-from ehlectric.figures.motion.panels import speed_text
-from ehlectric.figures.motion.point_frames import map_frames
-from ehlectric.figures.motion.save import beside_stationary, history, maps, save_motion_figures
-from ehlectric.figures.names import MOTION_FIGURE_FILES
-from ehlectric.motion.field_history import intervals_above
-from ehlectric.motion.stored_run import MotionRun
+from ehlectric.figures.animation import line_frames, map_frames, save_animation
+from ehlectric.figures.figure_names import MOTION_FIGURE_FILES
+from ehlectric.figures.motion_figures import beside_stationary, history, maps, save_motion_figures
+from ehlectric.figures.motion_panels import speed_text
+from ehlectric.motion.stored_run import MotionRun, intervals_above
 from ehlectric.quantities.palette import OUT_OF_RANGE
 from tests.helpers.each import each
 from tests.helpers.titles import title_of
@@ -373,7 +370,7 @@ def test_figures_are_written(contact, tmp_path, monkeypatch):
     ],
 )
 def test_figures_with_nothing_to_show_are_left_out(changes, left, tmp_path, monkeypatch):
-    monkeypatch.setattr("ehlectric.figures.motion.save.save_figure", lambda _, path, *__: [path])
+    monkeypatch.setattr("ehlectric.figures.motion_figures.save_figure", lambda _, path, *__: [path])
     assert [file.name for file in save_motion_figures(by_hand(**changes), tmp_path)] == left
 
 

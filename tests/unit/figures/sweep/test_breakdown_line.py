@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ehlectric import Case, solve
-from ehlectric.figures.sweep.lines import value_lines
-from ehlectric.figures.sweep.maps import value_map
+from ehlectric.figures.sweep_lines import value_lines
+from ehlectric.figures.sweep_maps import value_map
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, grid
 from tests.unit.figures.sweep.test_save import VALUE, curves, line_of_breakdown
 

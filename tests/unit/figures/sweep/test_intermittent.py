@@ -3,10 +3,11 @@
 import pytest
 from matplotlib.patches import Patch
 
-from ehlectric.figures.sweep.findings import of_slice
-from ehlectric.figures.sweep.lines import value_lines
-from ehlectric.figures.sweep.maps import value_map
-from ehlectric.sweep.results import Point, SweepResults
+from ehlectric.figures.sweep_figures import of_slice
+from ehlectric.figures.sweep_lines import value_lines
+from ehlectric.figures.sweep_maps import value_map
+from ehlectric.sweep.points import Point
+from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import take
 from tests.helpers.bearings import BALLS, bearing_case
 

@@ -12,14 +12,19 @@ from matplotlib.tri import TriContourSet
 
 from ehlectric import InputError
 from ehlectric.errors import CODES, ResultWarning, texts_and_codes
-from ehlectric.figures.axes import levels_of, round_numbers
-from ehlectric.figures.style import style
-from ehlectric.figures.sweep.lines import value_lines
-from ehlectric.figures.sweep.maps import value_map
-from ehlectric.figures.sweep.points import LESS_ACCURATE
-from ehlectric.figures.sweep.save import figure, save_maps
-from ehlectric.figures.sweep.sensitivity import distribution, parts, save_sensitivity, sensitivity_figure
-from ehlectric.sweep.results import Range
+from ehlectric.figures.style import levels_of, round_numbers, style
+from ehlectric.figures.sweep_figures import (
+    distribution,
+    figure,
+    parts,
+    save_maps,
+    save_sensitivity,
+    sensitivity_figure,
+)
+from ehlectric.figures.sweep_lines import value_lines
+from ehlectric.figures.sweep_maps import value_map
+from ehlectric.figures.sweep_points import LESS_ACCURATE
+from ehlectric.sweep.points import Range
 from ehlectric.sweep.sensitivity import sensitivity
 from tests.helpers.each import each
 from tests.helpers.sweep_models import LOAD, POTENTIAL, SPEED, breakdown, doubtful_where, grid, paired, sobol

@@ -6,11 +6,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from ehlectric.figures.sweep.findings import of_slice
-from ehlectric.figures.sweep.lines import value_lines
-from ehlectric.figures.sweep.maps import value_map
-from ehlectric.figures.sweep.time_shares import TIME_SHARES, quantile_of, share_of
-from ehlectric.sweep.results import Point, SweepResults
+from ehlectric.figures.sweep_figures import of_slice
+from ehlectric.figures.sweep_lines import value_lines
+from ehlectric.figures.sweep_maps import value_map
+from ehlectric.figures.sweep_points import TIME_SHARES, quantile_of, share_of
+from ehlectric.sweep.points import Point
+from ehlectric.sweep.result import SweepResults
 from ehlectric.sweep.slices import take
 from tests.helpers.bearings import BALLS, bearing_case
 

@@ -9,24 +9,27 @@ import numpy as np
 import pytest
 from benchmarks.atlas_nodes import groups_of, measured, record
 
-from ehlectric.cases.grid import Grid
-from ehlectric.cases.oils.lubricant import Lubricant
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact.conditions import line_conditions, point_conditions
 from ehlectric.contact.problems import geometry_of
 from ehlectric.contact.solver import solve_contact
 from ehlectric.errors import InputError
-from ehlectric.film.accuracy.patch import Patch
-from ehlectric.film.atlas.coefficient import OilGroups, film_coefficient, reference_laws
-from ehlectric.film.atlas.contact import contact_film
-from ehlectric.film.atlas.film import atlas_film
-from ehlectric.film.atlas.groups import Groups, film_problem
-from ehlectric.film.atlas.table import NAMES, Table, _file, tensor_spline
-from ehlectric.film.line import solve_film
+from ehlectric.film.atlas.atlas_films import (
+    OilGroups,
+    atlas_film,
+    contact_film,
+    film_coefficient,
+    reference_laws,
+)
+from ehlectric.film.atlas.atlas_groups import Groups, film_problem
+from ehlectric.film.atlas.atlas_table import NAMES, Table, _file, tensor_spline
+from ehlectric.film.isothermal_film import solve_film, solve_point_film
 from ehlectric.film.nested import nested_iteration
-from ehlectric.film.point import solve_point_film
+from ehlectric.film.patch import Patch
 from ehlectric.lubricant.density import incompressible
 from ehlectric.lubricant.viscosity import barus, roelands
-from ehlectric.runtime.parallel.threads import quiet_solution
+from ehlectric.runtime.threads import quiet_solution
 from tests.helpers.each import each
 
 PAPER = Lubricant.from_dict({"base": "paper"}).at(None)

@@ -4,14 +4,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ehlectric.film.across_film import Across, Properties, on_mesh
 from ehlectric.film.deflection import point_geometry
 from ehlectric.film.flow import Fluid
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import FilmProblem, Scales, velocity_parameter
-from ehlectric.film.sheared.flow import ShearedFlow
-from ehlectric.film.sheared.profile import Across, Properties, on_mesh
-from ehlectric.film.sheared.traction import filled_part, traction
+from ehlectric.film.shear_flow import ShearedFlow, filled_part, traction
 from ehlectric.lubricant.density import dowson_higginson
 from ehlectric.lubricant.viscosity import roelands
 

@@ -7,12 +7,18 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from ehlectric.film.sheared.column import column_flux, middle_stress, uniform_eyring
-from ehlectric.film.sheared.even import EvenStress, even_flux
-from ehlectric.film.sheared.faces import flux_of as flux_of_faces
-from ehlectric.film.sheared.laws import Rheology
-from ehlectric.film.sheared.plane import middle_stresses, plane_flux
-from ehlectric.film.sheared.profile import Across, Quadrature, to_points
+from ehlectric.film.across_film import Across, Quadrature, to_points
+from ehlectric.film.shear_flow import flux_of as flux_of_faces
+from ehlectric.film.shear_laws import Rheology
+from ehlectric.film.shear_stress import (
+    EvenStress,
+    column_flux,
+    even_flux,
+    middle_stress,
+    middle_stresses,
+    plane_flux,
+    uniform_eyring,
+)
 from tests.helpers.each import each
 
 EYRING = Rheology("eyring", {"eyring_stress": 1.0})

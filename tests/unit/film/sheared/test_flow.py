@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.film import reynolds
+from ehlectric.film.across_film import Across, on_mesh
 from ehlectric.film.flow import flow, mean_fluidity
 from ehlectric.film.mesh import Mesh, Width
-from ehlectric.film.sheared.flow import ShearedFlow
-from ehlectric.film.sheared.laws import Rheology
-from ehlectric.film.sheared.profile import Across, on_mesh
+from ehlectric.film.shear_flow import ShearedFlow
+from ehlectric.film.shear_laws import Rheology
 from tests.helpers.each import each
 from tests.unit.film.sheared.contacts import Warm, fluid_of
 

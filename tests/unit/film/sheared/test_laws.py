@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlectric.film.sheared.laws import RHEOLOGY, Rheology
+from ehlectric.film.shear_laws import RHEOLOGY, Rheology
 from tests.helpers.each import each
 
 CONSTANTS = {

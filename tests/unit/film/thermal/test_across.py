@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ehlectric.film.sheared.profile import Across
-from ehlectric.film.thermal.across import conduction, derivative
+from ehlectric.film.across_film import Across
+from ehlectric.film.energy_equation import conduction, derivative
 from tests.helpers.each import each
 
 

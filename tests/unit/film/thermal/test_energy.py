@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric.film.thermal.columns import HeatColumns
-from ehlectric.film.thermal.energy import Heat, solve_energy
-from ehlectric.film.thermal.half_space import moving_surface
+from ehlectric.film.energy_equation import Heat, HeatColumns, moving_surface, solve_energy
 from tests.helpers.hot import channel, cold_surface, steel
 
 

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
+from ehlectric.film.across_film import Across
+from ehlectric.film.energy_equation import FrozenTemperature, Heat
+from ehlectric.film.hot_oil import HotOil
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.sheared.profile import Across
-from ehlectric.film.thermal.energy import Heat
-from ehlectric.film.thermal.frozen import FrozenTemperature
-from ehlectric.film.thermal.oil import HotOil
 from tests.helpers.hot import hot_oil
 
 HERTZ, INLET = 1e9, 313.15

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ehlectric.film.thermal.half_space import moving_surface
-from ehlectric.film.thermal.physics import Body
+from ehlectric.film.energy_equation import moving_surface
+from ehlectric.film.hot_oil import Body
 from tests.helpers.each import each
 
 # Steel with a bulk temperature of zero, so that temperatures are rises.

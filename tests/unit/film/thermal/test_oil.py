@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlectric.film.thermal.oil import HotOil
+from ehlectric.film.hot_oil import HotOil
 from tests.helpers.hot import hot_oil
 
 OIL = HotOil.through(hot_oil(), 293.15, 563.15)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate, special
 
-from ehlectric.formulas.asperities.integrals import greenwood_integral, separation_of_gap
+from ehlectric.formulas.asperities import greenwood_integral, separation_of_gap
 from tests.helpers.each import each
 
 # Separations and values to the digits printed by an independent program.

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.formulas.asperities.intermittency import bearing_time_share, contact_time_share, expected_spots
+from ehlectric.formulas.asperities import bearing_time_share, contact_time_share, expected_spots
 
 SHARES = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=9)
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.formulas.asperities.resistance import (
+from ehlectric.formulas.asperities import (
     cluster_resistance,
     film_resistance,
     greenwood_cluster,

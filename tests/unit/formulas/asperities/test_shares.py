@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ehlectric.formulas.asperities.shares import (
+from ehlectric.formulas.asperities import (
     LOAD_SHARE,
     contact_probability,
     johnson_end,

@@ -6,12 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate
 
-from ehlectric.formulas.asperities.spectrum import (
-    SpectralMoments,
-    map_moments,
-    profile_moments,
-)
-from ehlectric.surfaces import made_maps, made_profiles
+from ehlectric.formulas.asperities import SpectralMoments, map_moments, profile_moments
+from ehlectric.surfaces import generated_maps, generated_profiles
 from tests.helpers.spectra import periodic_moments
 
 LENGTH = 1e-5
@@ -69,14 +65,14 @@ def test_spectrum_of_waves(waves, spacing):
 
 
 def test_gaussian_profile():
-    made = made_profiles.gaussian(rq=1e-7, correlation_length=LENGTH, length=3000 * LENGTH, seed=3)
+    made = generated_profiles.gaussian(rq=1e-7, correlation_length=LENGTH, length=3000 * LENGTH, seed=3)
     for interval in (made.spacing, 4 * made.spacing, LENGTH):
         found = values(profile_moments(made.heights, made.spacing, interval))
         np.testing.assert_allclose(found, 1e-14 * sampled(bell, interval), rtol=0.06)
 
 
 def gaussian_map(seed=1):
-    return made_maps.gaussian(
+    return generated_maps.gaussian(
         rq=1e-7, correlation_length=LENGTH, reach_x=50 * LENGTH, reach_y=50 * LENGTH, seed=seed
     )
 
@@ -157,7 +153,7 @@ def test_scales(height, length, seed):
 
 def test_self_affine_moments_have_no_limit():
     """Between roll-off and shortest wave m2 grows with the interval to 2 H - 2, m4 to 2 H - 4."""
-    made = made_profiles.self_affine(
+    made = generated_profiles.self_affine(
         rq=1e-7, hurst=0.8, rolloff_wavelength=1e-3, length=0.2, seed=4, shortest=1e-6
     )
     fine, coarse = (profile_moments(made.heights, made.spacing, d) for d in (8e-6, 16e-6))
@@ -168,7 +164,7 @@ def test_self_affine_moments_have_no_limit():
 
 def test_moments_of_two_surfaces_add_up():
     profiles = [
-        made_profiles.gaussian(rq=rq, correlation_length=LENGTH, length=2000 * LENGTH, seed=seed)
+        generated_profiles.gaussian(rq=rq, correlation_length=LENGTH, length=2000 * LENGTH, seed=seed)
         for rq, seed in ((1e-7, 1), (2e-7, 2))
     ]
     one, two = (profile_moments(each.heights, each.spacing) for each in profiles)
@@ -178,7 +174,7 @@ def test_moments_of_two_surfaces_add_up():
 
 def test_lay():
     """Grooves along x are steep along y only."""
-    made = made_maps.gaussian(
+    made = generated_maps.gaussian(
         rq=1e-7, correlation_length=8 * LENGTH, correlation_length_y=LENGTH,
         reach_x=200 * LENGTH, reach_y=25 * LENGTH, seed=5,
     )  # fmt: skip
@@ -188,7 +184,7 @@ def test_lay():
 
 
 def test_rounded_heights_add_what_is_stated():
-    smooth = made_profiles.gaussian(rq=1e-6, correlation_length=LENGTH, length=2000 * LENGTH, seed=6)
+    smooth = generated_profiles.gaussian(rq=1e-6, correlation_length=LENGTH, length=2000 * LENGTH, seed=6)
     step, d = 2e-8, smooth.spacing
     shaken = smooth.heights + step * np.random.default_rng(1).uniform(-0.5, 0.5, smooth.heights.size)
     one, other = (profile_moments(each, d) for each in (smooth.heights, shaken))

@@ -9,13 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate, ndimage, stats
 
-from ehlectric.formulas.asperities.spectrum import map_moments
-from ehlectric.formulas.asperities.statistical import (
-    Summits,
-    greenwood_williamson,
-    summit_separation,
-)
-from ehlectric.surfaces import made_maps
+from ehlectric.formulas.asperities import Summits, greenwood_williamson, map_moments, summit_separation
+from ehlectric.surfaces import generated_maps
 
 MODELS = {"greenwood_tripp": greenwood_tripp, "greenwood_williamson": greenwood_williamson}
 
@@ -121,7 +116,7 @@ def test_summits_lie_above_the_mean_plane():
 
 def test_spots_of_a_generated_map():
     """Peaks of a map above a plane, in number those of Greenwood and Williamson; below they merge."""
-    made = made_maps.gaussian(rq=1e-7, correlation_length=1e-5, reach_x=8e-4, reach_y=8e-4, seed=2)
+    made = generated_maps.gaussian(rq=1e-7, correlation_length=1e-5, reach_x=8e-4, reach_y=8e-4, seed=2)
     z, d = made.heights - made.heights.mean(), made.spacing_x
     peaks = np.where(z == ndimage.maximum_filter(z, 3), z, -np.inf)[1:-1, 1:-1]
     area = peaks.size * d**2

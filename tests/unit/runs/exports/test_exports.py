@@ -23,8 +23,7 @@ from ehlectric import (
     solve_drive,
     solve_motion,
 )
-from ehlectric.runs.exports.matlab import matlab_names
-from ehlectric.runs.exports.paraview import cells
+from ehlectric.runs.exports import cells, matlab_names
 from tests.helpers.drives import small_drive
 from tests.helpers.moving_cases import TABLES, moving
 from tests.helpers.places import EXAMPLES

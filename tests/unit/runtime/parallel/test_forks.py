@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from ehlectric.runtime.parallel.threads import Turn
+from ehlectric.runtime.threads import Turn
 from tests.cli.conftest import CASE
 
 # The child solves and draws. If it hangs, a signal ends it after a time that only a hang takes [s].
@@ -15,10 +15,10 @@ import os, signal, sys, threading
 from contextlib import ExitStack, nullcontext
 from functools import cached_property
 from ehlectric import Case, solve
-from ehlectric.contact.solution import Solution
+from ehlectric.contact.contact_solution import Solution
 from ehlectric.figures.style import style
-from ehlectric.runtime.parallel.spawning import _without_script
-from ehlectric.runtime.parallel.threads import one_blas_thread
+from ehlectric.runtime.spawning import _without_script
+from ehlectric.runtime.threads import one_blas_thread
 
 def locks():
     properties = [each for each in vars(Solution).values() if isinstance(each, cached_property)]

@@ -5,8 +5,8 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import pytest
 
-from ehlectric.runtime.parallel import spawning
-from ehlectric.runtime.parallel.spawning import Context
+from ehlectric.runtime import spawning
+from ehlectric.runtime.spawning import Context
 
 
 def test_threads_that_start_processes_at_once_leave_the_script_in_its_place():

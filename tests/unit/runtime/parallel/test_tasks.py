@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from ehlectric.errors import InputError, LostError
-from ehlectric.runtime.parallel.tasks import run_all
-from ehlectric.runtime.parallel.workers import processes
+from ehlectric.runtime.tasks import run_all
+from ehlectric.runtime.worker_processes import processes
 from tests.helpers.processes import alive, wait_until
 
 

@@ -1,0 +1,1050 @@
+"""Answers that the pages show, as plain data, which the server reads without the physics."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.page_warnings import Told
+from ehlectric.cases.defaults import Contacts
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Figure of an answer.
+
+    Attributes
+    ----------
+    name : str
+        Name for a file and for tests, such as "film-map".
+    title : str
+        Heading above the figure.
+    label : str
+        Text for a screen reader: what the figure shows, with its main numbers.
+    plot : mapping
+        Figure of Plotly: data, layout and config, of built-in types.
+    caption : str
+        What a reader must know of the figure, such as what was left out.
+    """
+
+    name: str
+    title: str
+    label: str
+    plot: Mapping[str, Any]
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """Line of the table that the command prints; a line without text is a heading.
+
+    Attributes
+    ----------
+    name, text : str
+        Name of the quantity; value, unit and note.
+    alarm : bool
+        Whether the line says that the numbers must not be used.
+    """
+
+    name: str
+    text: str = ""
+    alarm: bool = False
+
+
+# Largest uploaded files: of a case, and of a surface that a case names [bytes].
+MOST_CASE, MOST_SURFACE = 200_000, 20_000_000
+
+# Files that are opened at once.
+MOST_FILES = 12
+
+# Kinds of downloads from a folder of results.
+Download = Literal["csv", "netcdf", "summary", "figures", "all"]
+
+
+@dataclass(frozen=True)
+class Uploaded:
+    """Uploaded case or sweep.
+
+    Attributes
+    ----------
+    name : str
+        Name of its file.
+    kind : str
+        "contact", "motion", "bearing" or "sweep".
+    table : mapping
+        Its tables; names of files are relative to the folder of the session.
+    missing : tuple of str
+        Names of files that the case names and that are still to be uploaded. The tables are checked once
+        none is missing.
+    """
+
+    name: str
+    kind: str
+    table: Mapping[str, Any]
+    missing: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Written:
+    """Files of a result as the command writes them.
+
+    Attributes
+    ----------
+    folder : str
+        Folder of the files.
+    names : tuple of str
+        Their names.
+    failure : str
+        What was not solved; empty where all was.
+    warnings : tuple of Told
+        Warnings of the result and of its figures.
+    """
+
+    folder: str
+    names: tuple[str, ...]
+    failure: str = ""
+    warnings: tuple[Told, ...] = ()
+
+
+def file_title(title: object) -> str:
+    """Name of files from the title of a case: small letters, digits and hyphens.
+
+    Examples
+    --------
+    >>> file_title("Ball bearing, 6208 / VG 46"), file_title("../.."), file_title(None)
+    ('ball-bearing-6208-vg-46', 'case', 'case')
+    """
+    words = re.findall(r"[a-z0-9]+", str(title).lower()) if title else []
+    return "-".join(words)[:60].strip("-") or "case"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Entry of a list to choose from.
+
+    Attributes
+    ----------
+    name : str
+        Name for a key such as ``bearing.base``.
+    label : str
+        What the list shows.
+    group : str
+        Kind, under which the list shows it.
+    """
+
+    name: str
+    label: str
+    group: str = ""
+
+
+@dataclass(frozen=True)
+class MotionAnswer:
+    """Movie of a contact with moving roughness.
+
+    Attributes
+    ----------
+    title : str
+        Title of the case.
+    complete : bool
+        Whether all time steps are solved.
+    failure : str
+        Reason why the run ended early; empty for a complete run and for one that was stopped.
+    of : int
+        Number of recorded instants of the file; the movie has fewer where they are many.
+    movie : mapping
+        Figure as plotly.js takes it, with a frame for every instant of the movie.
+    history : mapping
+        Figure of the minimum film, the maximum field and the breakdown voltage over time. Its first shape is
+        the line of the present time.
+    times : tuple of float
+        Times of the instants, in the unit of the history.
+    texts : tuple of str
+        Sentence with time, minimum film, maximum field and breakdown voltage for every instant.
+    at_least_film, at_largest_field : int
+        Instants of the movie with the thinnest film and with the largest field.
+    rows : tuple of tuple of str
+        Rows of the key figures: name, value and unit; a heading has no value.
+    warnings : tuple of Told
+        Warnings of the run.
+    folder : str
+        Folder of its files.
+    """
+
+    title: str
+    complete: bool
+    failure: str
+    of: int
+    movie: Mapping[str, Any]
+    history: Mapping[str, Any]
+    times: tuple[float, ...]
+    texts: tuple[str, ...]
+    at_least_film: int
+    at_largest_field: int
+    rows: tuple[tuple[str, str], ...]
+    warnings: tuple[Told, ...]
+    folder: str
+
+
+@dataclass(frozen=True)
+class StepFigure:
+    """Figure of a surface after a processing step.
+
+    Attributes
+    ----------
+    name : str
+        Name of the step, such as "form: parabola".
+    figure : mapping
+        Figure as plotly.js takes it.
+    label : str
+        Sentence about the figure for a screen reader.
+    """
+
+    name: str
+    figure: Mapping[str, Any]
+    label: str
+
+
+@dataclass(frozen=True)
+class SummitsTable:
+    """Spectral moments and summits of a surface, as ``ehlectric surface`` prints them.
+
+    Attributes
+    ----------
+    title : str
+        What the numbers belong to.
+    heads : tuple of str
+        Heads of the columns, with units.
+    rows : tuple of tuple of str
+        Row for every sampling interval.
+    note : str
+        What a reader must know to use the numbers.
+    """
+
+    title: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    note: str
+
+
+@dataclass(frozen=True)
+class SurfaceAnswer:
+    """Rough surface and its processing steps.
+
+    Attributes
+    ----------
+    kind : str
+        "profile", "map" or "shape".
+    described : mapping
+        Numbers of the surface in SI units, as ``ehlectric surface --json`` gives them.
+    size : str
+        Points, spacing and resolution of the surface.
+    heads : tuple of str
+        Heads of the table of statistics, with units.
+    rows : tuple of tuple of str
+        Row of this table for every processing step; empty for an exact shape.
+    figures : tuple of StepFigure
+        Figure after every processing step; a single one of an exact shape.
+    warnings : tuple of Told
+        Warnings about the file, the steps and the grid.
+    lines : mapping of str to int
+        Number of rows and of columns of a map from a file; empty for other surfaces.
+    summits : SummitsTable or None
+        Moments and summits after the last processing step; None for an exact shape.
+    """
+
+    kind: str
+    described: Mapping[str, Any]
+    size: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    figures: tuple[StepFigure, ...]
+    warnings: tuple[Told, ...]
+    lines: Mapping[str, int]
+    summits: SummitsTable | None = None
+
+
+# "no value": solved, but the summary has no such number, as the breakdown voltage where contacts open and
+# close. "do not use": solved with a severe warning.
+PointState = Literal["solved", "no value", "do not use", "not converged", "failed", "open"]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """Input of a case that may vary, with a range to begin with.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key of the case.
+    label : str
+        Name of the quantity.
+    low, high : str
+        Ends of a range, with units.
+    log : bool
+        Whether values are better spaced by logarithms.
+    """
+
+    key: str
+    label: str
+    low: str
+    high: str
+    log: bool = False
+
+
+@dataclass(frozen=True)
+class SweepChoices:
+    """Inputs of a case that a sweep can vary, and results of its points that a map can show.
+
+    Attributes
+    ----------
+    kind : str
+        "bearing", "drive" or "contact".
+    variables : tuple of Variable
+        Inputs that may vary, the common ones first.
+    values : mapping of str to str
+        Names of results by dotted key of the summary, the first to begin with.
+    """
+
+    kind: str
+    variables: tuple[Variable, ...]
+    values: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class SweepPlan:
+    """Size of a sweep before it runs.
+
+    Attributes
+    ----------
+    points : int
+        Number of points.
+    seconds : float or None
+        Estimated time [s]; None where films are solved, as that time is known only when some are.
+    workers : int
+        Processes that solve points.
+    refused, corners : int
+        Number of corners of the ranges that are no valid case, and number of all corners.
+    reason : str
+        Why the first of these is refused.
+    """
+
+    points: int
+    seconds: float | None
+    workers: int
+    refused: int = 0
+    corners: int = 0
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Axis of a map or a line.
+
+    Attributes
+    ----------
+    title : str
+        Name with its unit in brackets.
+    values : tuple of float
+        Values in the order of the design, in the shown unit.
+    log : bool
+        Whether the axis is logarithmic.
+    """
+
+    title: str
+    values: tuple[float, ...]
+    log: bool = False
+
+
+@dataclass(frozen=True)
+class ChartPoint:
+    """Point of a map or a line.
+
+    Attributes
+    ----------
+    number : int
+        Number of the point in the order of the design.
+    state : str
+        What is known of it.
+    texts : tuple of str
+        Lines that say what it is and what it has.
+    value : float or None
+        Shown number, in the unit of the chart; None where it must not be drawn or there is none.
+    margin : float or None
+        Breakdown voltage divided by applied voltage.
+    voltage : float or None
+        Applied voltage in the unit of the chart where a breakdown voltage is shown, 1 where a margin is.
+    """
+
+    number: int
+    state: PointState
+    texts: tuple[str, ...]
+    value: float | None = None
+    margin: float | None = None
+    voltage: float | None = None
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Content of a map or of a line.
+
+    Attributes
+    ----------
+    x : Axis
+        First varied input.
+    y : Axis or None
+        Second varied input, whose values vary fastest.
+    title : str
+        Name of the shown number with its unit.
+    critical : str
+        What a margin of 1 means; empty where no point has a margin.
+    voltage : str
+        Name of what the shown number is compared with: the applied voltage, or a margin of 1.
+    points : tuple of ChartPoint
+        Points in the order of the design.
+    """
+
+    x: Axis
+    y: Axis | None
+    title: str
+    critical: str
+    voltage: str
+    points: tuple[ChartPoint, ...]
+
+
+@dataclass(frozen=True)
+class SweepView:
+    """State of a sweep, finished or not.
+
+    Attributes
+    ----------
+    counts : mapping of str to int
+        Number of points by state.
+    chart : Chart
+        What the map shows.
+    figure : mapping
+        The map or the line, for Plotly.
+    columns : tuple of str
+        Heads of the table of points.
+    rows : tuple of tuple of str
+        Cells of each point.
+    values : mapping of str to str
+        Names of all numbers that some point has, by dotted key.
+    accuracy : str
+        Sentence about the error of films where contacts are not solved; empty where they are.
+    level, text : str
+        Verdict; empty where no point has a margin.
+    warnings : tuple of Told
+        Warnings of the points together.
+    """
+
+    counts: Mapping[str, int]
+    chart: Chart
+    figure: Mapping[str, Any]
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    values: Mapping[str, str]
+    accuracy: str = ""
+    level: str = ""
+    text: str = ""
+    warnings: tuple[Told, ...] = field(default=())
+
+
+@dataclass(frozen=True)
+class SweepPoint:
+    """Point of a sweep with the address of the page that shows its case.
+
+    Attributes
+    ----------
+    number : int
+        Number of the point.
+    path : str
+        "/" for a bearing, "/drive" for a drive, "/contact" for a contact.
+    query : str
+        Query of the address, which holds the inputs of the point with all digits.
+    """
+
+    number: int
+    path: str
+    query: str
+
+
+# Change of a result that is shown as none: the results have four digits [%].
+_NO_CHANGE = 0.005
+
+# Critical speeds are found along speeds that depend on that of the case: a smaller change means nothing [%].
+_SPEED_ACCURACY = 1.0
+
+# Factors of the prefixes of units.
+_PREFIXES = {"p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3, "M": 1e6, "G": 1e9}
+
+# Units that have a prefix in texts of results.
+_PREFIXED = ("s", "J", "V", "m", "F", "Hz")
+
+
+@dataclass(frozen=True)
+class Result:
+    """Result of one case.
+
+    Attributes
+    ----------
+    group : str
+        Heading under which it stands.
+    name : str
+        Name of the quantity.
+    value : float or None
+        Number in its SI unit; None for a result in words.
+    text : str
+        Value as shown, without its unit.
+    unit : str
+        Unit of the text.
+    note : str
+        Note that follows.
+    bound : str
+        "≤" where the number is an upper bound only, "≥" where it is a lower one.
+    main : bool
+        Whether it is one of the results that decide.
+    key : str
+        Dotted key of the quantity, by which results are compared; empty for a result that has none.
+    """
+
+    group: str
+    name: str
+    value: float | None
+    text: str
+    unit: str = ""
+    note: str = ""
+    bound: str = ""
+    main: bool = False
+    key: str = ""
+
+    @property
+    def number(self) -> tuple[float | None, str]:
+        """Number and its unit, also of a result that is a text such as "12.1 nJ"; None of other texts."""
+        if self.value is not None:
+            return self.value, ""
+        text, _, unit = self.text.partition(" ")
+        unit = unit or self.unit
+        base = next((one for one in _PREFIXED if unit.endswith(one) and unit[: -len(one)] in _PREFIXES), unit)
+        factor = _PREFIXES[unit.removesuffix(base)] if base else 1.0
+        try:
+            return factor * float(text), base
+        except ValueError:
+            return None, ""
+
+    @property
+    def shown(self) -> str:
+        """Bound, value and unit."""
+        return " ".join(filter(None, [self.bound, self.text, self.unit]))
+
+
+@dataclass(frozen=True)
+class Film:
+    """Minimum films of the contacts of one ring, over the position of the elements [deg, m]."""
+
+    ring: str
+    position: tuple[float, ...]
+    thickness: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Side:
+    """Answer about one of two cases.
+
+    Attributes
+    ----------
+    kind : str
+        "bearing" or "contact".
+    title : str
+        Title of the case.
+    level, text : str
+        Level of the verdict and its sentences, without solving.
+    results : tuple of Result
+        Results in their order.
+    warnings : tuple of Told
+        Warnings of the result.
+    films : tuple of Film
+        Films of a bearing.
+    method : str
+        How the results were obtained, and their error.
+    """
+
+    kind: str
+    title: str
+    level: str
+    text: str
+    results: tuple[Result, ...]
+    warnings: tuple[Told, ...] = ()
+    films: tuple[Film, ...] = ()
+    method: str = ""
+
+
+@dataclass(frozen=True)
+class InputRow:
+    """Input of both cases.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key.
+    first, second : str
+        Values as they are written; empty where a case does not give it.
+    sign : str
+        "=", "≠", "only A" or "only B".
+    """
+
+    key: str
+    first: str
+    second: str
+    sign: Literal["=", "≠", "only A", "only B"]
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Result of both cases.
+
+    Attributes
+    ----------
+    first, second : Result or None
+        The result of each case; None where a case has none.
+    change : float or None
+        Change from the first to the second [%]; None where one has no number, or the first is zero.
+    """
+
+    first: Result | None
+    second: Result | None
+    change: float | None
+
+    @property
+    def either(self) -> Result:
+        """The result of a case that has it."""
+        found = self.first or self.second
+        if found is None:
+            raise ValueError("an effect has a result")
+        return found
+
+    @property
+    def same(self) -> bool:
+        """Whether both cases show the same."""
+        first, second = self.first, self.second
+        return first is not None and second is not None and first.shown == second.shown
+
+    @property
+    def _accuracy(self) -> float:
+        """Change that is none, within the accuracy of the method and of the shown digits [%]."""
+        return _SPEED_ACCURACY if self.either.unit == "rpm" else _NO_CHANGE
+
+    @property
+    def words(self) -> str:
+        """Change as a text with its direction."""
+        if self.same:
+            return "no change"
+        if self.change is None:
+            return "differs" if self.first and self.second else "only A" if self.first else "only B"
+        if abs(self.change) < self._accuracy:
+            return "no change"
+        sign, digits = ("▲ +" if self.change > 0.0 else "▼ −"), abs(self.change)
+        number = f"{digits:.3g}" if digits < 1000.0 else f"{digits:.0f}"
+        return f"{sign}{number}\N{NO-BREAK SPACE}%"
+
+
+def input_rows(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[InputRow]:
+    """Inputs of two cases, those that differ first.
+
+    Examples
+    --------
+    >>> [row.sign for row in input_rows({"a": 1, "b": 2}, {"a": 1, "b": 3, "c": 4})]
+    ['≠', 'only B', '=']
+    """
+    one, two = Inputs(first).flat(), Inputs(second).flat()
+    rows = [_input_row(key, one, two) for key in {**one, **two}]
+    return sorted(rows, key=lambda row: row.sign == "=")
+
+
+def _input_row(key: str, one: Mapping[str, Any], two: Mapping[str, Any]) -> InputRow:
+    first, second = (str(table[key]) if key in table else "" for table in (one, two))
+    if key not in two:
+        return InputRow(key, first, second, "only A")
+    if key not in one:
+        return InputRow(key, first, second, "only B")
+    same = one[key] == two[key] and type(one[key]) is type(two[key])
+    return InputRow(key, first, second, "=" if same else "≠")
+
+
+def effects(first: Side, second: Side) -> list[Effect]:
+    """Effects on every result, in the order of the cases, under their headings."""
+    one, two = ({row.key or (row.group, row.name): row for row in side.results} for side in (first, second))
+    found = [_effect(one.get(key), two.get(key)) for key in {**one, **two}]
+    groups = list(dict.fromkeys(effect.either.group for effect in found))
+    return sorted(found, key=lambda effect: groups.index(effect.either.group))
+
+
+def _effect(first: Result | None, second: Result | None) -> Effect:
+    if first is None or second is None:
+        return Effect(first, second, None)
+    (one, unit), (two, other) = first.number, second.number
+    if one is None or two is None or one == 0.0 or unit != other:
+        return Effect(first, second, None)
+    change = 100.0 * (two - one) / abs(one)
+    return Effect(first, second, change if math.isfinite(change) else None)
+
+
+def only_in(first: Side, second: Side) -> Iterator[Told]:
+    """Warnings that the first case has, and the second has not in any words."""
+    codes = {told.code for told in second.warnings}
+    return (told for told in first.warnings if told.code not in codes)
+
+
+def in_both(first: Side, second: Side) -> Iterator[Told]:
+    """Warnings of the first case that the second has, too."""
+    codes = {told.code for told in second.warnings}
+    return (told for told in first.warnings if told.code in codes)
+
+
+@dataclass(frozen=True)
+class Number:
+    """Number that an answer shows large.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key of the quantity.
+    label : str
+        Label of the quantity.
+    text, unit : str
+        The number as it is shown, or why there is none, and its unit.
+    note : str
+        What a reader must know beside it.
+    bound : str
+        "≤" where the value is an upper bound only, "≥" where it is a lower one.
+    known : bool
+        Whether there is a value.
+    told : tuple of Told
+        Warnings that concern it.
+    """
+
+    key: str
+    label: str
+    text: str
+    unit: str = ""
+    note: str = ""
+    bound: str = ""
+    known: bool = True
+    told: tuple[Told, ...] = ()
+
+
+# Texts of an answer at once in place of what the whole one adds: a number, and the range of the margin
+# in the verdict and beside the margin.
+PENDING = "…"
+FOLLOWS = "Margin at once; its range follows."
+RANGE_FOLLOWS = "its range within the stated ranges follows"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """Verdict on a bearing, taken apart.
+
+    Attributes
+    ----------
+    level : str
+        "green", "yellow", "red", or "grey" without a verdict.
+    lead : str
+        Heading, such as "No breakdown expected in an ideal film", for a margin that is an upper bound.
+    meaning : str
+        What this means for the bearing, in plain words.
+    numbers : str
+        Numbers that decide.
+    reasons : tuple of str
+        Further sentences: speeds, what is uncertain, and what follows.
+    assumptions : str
+        Sentence about what is assumed, which names an upper bound; empty without one.
+    bound : str
+        "upper bound" where the verdict is on one; empty otherwise.
+    """
+
+    level: str
+    lead: str
+    meaning: str
+    numbers: str
+    reasons: tuple[str, ...]
+    assumptions: str
+    bound: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Table of texts.
+
+    Attributes
+    ----------
+    caption : str
+        What the table has.
+    heads : tuple of str
+        Heads of the columns, with units.
+    rows : tuple of tuple of str
+        Cells.
+    """
+
+    caption: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Figure of an answer.
+
+    Attributes
+    ----------
+    title : str
+        Heading of the figure.
+    label : str
+        What it shows, for those who do not see it.
+    plot : mapping
+        Data and layout of Plotly.
+    table : Table
+        Its main numbers.
+    caption : str
+        What a reader must know beside the figure.
+    """
+
+    title: str
+    label: str
+    plot: Mapping[str, Any]
+    table: Table
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Difference of a solved number from the quick one, as texts; ``way`` is "atlas" or "formula"."""
+
+    name: str
+    quick: str
+    solved: str
+    change: str
+    way: str
+
+
+@dataclass(frozen=True)
+class BearingAnswer:
+    """Answer about a bearing, in SI units.
+
+    Attributes
+    ----------
+    title : str
+        Title of the case.
+    contacts : str
+        "atlas", "formula" or "solved".
+    whole : bool
+        Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
+    converged : bool
+        Whether the films of all contacts converged.
+    level : str
+        Level of the verdict; "grey" without one.
+    text : str
+        The verdict in sentences.
+    judged : Judged
+        The verdict taken apart.
+    how : str
+        How the contacts were computed, and how far off they may be.
+    shown : tuple of Number
+        Numbers at the top.
+    numbers : mapping of str to float, str, bool or None
+        Numbers of the table ``bearing`` of summary.json.
+    margin : mapping or None
+        Table ``margin`` of summary.json; None unless ``whole``.
+    contact_rows : tuple of mapping
+        A row for each element and ring, as in ``contacts.csv``.
+    lines : tuple of Line
+        All rows that the command prints.
+    figures : mapping of str to Figure
+        "load" and "film"; with a whole answer "breakdown" and "capacitance" over the speed. Empty where the
+        films are not converged.
+    differences : tuple of Difference
+        Differences of a solved answer from the quick one.
+    effects : Table or None
+        Margins if one input changes; None unless ``whole``, and without a margin.
+    warnings : tuple of Told
+        Warnings, with the numbers that they concern.
+    seconds : float
+        Computing time [s].
+    """
+
+    title: str
+    contacts: Contacts
+    whole: bool
+    converged: bool
+    level: str
+    text: str
+    judged: Judged
+    how: str
+    shown: tuple[Number, ...]
+    numbers: Mapping[str, Any]
+    margin: Mapping[str, Any] | None
+    contact_rows: tuple[Mapping[str, Any], ...]
+    lines: tuple[Line, ...]
+    figures: Mapping[str, Figure]
+    warnings: tuple[Told, ...]
+    seconds: float
+    differences: tuple[Difference, ...] = field(default=())
+    effects: Table | None = None
+
+    def number(self, key: str) -> Number | None:
+        """Number of a key; None where the answer has none."""
+        return next((one for one in self.shown if one.key == key), None)
+
+
+@dataclass(frozen=True)
+class ContactCheck:
+    """Answer about a contact before its film is solved, as of ``ehlectric check``.
+
+    Attributes
+    ----------
+    title, geometry : str
+        Title of the case; "line" or "point".
+    level, text : str
+        Level of the verdict by formula, "grey" where there is none, and the verdict in sentences.
+    numbers : tuple of Number
+        Main numbers.
+    rows : tuple of Line
+        Table that the command prints.
+    warnings : tuple of Told
+        Warnings that concern no single one of the numbers.
+    summary : mapping
+        Numbers in SI units with the keys of the command.
+    quick : bool
+        Whether the contact is solved so fast that the page need not be asked to.
+    moving : bool
+        Whether the roughness moves, so that a run in time answers.
+    """
+
+    title: str
+    geometry: str
+    level: str
+    text: str
+    numbers: tuple[Number, ...]
+    rows: tuple[Line, ...]
+    warnings: tuple[Told, ...]
+    summary: Mapping[str, Any] = field(repr=False)
+    quick: bool = False
+    moving: bool = False
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Range of the points through which a point contact can be cut, and the first one.
+
+    Attributes
+    ----------
+    x, y : tuple of float
+        Ends of the range, in ``unit``.
+    at : tuple of float
+        First point, such as that of the minimum film, in ``unit``.
+    unit : str
+        Unit of the positions, as the figures have it.
+    turned : bool
+        Whether the maps have y along the page.
+    first : str
+        Words for what is at ``at``.
+    """
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    at: tuple[float, float]
+    unit: str
+    turned: bool = False
+    first: str = "the smallest film"
+
+
+@dataclass(frozen=True)
+class ContactView:
+    """Solved contact.
+
+    Attributes
+    ----------
+    title, geometry : str
+        Title of the case; "line" or "point".
+    converged : bool
+        Whether the film converged; if not, no number may be used.
+    level, text : str
+        Level of the verdict and the verdict in sentences.
+    numbers : tuple of Number
+        Main numbers; none where the film is not converged.
+    rows : tuple of Line
+        Table that the command prints.
+    warnings : tuple of Told
+        Warnings that concern no single one of the numbers.
+    figures : tuple of Shown
+        Figures of the whole contact.
+    cuts : tuple of Shown
+        Figures of the cuts through one point of a point contact.
+    reach : Reach or None
+        Range of these points; None for a line contact.
+    spots : tuple of Number
+        Numbers of the spots in which the surfaces touch; none where they do not touch.
+    """
+
+    title: str
+    geometry: str
+    converged: bool
+    level: str
+    text: str
+    numbers: tuple[Number, ...]
+    rows: tuple[Line, ...]
+    warnings: tuple[Told, ...]
+    figures: tuple[Shown, ...] = field(repr=False)
+    cuts: tuple[Shown, ...] = field(default=(), repr=False)
+    reach: Reach | None = None
+    spots: tuple[Number, ...] = ()
+
+
+@dataclass(frozen=True)
+class DriveAnswer:
+    """Answer about a drive.
+
+    Attributes
+    ----------
+    title : str
+        Title of the drive.
+    simulated : bool
+        Whether the drive was simulated; otherwise the answer is that of the capacitive divider.
+    judged : Judged
+        Verdict taken apart.
+    how : str
+        How the answer was computed, and what it leaves out.
+    shown : tuple of Number
+        Numbers at the top: before a simulation of its circuit and its films, after it of its discharges, too.
+    ends : Table
+        Numbers of both bearings side by side.
+    lines : tuple of Line
+        All rows that the command prints.
+    warnings : tuple of Told
+        Warnings, with the numbers of ``shown`` that they concern.
+    remedies : Table or None
+        The drive and its remedies side by side; None before a simulation, and without remedies.
+    figures : mapping of str to Figure
+        "voltages", "histogram", "spectrum", "discharge-voltage" and others, and "remedies"; empty before a
+        simulation.
+    seconds : float
+        Computing time of a simulation [s].
+    """
+
+    title: str
+    simulated: bool
+    judged: Judged
+    how: str
+    shown: tuple[Number, ...]
+    ends: Table
+    lines: tuple[Line, ...]
+    warnings: tuple[Told, ...]
+    remedies: Table | None = None
+    figures: Mapping[str, Figure] = field(default_factory=dict)
+    seconds: float = 0.0
+
+    def number(self, key: str) -> Number | None:
+        """Number of a key; None where the answer has none."""
+        return next((one for one in self.shown if one.key == key), None)

@@ -1,0 +1,96 @@
+"""Functions of worker processes that the pages call, by name, so that the server need not load them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any, Generic, TypeVar, cast
+
+from ehlectric.app.answers import (
+    BearingAnswer,
+    ContactCheck,
+    ContactView,
+    DriveAnswer,
+    MotionAnswer,
+    Shown,
+    Side,
+    SurfaceAnswer,
+    SweepChoices,
+    SweepPlan,
+    SweepPoint,
+    SweepView,
+    Uploaded,
+    Written,
+)
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Call(Generic[T]):
+    """Function of a worker process that returns a ``T``.
+
+    Attributes
+    ----------
+    name : str
+        Module in ``ehlectric.app.compute`` and function.
+
+    Examples
+    --------
+    >>> Call("answer_parts.field_help").function().__name__
+    'field_help'
+    """
+
+    name: str
+
+    def function(self) -> Callable[..., T]:
+        """The function; this loads what it needs."""
+        module, _, name = self.name.rpartition(".")
+        return cast("Callable[..., T]", getattr(import_module(f"ehlectric.app.compute.{module}"), name))
+
+    def __call__(self, *values: Any) -> T:
+        """Call the function."""
+        return self.function()(*values)
+
+
+FIELD_HELP: Call[dict[str, str]] = Call("answer_parts.field_help")
+
+# A bearing.
+BEARING_QUICK: Call[BearingAnswer] = Call("bearing_answers.quick_answer")
+BEARING_WHOLE: Call[BearingAnswer] = Call("bearing_answers.whole_quick_answer")
+BEARING_SOLVED: Call[BearingAnswer] = Call("bearing_answers.solve_contacts")
+
+# A drive.
+DRIVE_QUICK: Call[DriveAnswer] = Call("drive_answers.quick_answer")
+DRIVE_SIMULATED: Call[DriveAnswer] = Call("drive_answers.simulate")
+
+# A contact.
+CONTACT_CHECK: Call[ContactCheck] = Call("contact_answers.check_contact")
+CONTACT_SOLVED: Call[ContactView] = Call("contact_answers.solve_contact")
+CONTACT_AT_ONCE: Call[ContactView] = Call("contact_answers.solve_at_once")
+CONTACT_CUTS: Call[tuple[Shown, ...]] = Call("contact_answers.cuts_of")
+
+# Roughness and motion of a contact.
+SURFACE: Call[SurfaceAnswer] = Call("surface_answers.look")
+MOTION_RUN: Call[MotionAnswer] = Call("motion_answers.run")
+MOTION_STORED: Call[MotionAnswer] = Call("motion_answers.stored")
+
+# Sweeps.
+SWEEP_CHOICES: Call[SweepChoices] = Call("sweep_answers.choices")
+SWEEP_PLANNED: Call[SweepPlan] = Call("sweep_answers.planned")
+SWEEP_SOLVED: Call[Mapping[str, int]] = Call("sweep_answers.solved")
+SWEEP_POINT: Call[SweepPoint] = Call("sweep_answers.point")
+SWEEP_FILES: Call[tuple[str, ...]] = Call("sweep_answers.files")
+SWEEP_SEEN: Call[SweepView | None] = Call("sweep_answers.seen")
+
+# Two cases side by side.
+COMPARE_SIDE: Call[Side] = Call("compare_answers.side")
+COMPARE_WHOLE_SIDE: Call[Side] = Call("compare_answers.whole_side")
+
+# Files that are uploaded and downloaded.
+FILES_UPLOADED: Call[Uploaded] = Call("page_files.uploaded")
+FILES_WRITTEN: Call[Written] = Call("page_files.write")
+FILES_DRAWN: Call[str] = Call("page_files.drawn")
+FILES_PACKED: Call[str] = Call("page_files.packed")
+FILES_CONVERTED: Call[str] = Call("page_files.converted")

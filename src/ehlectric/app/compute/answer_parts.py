@@ -1,0 +1,244 @@
+"""Cases of the tables of a page, which name only uploaded files; lines, numbers and warnings as pages tell
+them.
+
+Cases of the tables of a page, which name no file but those that were uploaded in the same session.
+An address or an uploaded file may come from anybody. The readers of cases open the files that a case names,
+so every function of this package makes its case here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.answers import Line, Number
+from ehlectric.app.page_warnings import SEVERITIES, Told
+from ehlectric.app.session import own_file
+from ehlectric.cases.drive_case import AnyCase, DriveCase, case_of_dict
+from ehlectric.cases.input_keys import describe
+from ehlectric.errors import CODES, InputError, ResultWarning, shown
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.rows import Row
+from ehlectric.runs.file_kinds import FileKind, kind_of_tables
+from ehlectric.sweep.sweep_inputs import Sweep
+
+
+def cards(rows: Iterable[Row], keys: Sequence[str]) -> list[Number]:
+    """Numbers of some keys, in the order of the keys; those that no row has are left out.
+
+    A key of the form "film_formulas.*.minimum_thickness" takes the first row of this form.
+    """
+    known = {row.key: row for row in reversed([*rows]) if row.key}
+    found = []
+    for key in keys:
+        head, star, tail = key.partition("*")
+        own = [one for one in reversed(known) if star and one.startswith(head) and one.endswith(tail)]
+        if key in known or own:
+            found.append(card(known[own[0] if own else key]))
+    return found
+
+
+def card(row: Row) -> Number:
+    """Number of a row, with its label as a heading.
+
+    Examples
+    --------
+    >>> found = card(Row("margin", 1.2, note=", of the film", key="discharge.margin"))
+    >>> found.label, found.text, found.note
+    ('Margin', '1.2', 'of the film')
+    """
+    label = f"{row.name[:1].upper()}{row.name[1:]}"
+    return Number(row.key, label, row.shown, row.unit, row.note.strip(" ,;:"), row.bound)
+
+
+def concerned(key: str) -> str:
+    """Key under which warnings name a quantity: that of a film or a voltage by formula is the solved one.
+
+    Examples
+    --------
+    >>> concerned("film_formulas.moes.central_thickness"), concerned("field.capacitance_per_length")
+    ('film.central_thickness', 'field.capacitance')
+    """
+    table, _, name = key.partition(".")
+    solved = {"film_formulas": "film", "breakdown_by_formula": "discharge"}.get(table, table)
+    return f"{solved}.{name.rpartition('.')[2]}".removesuffix("_per_length")
+
+
+def with_warnings(
+    numbers: Iterable[Number], told: Sequence[Told]
+) -> tuple[tuple[Number, ...], tuple[Told, ...]]:
+    """Numbers with the warnings that concern them, and the warnings that concern none of them."""
+    placed = tuple(
+        replace(one, told=tuple(each for each in told if concerned(one.key) in each.beside))
+        for one in numbers
+    )
+    keys = {concerned(one.key) for one in placed}
+    return placed, tuple(each for each in told if not keys & set(each.beside))
+
+
+# Keys that name a file wherever they stand, as ``roughness.file`` and the varied ``roughness.1.file``, and
+# the key of a sweep that may name the file of its case.
+_FILE, _CASE = "file", "case"
+
+# Keys that may name the file of a case, of which a page has the tables.
+_CASES = (_CASE, *(f"{case}{end}.{_FILE}" for case in ("", "case.") for end in ENDS))
+
+Change = Callable[[str, str], str]
+
+
+def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
+    """Case of a bearing or of a contact from the tables of a page; ``drive_of`` takes those of a drive.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables, as a person writes them into a file.
+    folder : Path, optional
+        Folder of the session, in which the files that the case names must lie; without it, the case may
+        name none.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or name another file.
+    """
+    if kind_of(table) == "drive":
+        raise InputError("file", "is a drive file", takes="the case of a contact or a bearing")
+    return case_of_dict(with_own_files(table, folder), written=True)
+
+
+def drive_of(table: Mapping[str, Any], folder: Path | None = None) -> DriveCase:
+    """Drive from the tables of a page; see ``case_of``. Its waveform must be in the folder.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid drive, or name another file.
+    """
+    return DriveCase.from_written(with_own_files(table, folder))
+
+
+def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase | DriveCase:
+    """Case of any kind but a sweep from the tables of a page; see ``case_of``."""
+    return drive_of(table, folder) if kind_of(table) == "drive" else case_of(table, folder)
+
+
+def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
+    """Sweep from the tables of a page; see ``case_of``.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid sweep, or name another file.
+    """
+    return Sweep.from_written(with_own_files(table, folder))
+
+
+def kind_of(table: Mapping[str, Any]) -> FileKind:
+    """Kind of the tables of a page: "contact", "motion", "bearing", "drive" or "sweep"."""
+    return kind_of_tables(table) or "contact"
+
+
+def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
+    """Tables in which the names of files are paths in the folder of a session.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a case or a sweep; names of files in it are relative to the folder.
+    folder : Path or None
+        Folder of the session; None where it has no files.
+
+    Raises
+    ------
+    InputError
+        If a file is not there, or lies elsewhere.
+    """
+
+    def located(key: str, name: str) -> str:
+        path = None if folder is None or key in _CASES else own_file(name, folder)
+        if path is None:
+            takes = "its tables" if key in _CASES else "a file that was uploaded in this tab"
+            raise InputError(key, got=shown(name), takes=takes)
+        return str(path)
+
+    return with_names(table, located)
+
+
+def with_names(table: Mapping[str, Any], change: Change) -> dict[str, Any]:
+    """Copy of tables in which every name of a file is changed; ``change`` gets its key and the name."""
+    found: dict[str, Any] = _changed("", table, change)
+    return found
+
+
+def names_in(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Keys of tables that name a file, each with the name."""
+    found: list[tuple[str, str]] = []
+
+    def collect(key: str, name: str) -> str:
+        found.append((key, name))
+        return name
+
+    with_names(table, collect)
+    yield from found
+
+
+def _changed(key: str, value: Any, change: Change) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _changed(f"{key}.{name}".lstrip("."), item, change) for name, item in value.items()}
+    names = key.rpartition(".")[2] == _FILE
+    if isinstance(value, list | tuple):
+        # Items of a list of names have the key of the list; tables of a list have numbers.
+        inner = (key if names else f"{key}.{number}" for number in range(1, len(value) + 1))
+        return [_changed(name, item, change) for name, item in zip(inner, value, strict=True)]
+    return change(key, value) if isinstance(value, str) and (names or key == _CASE) else value
+
+
+def lines_of(rows: Iterable[Row]) -> tuple[Line, ...]:
+    """Lines of rows.
+
+    Examples
+    --------
+    >>> lines_of([Row("film"), Row("minimum film", 2e-7, "µm")])[1].text
+    '0.2 µm'
+    """
+    return tuple(Line(row.name, row.text, row.alarm) for row in rows)
+
+
+_LIKELY = "The margin is below 1: breakdown is likely."
+
+
+def told_of(warnings: Iterable[ResultWarning], level: str = "") -> tuple[Told, ...]:
+    """Warnings of a result with the keys of the quantities that they concern, the severe ones first.
+
+    Beside a verdict of the level "yellow", a margin below 1 means that breakdown is likely, as the verdict
+    says.
+    """
+    meanings = {"breakdown-expected": _LIKELY} if level == "yellow" else {}
+    found = [
+        Told(
+            one.code,
+            one.severity,
+            one.text,
+            CODES[one.code].concerns,
+            meanings.get(one.code, CODES[one.code].meaning),
+        )
+        for one in dict.fromkeys(warnings)
+    ]
+    return tuple(sorted(found, key=lambda told: SEVERITIES.index(told.severity)))
+
+
+def field_help(keys: Iterable[str]) -> dict[str, str]:
+    """Descriptions of dotted keys, as the reference of the input files has them.
+
+    Keys without a description, such as ``title``, are left out.
+    """
+    found = {}
+    for key in keys:
+        try:
+            found[key] = describe(key)
+        except InputError:
+            continue
+    return found

@@ -1,0 +1,533 @@
+"""Answers about a bearing: at once from the atlas, whole a moment later, with solved contacts; its numbers
+and verdict.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ehlectric.app.answers import (
+    FOLLOWS,
+    PENDING,
+    RANGE_FOLLOWS,
+    BearingAnswer,
+    Difference,
+    Figure,
+    Judged,
+    Number,
+    Table,
+)
+from ehlectric.app.compute.answer_parts import card, cards, case_of, lines_of, told_of
+from ehlectric.app.figures.bearing_charts import (
+    SPEED_HEADS,
+    Around,
+    OverSpeed,
+    breakdown_figure,
+    capacitance_figure,
+    film_figure,
+    load_figure,
+    speed_rows,
+)
+from ehlectric.app.page_warnings import Told, beside, within
+from ehlectric.bearing.margin import MarginAnalysis, bearing_verdict
+from ehlectric.bearing.quick_contacts import heat_by_formula
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing.solution import BearingSolution, capacitance_is_bound, error_text
+from ehlectric.bearing.speed_curves import over_speed
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.defaults import HOW, Contacts, quick_way
+from ehlectric.discharge.film_verdict import Verdict, ratio_text
+from ehlectric.errors import InputError
+from ehlectric.quantities.bearing_results import BEARING_BOOK
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.rows import Row, row_of, value_at
+from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
+from ehlectric.report.light import light_of
+from ehlectric.runs.by_kind import run_bearing
+from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.worker_processes import cores
+from ehlectric.tables.bearing_tables import contact_cells, contact_heads, input_range, total_rows
+
+EFFECT_HEADS = ("one input changed", "lowest margin", "with", "highest margin", "with")
+
+_CAPTION = "Margin if one input changes and all others stay, largest effect first; below 1 breakdown is {}"
+
+
+def effects_table(summary: Mapping[str, Any], level: str) -> Table | None:
+    """Table of the inputs that change the margin, with the value of each that belongs to either end.
+
+    Parameters
+    ----------
+    summary : mapping
+        Summary of a bearing, SI units; without its table ``margin`` there are no effects.
+    level : str
+        Level of the verdict, which is no surer at other inputs.
+
+    Returns
+    -------
+    Table or None
+        None without any effect.
+    """
+    effects = (summary.get("margin") or {}).get("effects")
+    if not effects:
+        return None
+    caption = _CAPTION.format("likely" if level == "yellow" else "expected")
+    return Table(caption, EFFECT_HEADS, tuple(tuple(_cells(effect)) for effect in effects))
+
+
+def _cells(effect: Mapping[str, Any]) -> Iterator[str]:
+    bound = BEARING_BOOK["margin.effects"].bound
+    # Both values with the unit that the range has.
+    low, _, rest = input_range(effect).partition(" to ")
+    high, _, unit = rest.partition(" ")
+    ends = [
+        (effect[f"{name}_margin"], f"{value} {unit}".rstrip())
+        for name, value in (("low", low), ("high", high))
+    ]
+    yield effect["label"]
+    for margin, value in sorted(ends, key=lambda end: end[0]):
+        yield f"{bound} {ratio_text(margin)}" if margin > 0.0 else "surfaces touch"
+        yield value
+
+
+# Warnings of voltages that are bounds, which stand beside no number that is missing.
+_BOUNDS = ("isothermal-film", "smooth-film")
+
+
+def shown_numbers(summary: Mapping[str, Any], told: tuple[Told, ...], *, whole: bool) -> tuple[Number, ...]:
+    """Numbers at the top of the page, with their warnings, and why some are missing.
+
+    Without a ``whole`` answer the summary lacks the table ``margin``, which follows.
+    """
+    rows = {row.key: row for row in total_rows(summary)}
+    missing = _missing(summary, told, rows, whole=whole)
+    known = {one.key: one for one in cards(rows.values(), [*BEARING_CARDS])} | missing
+    found = []
+    for key, further in BEARING_CARDS.items():
+        if key not in known:
+            continue
+        follows = RANGE_FOLLOWS if key == "bearing.margin" and not whole and _ranges(summary) else ""
+        beneath = (f"{rows[name].name} {rows[name].amount}" for name in further if name in rows)
+        note = "; ".join(filter(None, [follows, known[key].note, *beneath]))
+        near = tuple(one for one in beside(told, key) if known[key].known or one.code not in _BOUNDS)
+        found.append(replace(known[key], note=note, told=near))
+    return tuple(found) if summary["converged"] else tuple(map(_unusable, found))
+
+
+def _ranges(summary: Mapping[str, Any]) -> bool:
+    return bool(summary["inputs"].get("ranges"))
+
+
+def _unusable(number: Number) -> Number:
+    """Number of films that are not converged, with words that say so."""
+    if not number.known:
+        return number
+    return replace(number, bound="", note="not converged: do not use this value", known=False)
+
+
+def _missing(
+    summary: Mapping[str, Any], told: tuple[Told, ...], rows: Mapping[str, Row], *, whole: bool
+) -> dict[str, Number]:
+    """Numbers that have no value, with the reasons, by key."""
+    totals, speed = summary["bearing"], "margin.critical_speed"
+    broken, shaft = _no_voltage(summary), _no_shaft(summary, told)
+    reasons = {
+        "bearing.first_break": broken,
+        "bearing.shaft_voltage": shaft,
+        "bearing.margin": broken if totals["first_break"] is None else shaft,
+    }
+    found = {key: _none(key, "none", why) for key, why in reasons.items() if value_at(summary, key) is None}
+    if totals["margin"] is None:
+        found[speed] = _none(speed, "none", "there is no margin")
+    elif not whole:
+        found[speed] = _none(speed, PENDING, "being computed")
+    elif speed not in rows:
+        other = "margin.upper_critical_speed" in rows
+        found[speed] = _none(speed, "none", "" if other else "no other speed could be computed")
+    return found
+
+
+def _none(key: str, text: str, reason: str) -> Number:
+    """Number without a value, with the label of its quantity."""
+    return replace(card(row_of(key, BEARING_BOOK[key], text, reason)), known=False)
+
+
+def _no_voltage(summary: Mapping[str, Any]) -> str:
+    """Reason why there is no breakdown voltage."""
+    if not summary["converged"]:
+        return "not converged"
+    state, discharge = summary["bearing"]["lubrication"], summary["inputs"].get("discharge", {})
+    if state == "conducting":
+        return "λ is below 1: contacts open and close, and discharge as they do; this is not safe"
+    laws = ("dielectric_strength", "weibull", "strength_table")
+    if not any(discharge.get(law) for law in laws):
+        return "no dielectric strength is given"
+    return "the ceramic elements insulate, and their own breakdown is not computed"
+
+
+def _no_shaft(summary: Mapping[str, Any], told: tuple[Told, ...]) -> str:
+    """Reason why there is no shaft voltage."""
+    if "motor" not in summary["inputs"]:
+        return "no motor is given"
+    if any(one.code == "capacitance-bound" for one in told):
+        return "the capacitance of the ceramic elements is an upper bound only"
+    return "the surfaces touch"
+
+
+def contacts_table(summary: Mapping[str, Any]) -> Table:
+    """Table of the contacts of all elements with both rings."""
+    return Table(
+        "Contacts of all elements, with the cage at its first position",
+        tuple(f"{name} {unit}".strip() for name, unit in contact_heads(summary, PAGE_COLUMNS)),
+        tuple(tuple(contact_cells(row, PAGE_COLUMNS)) for row in summary["contacts"]),
+    )
+
+
+def differences(quick: Mapping[str, Any], solved: Mapping[str, Any]) -> tuple[Difference, ...]:
+    """Differences of the numbers of a solved bearing from the quick ones, from their summaries."""
+    before, after = ({row.key: row for row in total_rows(one)} for one in (quick, solved))
+    found = ((before.get(key), after.get(key)) for key in DIFFERENCES)
+    return tuple(_difference(*pair, quick["bearing"]["contacts"]) for pair in found if any(pair))
+
+
+def _difference(quick: Row | None, solved: Row | None, way: Contacts) -> Difference:
+    either = quick or solved
+    assert either is not None
+    before, after = (None if one is None else one.value for one in (quick, solved))
+    if isinstance(before, float) and isinstance(after, float):
+        change = f"{100.0 * (after / before - 1.0):+.1f} %"
+    else:
+        change = f"only {HOW[way]}" if isinstance(before, float) else "only solved"
+    texts = ["none" if one is None else one.amount for one in (quick, solved)]
+    return Difference(either.name, texts[0], texts[1], change, way)
+
+
+# What the first words of a verdict mean for a bearing, in plain words: "expected" for red, "likely" and
+# "possible" for yellow.
+_MEANING: Mapping[str, str] = {
+    "No breakdown expected": "The ideal film holds; a real film may be thinner and break down earlier.",
+    "Breakdown possible": "The ideal film holds, but not beyond doubt. A real film may be thinner and break "
+    "down earlier.",
+    "Breakdown likely": "The ideal film breaks down, but by less than what is uncertain. Discharges are "
+    "likely, and can mark the raceways.",
+    "Breakdown expected": "Within what is assumed, discharges are expected, and can mark the raceways.",
+    "Discharges likely": "The surfaces touch, and current passes as they part: discharges are likely at any "
+    "voltage, and can mark the raceways.",
+}
+_NO_VERDICT = "This page cannot say whether the bearing sparks."
+
+# End of a sentence; numbers such as 1.44 have no space behind their point.
+_END = re.compile(r"(?<=[.!?]) (?=[A-Z])")
+
+_OPEN_RANGE = "The range of the margin could not be computed from the stated ranges of inputs."
+
+
+def judged(verdict: Verdict) -> Judged:
+    """Verdict taken apart.
+
+    Examples
+    --------
+    >>> parts = judged(Verdict("green", "No breakdown expected: margin 1.4. Upper bound: smooth film."))
+    >>> parts.lead, parts.bound
+    ('No breakdown expected in an ideal film', 'upper bound')
+    >>> parts.numbers, parts.assumptions
+    ('Margin 1.4.', 'Upper bound: smooth film.')
+    """
+    first, *others = _END.split(verdict.text)
+    lead, _, rest = first.partition(": ")
+    assumptions = [text for text in others if text.startswith("Upper bound")]
+    light = light_of(verdict.level, verdict.text)
+    return Judged(
+        level=verdict.level,
+        lead=light.words,
+        bound=light.bound,
+        meaning=_MEANING.get(lead, _NO_VERDICT),
+        numbers=rest[:1].upper() + rest[1:],
+        reasons=tuple(text for text in others if text not in assumptions),
+        assumptions=" ".join(assumptions),
+    )
+
+
+def quick_verdict(solution: BearingSolution) -> Verdict:
+    """Verdict without the analysis of the margin, which says that the range of the margin follows.
+
+    It is not green then: the verdict without an analysis counts an unknown range as a doubt.
+    """
+    verdict = bearing_verdict(solution, MarginAnalysis())
+    if verdict.margin is None or not solution.case.ranges:
+        return verdict
+    text = verdict.text.replace(_OPEN_RANGE, FOLLOWS)
+    if FOLLOWS not in text:
+        text = f"{text} {FOLLOWS}"
+    return Verdict(verdict.level, text, verdict.margin)
+
+
+# Sentences about the direction of the load.
+_PULLS_DOWN = "The radial load on the inner ring points down."
+_PULLS_ALONG = "The load is purely axial: it points out of this figure."
+
+
+def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | None = None) -> BearingCase:
+    """Case of tables as a person writes them.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a bearing file.
+    contacts : str
+        "atlas", "formula" or "solved" in place of that of the tables.
+    session : Path, optional
+        Folder of the session, in which files that the case names lie; without it, the case may name none.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case of a bearing.
+    """
+    case = case_of(table, session)
+    if not isinstance(case, BearingCase):
+        raise InputError.missing("bearing", "a table with the inputs of a bearing")
+    return case.replace({"contacts": contacts}) if contacts else case
+
+
+def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing without solving its contacts, and without what depends on other inputs.
+
+    Contacts are by formula where the tables say so, and otherwise from the atlas of films.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a bearing file.
+    session : Path, optional
+        Folder of the session.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or neither the atlas nor a formula describes its films.
+    """
+    return answer_of(_quick(table, session), whole=False)
+
+
+def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) -> BearingAnswer:
+    """Answer about a bearing as ``quick_answer`` has it, with critical speeds and effects of the inputs."""
+    return answer_of(_quick(table, session), whole=True)
+
+
+def solve_contacts(
+    table: Mapping[str, Any], session: Path, folder: Path, progress: Progress
+) -> BearingAnswer:
+    """Whole answer about a bearing with solved contacts, by the same run as that of the command.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a bearing file.
+    session : Path
+        Folder of the session.
+    folder : Path
+        Folder of the result's files.
+    progress : callable
+        Called with the number of solved contacts, the number of all contacts, and a text.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or the bearing cannot be solved.
+    LostError
+        Where the process of a contact was killed four times.
+    """
+
+    def told(done: int, of: int, _: str) -> None:
+        progress(done, of, "contacts")
+
+    # A core is left for the pages.
+    workers = max(1, cores() - 1)
+    case = bearing_case(table, session=session)
+    outcome = run_bearing(case, folder, told, contacts="solved", workers=workers)
+    progress(0, 0, "speeds and ranges")
+    return answer_of(outcome.result, whole=True, changes=_changes(case, outcome.summary))
+
+
+def _changes(case: BearingCase, solved: Mapping[str, Any]) -> tuple[Difference, ...]:
+    """Differences from the quick numbers; none where neither the atlas nor a formula describes the films."""
+    if not solved["converged"]:
+        return ()
+    try:
+        quick = summary_of(solved_quickly(case).solution)
+    except InputError:
+        return ()
+    return differences(quick, solved)
+
+
+def _quick(table: Mapping[str, Any], session: Path | None) -> BearingResult:
+    return solved_quickly(bearing_case(table, session=session))
+
+
+def solved_quickly(case: BearingCase) -> BearingResult:
+    """Bearing with contacts by formula where its case says so, and otherwise from the atlas of films.
+
+    Heat that would be solved, in many seconds, is that of a formula.
+    """
+    changes = {"contacts": quick_way(case.contacts)}
+    return solve_bearing(heat_by_formula(case).replace(changes), workers=1)
+
+
+def answer_of(result: BearingResult, *, whole: bool, changes: tuple[Difference, ...] = ()) -> BearingAnswer:
+    """Answer of a solved bearing; ``whole`` with the analysis of its margin, which takes a second or two."""
+    summary = result.summary() if whole else summary_of(result.solution)
+    verdict = result.verdict if whole else quick_verdict(result.solution)
+    warnings = result.warnings
+    figures = _figures(result, summary) if result.converged else {}
+    if whole and result.converged:
+        points, left_out = over_speed(result.case)
+        warnings += tuple(left_out)
+        own = (result.case.bearing.inner_speed, summary)
+        bound = capacitance_is_bound(result.solution)
+        over = OverSpeed.of(points, own, level=verdict.level)
+        figures |= _speed_figures(over, bound=bound) if len(points) > 1 else {}
+    told = within(told_of(warnings, verdict.level), BEARING_CARDS)
+    return BearingAnswer(
+        title=result.case.title,
+        contacts=result.case.contacts,
+        whole=whole,
+        converged=result.converged,
+        level=verdict.level,
+        text=verdict.text,
+        judged=judged(verdict),
+        how=_how(result),
+        shown=shown_numbers(summary, told, whole=whole),
+        numbers=summary["bearing"],
+        margin=summary.get("margin"),
+        contact_rows=tuple(summary["contacts"]),
+        lines=lines_of(total_rows(summary)),
+        figures=figures,
+        warnings=told,
+        seconds=summary["seconds"],
+        differences=changes,
+        effects=effects_table(summary, verdict.level),
+    )
+
+
+def _how(result: BearingResult) -> str:
+    """Sentence about the contacts: how they were computed, and how far off they may be."""
+    if result.case.contacts == "solved":
+        return "Contacts solved: film, pressure and field of each contact are computed."
+    how, off = HOW[result.case.contacts], error_text(result.solution)
+    return f"Contacts {how}: films may be {off} off. Solving computes film and field."
+
+
+def _figures(result: BearingResult, summary: Mapping[str, Any]) -> dict[str, Figure]:
+    """Figures around the shaft."""
+    rows, around = summary["contacts"], _around(result)
+    rq, radial = result.case.bearing.composite_rq, result.case.bearing.radial_load > 0.0
+    table = contacts_table(summary)
+    loaded = [row for row in rows if row["solved"]]
+    most = max(loaded, key=lambda row: row["load"])
+    least = min(loaded, key=lambda row: row["minimum_thickness"])
+    load = f"the largest is {most['load']:.4g} N, {most['ring']} contact of element {most['element']}"
+    film = (
+        f"the smallest is {1e6 * least['minimum_thickness']:.4g} µm (λ {least['lambda_ratio']:.3g}), "
+        f"{least['ring']} contact of element {least['element']}"
+    )
+    return {
+        "load": Figure(
+            "Load of the contacts [N]",
+            f"Load of all contacts around the shaft: {load}",
+            load_figure(rows, around, radial=radial),
+            table,
+            _PULLS_DOWN if radial else _PULLS_ALONG,
+        ),
+        "film": Figure(
+            "Minimum film thickness [µm]",
+            f"Minimum film of the loaded contacts around the shaft: {film}",
+            film_figure(rows, around, rq, radial=radial),
+            table,
+            _gaps(around),
+        ),
+    }
+
+
+def _gaps(around: Mapping[str, Around]) -> str:
+    """Sentence about contacts without load, which have a gap in place of a film."""
+    found = []
+    for name, ring in around.items():
+        gaps = [film for film, on in zip(ring.film, ring.loaded, strict=True) if not on]
+        if gaps:
+            found.append(f"{name} ring up to {amount(max(gaps), 'm')}")
+    if not found:
+        return "All elements are loaded by both rings."
+    return f"Elements without load have a gap in place of a film, not drawn: {', '.join(found)}."
+
+
+def _around(result: BearingResult) -> dict[str, Around]:
+    """Contacts of all elements at all positions of the cage, by the name of the ring."""
+    positions = result.solution.positions
+    angle = np.mod(np.concatenate([one.equilibrium.position for one in positions]), 2.0 * np.pi)
+    order = np.argsort(angle, kind="stable")
+    found = {}
+    for name in ("inner", "outer"):
+        rings = [getattr(position, name) for position in positions]
+        load, film, loaded = (
+            np.concatenate(columns)[order].tolist()
+            for columns in (
+                [ring.load for ring in rings],
+                [ring.values.minimum_thickness for ring in rings],
+                [ring.solved for ring in rings],
+            )
+        )
+        found[name] = Around(angle[order].tolist(), load, film, loaded)
+    return found
+
+
+def _speed_figures(over: OverSpeed, *, bound: bool) -> dict[str, Figure]:
+    """Figures over the speed; voltages only where there is a breakdown or a shaft voltage at any speed."""
+    how = ", scaled to the solved contacts" if _is_solved(over) else ""
+    caption = f"Bearing over its speed, {over.contacts}{how}"
+    table = Table(caption, SPEED_HEADS, tuple(speed_rows(over)))
+    drawn = {
+        name: key
+        for name, key in (("first breakdown", "first_break"), ("shaft voltage", "shaft_voltage"))
+        if np.any(np.isfinite(over.curves[key]))
+    }
+    found = {}
+    if drawn:
+        breaks = "first breakdown" in drawn
+        names = " and ".join(name.replace("breakdown", "breakdown voltage") for name in drawn)
+        found["breakdown"] = Figure(
+            "Breakdown voltage over speed" if breaks else "Shaft voltage over speed",
+            f"{names[0].upper()}{names[1:]} over the speed of the inner ring",
+            breakdown_figure(over),
+            table,
+            ("Breakdown voltages are upper bounds, with" if breaks else "With")
+            + f" {over.contacts}{_scaled(over, drawn)}.",
+        )
+    found["capacitance"] = Figure(
+        "Capacitance over speed",
+        "Capacitance over the speed of the inner ring, with its range from air to oil around the films",
+        capacitance_figure(over),
+        table,
+        f"{'An upper bound, with' if bound else 'With'} {over.contacts}"
+        f"{_scaled(over, {'capacitance': 'capacitance'})}.",
+    )
+    return found
+
+
+def _is_solved(over: OverSpeed) -> bool:
+    return bool(over.own[1]["bearing"]["contacts"] == "solved")
+
+
+def _scaled(over: OverSpeed, keys: Mapping[str, str]) -> str:
+    """End of a sentence: the factors by which quick curves are scaled to solved contacts, by name."""
+    if not _is_solved(over):
+        return ""
+    factors = [f"{over.curves.scaled[key]:.3g} ({name})" for name, key in keys.items()]
+    return f", scaled by {' and '.join(factors)} to the solved contacts (star)"

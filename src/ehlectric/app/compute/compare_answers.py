@@ -1,0 +1,117 @@
+"""Answers about cases that are compared: their results without solving, as the command `check` has them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.answers import Film, Result, Side
+from ehlectric.app.compute.answer_parts import case_of, told_of
+from ehlectric.app.compute.bearing_answers import quick_verdict, solved_quickly
+from ehlectric.app.compute.contact_answers import verdict_by_formula
+from ehlectric.bearing.solution import error_text
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.defaults import OF_CONTACTS
+from ehlectric.quantities.rows import Row
+from ehlectric.quantities.sheets import COMPARED, NOT_COMPARED
+from ehlectric.runs.meaning import check
+from ehlectric.tables.bearing_tables import check_rows
+
+
+def side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
+    """Answer about one case, without what depends on further solutions.
+
+    Parameters
+    ----------
+    table : mapping
+        Inputs of the case.
+    folder : Path, optional
+        Folder of the session.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case, or neither the atlas nor a formula describes its films.
+    """
+    case = case_of(table, folder)
+    return _bearing(case, whole=False) if isinstance(case, BearingCase) else _contact(case)
+
+
+def whole_side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
+    """Answer about one case, with the critical speed and the effects of the inputs of a bearing."""
+    case = case_of(table, folder)
+    return _bearing(case, whole=True) if isinstance(case, BearingCase) else _contact(case)
+
+
+def _bearing(case: BearingCase, *, whole: bool) -> Side:
+    result = solved_quickly(case)
+    verdict = result.verdict if whole else quick_verdict(result.solution)
+    summary = result.summary() if whole else summary_of(result.solution)
+    return Side(
+        kind="bearing",
+        title=case.title,
+        level=verdict.level,
+        text=verdict.text,
+        results=tuple(_results(check_rows(summary))),
+        warnings=told_of(result.warnings, verdict.level),
+        films=tuple(_over_position(summary)),
+        method=f"{OF_CONTACTS[result.case.contacts]}: films may be {error_text(result.solution)} off",
+    )
+
+
+def _contact(case: Case) -> Side:
+    meaning = check(case)
+    level, text = verdict_by_formula(case, meaning.summary.get("breakdown_by_formula"), meaning.warnings)
+    return Side(
+        kind="contact",
+        title=case.title,
+        level=level,
+        text=text,
+        results=tuple(_results(_outcomes_first(meaning.rows))),
+        warnings=told_of(meaning.warnings),
+        method="films by formula: usually up to 40 % off a solved film",
+    )
+
+
+def _outcomes_first(rows: Iterable[Row]) -> list[Row]:
+    """Rows of a contact, with those of the breakdown under a heading of their own before the inputs."""
+    rows = list(rows)
+    broken = [row for row in rows if row.key.startswith("breakdown_by_formula.")]
+    others = [row for row in rows if row not in broken]
+    return [Row("breakdown"), *broken, *others] if broken else others
+
+
+def _results(rows: Iterable[Row]) -> Iterator[Result]:
+    """Results of the rows of a table; headings become groups."""
+    group = ""
+    for row in rows:
+        if row.heading:
+            group = row.name
+        elif row.key not in NOT_COMPARED:
+            yield Result(
+                group=group,
+                name=row.name,
+                value=float(row.value) if isinstance(row.value, int | float) else None,
+                text=row.shown,
+                unit=row.unit,
+                note=row.note.lstrip(",;: "),
+                bound=row.bound,
+                main=any(fnmatchcase(row.key, key) for key in COMPARED),
+                key=row.key,
+            )
+
+
+def _over_position(summary: Mapping[str, Any]) -> Iterator[Film]:
+    """Minimum films of loaded contacts over the position of their elements."""
+    for ring in ("inner", "outer"):
+        rows = [row for row in summary["contacts"] if row["ring"] == ring and row["max_pressure"]]
+        yield Film(
+            ring,
+            tuple(math.degrees(row["position"]) for row in rows),
+            tuple(row["minimum_thickness"] for row in rows),
+        )

@@ -1,0 +1,296 @@
+"""Answers about drives: at once by the capacitive divider, and simulated over time; numbers, verdicts and
+sweeps.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ehlectric.app.answers import DriveAnswer, Judged, Number, Table
+from ehlectric.app.compute.answer_parts import card, drive_of, lines_of, told_of
+from ehlectric.app.page_warnings import Told, beside, within
+from ehlectric.bearing.solution import percent
+from ehlectric.cases.defaults import HOW
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.drive.drive_verdict import drive_verdict
+from ehlectric.drive.quick_drive import expected, quick_drive
+from ehlectric.drive.solver import SIMULATING, prepare
+from ehlectric.drive.summary import checked_summary
+from ehlectric.drive.warnings import bearing_warnings, machine_warnings
+from ehlectric.errors import InputError
+from ehlectric.quantities.drive_results import DRIVE_BOOK, NAMES_OF_ENDS
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.rows import Row, Sheet, Summary
+from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
+from ehlectric.report.light import light_of
+from ehlectric.runs.by_kind import run_drive
+from ehlectric.runtime.progress import Progress
+from ehlectric.runtime.worker_processes import cores
+from ehlectric.tables.drive_tables import (
+    Pair,
+    drive_rows,
+    end_cells,
+    prepared_rows,
+    side_by_side,
+    whole_rows,
+    worse_cells,
+)
+
+# Quantities that a card has in its note.
+_BESIDE: Mapping[str, tuple[str, ...]] = {
+    "source.peak": ("source.edges_per_second",),
+    "circuit.winding_rotor_capacitance": (
+        "circuit.rotor_frame_capacitance",
+        "circuit.winding_frame_capacitance",
+    ),
+    "end.events_per_second": ("end.events_per_second_range",),
+}
+
+# Why neither bearing has a value.
+_NONE = {"end.breakdown_voltage": "ceramic elements insulate"}
+
+
+def drive_numbers(summary: Summary, sheet: Sheet, told: tuple[Told, ...]) -> tuple[Number, ...]:
+    """Numbers of a drive that its page shows large, of those in a sheet, with warnings."""
+    whole = {row.key: row for row in whole_rows(summary, sheet)}
+    ends = _pairs(summary, sheet)
+    keys = [key for key in DRIVE_CARDS if any(key in section.keys for section in sheet)]
+    found = [_of_ends(key, ends) if key.startswith("end.") else _of_drive(key, whole) for key in keys]
+    if not summary.get("converged", True):
+        note = "not converged: do not use this value"
+        found = [replace(one, note=note, known=False) for one in found]
+    return tuple(replace(one, told=beside(told, one.key)) for one in found)
+
+
+def merged(told: Iterable[Told]) -> tuple[Told, ...]:
+    """Warnings of which those of one code, as of both bearings, are one with both texts."""
+    found: dict[str, Told] = {}
+    for one in told:
+        before = found.get(one.code)
+        found[one.code] = one if before is None else replace(before, text=f"{before.text}. {one.text}")
+    return tuple(found.values())
+
+
+def ends_table(summary: Summary, sheet: Sheet) -> Table:
+    """Numbers of both bearings side by side, as the command prints them."""
+    rows: list[tuple[str, ...]] = []
+    for heading, cells in end_cells(summary, sheet):
+        rows += [(heading, "", "", ""), *((f"\u2003{name}", *rest) for name, *rest in cells)]
+    return Table("As the command prints them", ("", *NAMES_OF_ENDS.values(), ""), tuple(rows))
+
+
+def remedies_table(summary: Mapping[str, Any]) -> Table | None:
+    """The drive and its remedies side by side; None without remedies."""
+    if not summary["remedies"]:
+        return None
+    (_, *heads), *rows = worse_cells(summary)
+    return Table("Worse bearing of each", ("", *heads), tuple(rows))
+
+
+def _pairs(summary: Summary, sheet: Sheet) -> dict[str, Pair]:
+    """Rows of both bearings by key."""
+    pairs = [pair for _, found in side_by_side(summary, sheet) for pair in found]
+    return {next(row.key for row in pair if row is not None): pair for pair in pairs}
+
+
+def _of_drive(key: str, rows: Mapping[str, Row]) -> Number:
+    row = rows[key]
+    others = [rows[other] for other in _BESIDE.get(key, ()) if other in rows]
+    notes = [row.note.strip(" ,"), *(f"{other.name}: {other.amount}" for other in others)]
+    return replace(card(row), note="; ".join(filter(None, notes)))
+
+
+def _of_ends(key: str, pairs: Mapping[str, Pair]) -> Number:
+    """Number of both bearings: that of the drive end, and the other one in its note where it differs."""
+    first, second = pairs.get(key, (None, None))
+    beside_it = [pairs[other] for other in _BESIDE.get(key, ()) if other in pairs]
+    one, other = (
+        "; ".join(_texts(row, [pair[k] for pair in beside_it])) for k, row in enumerate((first, second))
+    )
+    number = card(first) if first is not None else _unknown(key)
+    if first is None and second is None:
+        return number
+    if first is not None and second is not None and (first.text, one) == (second.text, other):
+        return replace(number, note="; ".join(filter(None, [one, "each of both bearings"])))
+    place, further = NAMES_OF_ENDS.values()
+    value = "none" if second is None else second.amount
+    own = ", ".join(filter(None, [place, one]))
+    return replace(number, note=f"{own}; {further}: {', '.join(filter(None, [value, other]))}")
+
+
+def _texts(row: Row | None, others: Iterable[Row | None]) -> Iterator[str]:
+    """Note of a row, and the quantities beside it."""
+    if row is not None and row.note:
+        yield row.note.strip(" ,")
+    yield from (f"{other.name}: {other.amount}" for other in others if other is not None)
+
+
+def _unknown(key: str) -> Number:
+    """Number that a bearing does not have."""
+    label = DRIVE_BOOK[key].label
+    return Number(key, f"{label[:1].upper()}{label[1:]}", "none", note=_NONE.get(key, ""), known=False)
+
+
+# What a verdict before a simulation means, and one after it.
+_BEFORE: Mapping[str, str] = {
+    "green": "The voltage by the divider stays below what breaks the films down.",
+    "yellow": "The voltage is near the breakdown voltage, within what is uncertain.",
+    "red": "The voltage is above the breakdown voltage: the films break down at edges of the source.",
+    "grey": "The divider alone cannot say whether this drive discharges.",
+}
+_AFTER: Mapping[str, str] = {
+    "green": "No film broke down, and none is expected to.",
+    "yellow": "Discharges can mark the raceways and age the oil; they are not sure here.",
+    "red": "Discharges can mark the raceways and age the oil. Compare remedies.",
+    "grey": "These numbers must not be used.",
+}
+_NOT_SIMULATED = "How often, and with which energy, the simulation says."
+
+# End of a sentence; numbers such as 1.44 have no space behind their point.
+_END = re.compile(r"(?<=[.!?]) (?=[A-Z])")
+
+# Beginnings of sentences on what is assumed.
+_ASSUMED = ("Upper bound", "Dielectric strength", "The table of dielectric", "The Weibull law of")
+
+
+def judged_before(verdict: Verdict) -> Judged:
+    """Verdict on a drive that is not simulated.
+
+    Examples
+    --------
+    >>> parts = judged_before(Verdict("red", "Discharges expected: 12.9 V, above 4.63 V. More follows."))
+    >>> parts.lead, parts.numbers, parts.reasons
+    ('Discharges expected', '12.9 V, above 4.63 V.', ('More follows.',))
+    """
+    first, *others = _END.split(verdict.text)
+    return _judged(verdict, _BEFORE, first, others, _NOT_SIMULATED)
+
+
+def judged_after(verdict: Verdict) -> Judged:
+    """Verdict on a simulated drive, which is that of its report."""
+    first, *others = _END.split(verdict.text)
+    assumed = [text for text in others if text.startswith(_ASSUMED)]
+    reasons = [text for text in others if text not in assumed]
+    return _judged(verdict, _AFTER, first, reasons, " ".join(assumed))
+
+
+def _judged(
+    verdict: Verdict, meaning: Mapping[str, str], first: str, reasons: list[str], assumptions: str
+) -> Judged:
+    lead, _, rest = first.partition(": ")
+    light = light_of(verdict.level, verdict.text)
+    return Judged(
+        level=verdict.level,
+        lead=lead.rstrip("."),
+        meaning=meaning[verdict.level],
+        numbers=rest[:1].upper() + rest[1:],
+        reasons=tuple(reasons),
+        assumptions=assumptions,
+        bound=light.bound,
+    )
+
+
+_SOLVING = "solving the contacts of both bearings, then simulating"
+
+
+def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> DriveAnswer:
+    """Answer about a drive without a simulation, with contacts from the atlas or by formula.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a drive file.
+    session : Path, optional
+        Folder of the session, in which the waveform of a measured source lies.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid drive, or its films have to be solved.
+    """
+    case = drive_of(table, session)
+    # A wrong remedy is told as it is by the command.
+    case.variants()
+    quick, key = quick_drive(case)
+    if quick is None:
+        raise InputError(key, got="films that have to be solved", takes="a simulation with solved contacts")
+    ready = prepare(quick, workers=1)
+    summary = checked_summary(ready)
+    found = (*ready.told, *bearing_warnings(ready.bearings), *machine_warnings(case, ready.elements))
+    told = merged(told_of(found))
+    shown = drive_numbers(summary, DRIVE_CHECK, told)
+    films = {(summary[end]["films"], percent(summary[end]["films_error"])) for end in ENDS}
+    how = "; ".join(f"Contacts {HOW[way]}: films may be {error} off" for way, error in sorted(films))
+    solved = "; the simulation solves them" if _is_solved(case) else ""
+    return DriveAnswer(
+        title=case.title,
+        simulated=False,
+        judged=judged_before(expected(case, summary)),
+        how=f"{how}{solved}. By the capacitive divider, without a simulation.",
+        shown=shown,
+        ends=ends_table(summary, DRIVE_CHECK),
+        lines=lines_of(prepared_rows(summary)),
+        warnings=within(told, {one.key for one in shown}),
+    )
+
+
+def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Progress) -> DriveAnswer:
+    """Answer about a drive and its remedies over time, by the same run as that of the command.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a drive file.
+    session : Path
+        Folder of the session.
+    folder : Path
+        Folder of the result's files.
+    progress : callable
+        Called with the simulated part in percent, 100, and a text.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid drive, or it cannot be simulated.
+    LostError
+        Where the process of a contact was killed four times.
+    """
+    from ehlectric.app.figures.drive_charts import drive_figures
+
+    case = drive_of(table, session)
+    progress(0, 0, _SOLVING if _is_solved(case) else SIMULATING)
+
+    def told_percent(done: int, of: int, text: str) -> None:
+        if text == SIMULATING:
+            progress(done, of, "percent simulated")
+        else:
+            progress(0, 0, text)
+
+    # A core is left for the pages.
+    outcome = run_drive(case, folder, told_percent, workers=max(1, cores() - 1))
+    summary = outcome.summary
+    told = merged(told_of(outcome.warnings))
+    shown = drive_numbers(summary, DRIVE, told)
+    progress(0, 0, "drawing")
+    return DriveAnswer(
+        title=case.title,
+        simulated=True,
+        judged=judged_after(drive_verdict(case, summary, outcome.warnings)),
+        how=f"Simulated in {summary['seconds']:.3g} s, as ehlectric drive does it.",
+        shown=shown,
+        ends=ends_table(summary, DRIVE),
+        lines=lines_of(drive_rows(summary)),
+        warnings=within(told, {one.key for one in shown}),
+        remedies=remedies_table(summary),
+        figures=drive_figures(outcome.result) if summary["converged"] else {},
+        seconds=summary["seconds"],
+    )
+
+
+def _is_solved(case: DriveCase) -> bool:
+    return any(one.contacts == "solved" for one in case.bearings)

@@ -1,1 +1,0 @@
-"""Answers about drives: at once by the capacitive divider, and simulated over time."""

@@ -1,0 +1,611 @@
+"""Sweeps of the pages: what may vary, their size, their run, and their state while points are being
+solved.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ehlectric.app.answers import (
+    Axis,
+    Chart,
+    ChartPoint,
+    PointState,
+    SweepChoices,
+    SweepPlan,
+    SweepPoint,
+    SweepView,
+    Variable,
+)
+from ehlectric.app.compute import answer_parts, swept_drives
+from ehlectric.app.compute.answer_parts import run_case_of, told_of
+from ehlectric.app.fields import BEARING_GROUPS
+from ehlectric.app.figures.sweep_charts import figure_of
+from ehlectric.app.page_inputs import Inputs, number_of_text
+from ehlectric.app.page_warnings import Told
+from ehlectric.bearing.quick_contacts import is_quick
+from ehlectric.bearing.solution import percent
+from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.changes import flattened, set_keys
+from ehlectric.cases.defaults import HOW
+from ehlectric.cases.drive_case import DriveCase, SweptCase, swept_case_of_dict
+from ehlectric.cases.input_keys import kind_of, unit_of
+from ehlectric.errors import CODES, InputError
+from ehlectric.quantities.formats import CELSIUS, Scale, scale_for
+from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.units import in_unit, rpm, split
+from ehlectric.runs.by_kind import run_sweep
+from ehlectric.runtime.values import is_number
+from ehlectric.sweep.engine import case_key, solve_point
+from ehlectric.sweep.labels import label_of, result_keys
+from ehlectric.sweep.points import Point, flat
+from ehlectric.sweep.result import FILES, SweepResults, write_tables
+from ehlectric.sweep.run import planned_points
+from ehlectric.sweep.slices import known_values
+from ehlectric.sweep.store import NAME, read_sweep
+from ehlectric.sweep.sweep_inputs import Breakdown, Sweep, breakdown_of, ranked_value
+from ehlectric.sweep.warnings import sweep_warnings
+
+# Number of points whose summaries say what may be shown.
+_SAMPLE = 50
+
+# Most warnings of a point that a map tells when the pointer is on it.
+_MOST_TOLD = 3
+
+
+def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
+    """State of a sweep, finished, stopped or running; None where the folder still has another one.
+
+    Parameters
+    ----------
+    folder : str
+        Folder of the sweep.
+    shown : str
+        Dotted key of the summary that the map shows.
+    table : mapping
+        Tables of the sweep that is asked for.
+
+    Raises
+    ------
+    InputError
+        If the folder has no sweep.
+    """
+    results = read_sweep(folder)
+    return view_of(results, shown) if is_stored(results, table) else None
+
+
+def view_of(results: SweepResults, shown: str) -> SweepView:
+    """State of a sweep as the page shows it.
+
+    Parameters
+    ----------
+    results : SweepResults
+        A grid over one or two inputs, finished or not.
+    shown : str
+        Dotted key of the summary that the map shows.
+    """
+    chart = _chart(results, shown)
+    verdict = results.verdict
+    return SweepView(
+        counts=dict(Counter(point.state for point in chart.points)),
+        chart=chart,
+        figure=figure_of(chart),
+        columns=(
+            "Point",
+            *(named(key, results.case) for key in results.varied),
+            chart.title,
+            "Margin",
+            "State",
+        ),
+        rows=tuple(
+            _row(results, point, drawn) for point, drawn in zip(results.points, chart.points, strict=True)
+        ),
+        values=_values(results),
+        accuracy=_accuracy(results),
+        level="" if verdict is None else verdict.level,
+        text="" if verdict is None else verdict.text,
+        warnings=tuple(map(_without_code, told_of(sweep_warnings(results)))),
+    )
+
+
+def _without_code(told: Told) -> Told:
+    """Warning on a kind of warnings without the code of this kind, which only files and commands need."""
+    return replace(told, text=_CODE.sub(lambda found: f"{found[1]}: ", told.text))
+
+
+_CODE = re.compile(rf"\b(warning|note) (?:{'|'.join(CODES)}): ")
+
+
+def _accuracy(results: SweepResults) -> str:
+    """Sentence about the error of films that are not solved; empty without them."""
+    case = results.case
+    if not isinstance(case, BearingCase) or case.contacts == "solved":
+        return ""
+    how = f"Contacts are {HOW[case.contacts]}"
+    errors = [value_at(point.summary or {}, "bearing.film_error") for point in results.points]
+    known = [float(error) for error in errors if error is not None]
+    return f"{how}, films may be {percent(max(known))} off." if known else f"{how}."
+
+
+def _values(results: SweepResults) -> dict[str, str]:
+    """Names of the numbers that points have; those without a name are no results to look at."""
+    documented = result_keys(results.case)
+    some = replace(results, points=tuple(point for point in results.points if point.solved)[:_SAMPLE])
+    found = {key: key_of(documented, key) for key in known_values(some) if not key.startswith("inputs.")}
+    return {
+        key: f"{about.label[0].upper()}{about.label[1:]}"
+        for key, about in found.items()
+        if about is not None and about.label
+    }
+
+
+def _chart(results: SweepResults, shown: str) -> Chart:
+    axes = [_axis(results, key) for key in results.varied[:2]]
+    about, label = breakdown_of(results.case, shown), label_of(shown, results.case)
+    name = named(shown, results.case)
+    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    values = [row[shown] if is_number(row.get(shown)) else None for row in rows]
+    usable = [None if point.doubtful else value for point, value in zip(results.points, values, strict=True)]
+    scale = _scale(label.unit, [value for value in usable if value is not None])
+    margins = [_margin(row, about) for row in rows]
+    applied = [row.get(about.voltage) if shown == about.value else None for row in rows]
+    if shown == about.margin:
+        applied = [None if margin is None else 1.0 for margin in margins]
+    points = tuple(
+        _point(results, point, name_of=(name, scale), value=value, margin=margin, voltage=voltage)
+        for point, value, margin, voltage in zip(results.points, values, margins, applied, strict=True)
+    )
+    title = _titled(name, scale)
+    critical = f"margin 1: {about.name} = {about.voltage_name}"
+    some = any(point.margin is not None for point in points)
+    second = axes[1] if len(axes) > 1 else None
+    limit = critical if shown == about.margin else about.voltage_name
+    return Chart(axes[0], second, title, critical if some else "", limit, points)
+
+
+def _axis(results: SweepResults, key: str) -> Axis:
+    scale = _input_scale(results, key)
+    # Twelve digits: 300.00000000000006 rpm would be the text of a tick.
+    shown = tuple(float(f"{value:.12g}") for value in scale.of(np.array(results.axes[key], dtype=float)))
+    return Axis(_titled(named(key, results.case), scale), shown, _is_log(results.axes[key]))
+
+
+def _titled(name: str, scale: Scale) -> str:
+    return f"{name} [{scale.unit}]" if scale.unit else name
+
+
+def _is_log(values: Sequence[float]) -> bool:
+    """Whether values are spaced by equal ratios, and not by equal steps."""
+    if len(values) < 3 or min(values) <= 0.0:
+        return False
+    ratios, steps = np.diff(np.log(values)), np.diff(values)
+    return bool(np.ptp(ratios) < 1e-6 * abs(ratios[0]) and np.ptp(steps) > 1e-6 * abs(steps[0]))
+
+
+def _scale(unit: str, values: Sequence[float]) -> Scale:
+    if unit == "K":
+        return CELSIUS
+    return scale_for(max(map(abs, values), default=1.0) or 1.0, unit)
+
+
+def _input_scale(results: SweepResults, key: str) -> Scale:
+    return _scale(unit_of(key), results.axes[key])
+
+
+def _margin(row: Mapping[str, Any], about: Breakdown) -> float | None:
+    """Margin of a summary, or where that has none, the ratio of its voltages."""
+    margin = row.get(about.margin)
+    if is_number(margin):
+        return float(margin)
+    value, voltage = row.get(about.value), row.get(about.voltage)
+    return float(value / voltage) if is_number(value) and is_number(voltage) and voltage else None
+
+
+def _point(
+    results: SweepResults,
+    point: Point,
+    *,
+    name_of: tuple[str, Scale],
+    value: float | None,
+    margin: float | None,
+    voltage: float | None,
+) -> ChartPoint:
+    name, scale = name_of
+    state = _state(point, value)
+    texts = [
+        f"{named(key, results.case)}: {_input_scale(results, key).text(item)}"
+        for key, item in point.inputs.items()
+    ]
+    if state == "solved" and value is not None:
+        texts.append(f"{name}: {scale.text(float(value))}")
+        texts += [] if margin is None else [f"Margin: {margin:.3g}"]
+    else:
+        texts.append(f"{state}: {_reason(point, state)}".rstrip(": "))
+    told = [warning for warning in told_of(point.warnings) if warning.severity != "note"]
+    texts += [f"{warning.severity}: {warning.text}" for warning in told[:_MOST_TOLD]]
+    texts += [f"and {len(told) - _MOST_TOLD} more warnings"] if len(told) > _MOST_TOLD else []
+    if state != "solved":
+        return ChartPoint(point.number, state, tuple(texts))
+    return ChartPoint(
+        point.number,
+        state,
+        tuple(texts),
+        value=None if value is None else float(scale.of(value)),
+        margin=margin,
+        voltage=None if voltage is None else float(scale.of(voltage)),
+    )
+
+
+def _state(point: Point, value: float | None) -> PointState:
+    if not point.solved:
+        return point.status
+    if point.doubtful:
+        return "do not use"
+    return "no value" if value is None else "solved"
+
+
+def _reason(point: Point, state: PointState) -> str:
+    """Why a point has no number to draw."""
+    if state == "do not use":
+        return "see its severe warning"
+    if state == "no value":
+        summary = point.summary or {}
+        if summary.get("bearing", {}).get("lubrication") == "conducting":
+            return "the lambda ratio is below 1, contacts open and close, and no voltage is computed"
+        return "the case has no such number"
+    return point.reason
+
+
+def _row(results: SweepResults, point: Point, drawn: ChartPoint) -> tuple[str, ...]:
+    inputs = [_input_scale(results, key).text(item) for key, item in point.inputs.items()]
+    value = "" if drawn.value is None else f"{drawn.value:.4g}"
+    margin = "" if drawn.margin is None else f"{drawn.margin:.3g}"
+    reason = "" if drawn.state in ("solved", "open") else _reason(point, drawn.state)
+    state = f"{drawn.state}: {reason}" if reason else drawn.state
+    return (str(point.number), *inputs, value, margin, state)
+
+
+# Most points of a sweep of a page: larger ones are for the command, which needs no open tab.
+MOST_POINTS = 2500
+
+# Tables whose numbers say how a case is computed, not what it is.
+_OF_SOLUTION = ("solver", "grid", "ranges", "title")
+
+# Inputs that are varied most often, in this order.
+_COMMON = (
+    "bearing.inner_speed",
+    "bearing.radial_load",
+    "bearing.temperature",
+    "bearing.axial_load",
+    "contact.entrainment_speed",
+    "contact.load_per_length",
+    "contact.load",
+    "contact.max_hertz_pressure",
+    "contact.temperature",
+    *swept_drives.COMMON,
+)
+
+# Results that are shown most often. The one by which inputs are ranked and the breakdown voltage of the case
+# stand before them.
+_RESULTS = {
+    "bearing": (
+        "bearing.margin",
+        "bearing.capacitance",
+        "bearing.shaft_voltage",
+        "bearing.lambda_ratio",
+        "bearing.contact_time_share",
+        "bearing.through_breakdown",
+        "bearing.max_strength",
+        "bearing.discharge_energy",
+        "bearing.through_margin",
+    ),
+    "contact": (
+        "discharge.margin",
+        "film.minimum_thickness",
+        "film.central_thickness",
+        "film.max_pressure",
+        "field.max_strength",
+        "discharge.capacitance",
+    ),
+    "drive": swept_drives.RESULTS,
+}
+
+
+def sweep_of(table: Mapping[str, Any]) -> Sweep:
+    """Sweep of the tables of a sweep file with its base case inside.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid sweep, name a file, or have more points than a page may solve.
+    """
+    case = table.get("case")
+    if not isinstance(case, Mapping):
+        raise InputError.missing("case", "a table with the inputs of a bearing, a drive or a contact")
+    try:
+        run_case_of(case)
+    except InputError as error:
+        raise error.under("case") from None
+    sweep = answer_parts.sweep_of(table)
+    if sweep.size > MOST_POINTS:
+        takes = f"at most {MOST_POINTS} on this page; ehlectric sweep solves more, with the file of this page"
+        raise InputError("vary", got=f"{sweep.size} points", takes=takes)
+    return sweep
+
+
+def choices(table: Mapping[str, Any]) -> SweepChoices:
+    """Inputs of a base case that a sweep can vary, and results that a map can show.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a bearing, drive or contact file.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid case.
+    """
+    case = run_case_of(table)
+    kind = next((name for name, one in _KINDS.items() if isinstance(case, one)), "contact")
+    keys = dict.fromkeys(filter(None, (ranked_value(case), breakdown_of(case).value, *_RESULTS[kind])))
+    return SweepChoices(kind, tuple(_variables(table, case)), {key: named(key, case) for key in keys})
+
+
+# Classes of cases, and pages, by kind; a contact has another one.
+_KINDS = {"bearing": BearingCase, "drive": DriveCase}
+_PAGES = {"bearing": "/", "drive": "/drive", "contact": "/contact"}
+
+
+def _variables(table: Mapping[str, Any], case: SweptCase) -> Iterator[Variable]:
+    if isinstance(case, DriveCase):
+        written, resolved = swept_drives.texts_of(table, case), swept_drives.values_of(case)
+        fields = swept_drives.fields()
+    else:
+        written, resolved = Inputs(table).flat(), flattened(case.to_dict())
+        fields = {field.key: field for group in BEARING_GROUPS for field in group.fields}
+    numbers = [
+        key
+        for key, value in resolved.items()
+        if is_number(value) and kind_of(key) is not None and key.partition(".")[0] not in _OF_SOLUTION
+    ]
+
+    def rank(key: str) -> tuple[int, int, int]:
+        common = _COMMON.index(key) if key in _COMMON else len(_COMMON)
+        return common, key not in written, input_at(key) is None
+
+    for key in sorted(numbers, key=rank):
+        slider, text = fields.get(key), str(written.get(key, ""))
+        if slider is not None and slider.kind != "number":
+            slider = None
+        ends = _ends(text, resolved[key], key)
+        if ends is not None:
+            yield Variable(key, named(key, case), *ends, log=slider is not None and slider.log)
+
+
+def named(key: str, case: SweptCase) -> str:
+    """Name of an input or a result; one without a name has the last part of its key."""
+    name = _NAMES.get(key) or label_of(key, case).name
+    if name == key:
+        name = key.rpartition(".")[2].replace("_", " ")
+    return name[0].upper() + name[1:]
+
+
+# Names by which people look for a result.
+_NAMES = {"bearing.lambda_ratio": "lambda ratio (minimum film / roughness)"}
+
+
+def _ends(text: str, value: float, key: str) -> tuple[str, str] | None:
+    """Valid ends of a range around a value, in the unit in which it is written; None where there are none."""
+    found = re.fullmatch(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(.*)", text)
+    number, unit = (float(found[1]), found[2]) if found is not None else _in_si(value, key)
+    # An input that the file lacks is a dimension or a constant, which has less room than a load.
+    wide = [3.0] if found is not None else []
+    for ratio in (*wide, 1.2):
+        low, high = _around(number, unit, ratio)
+        for ends in ((low, high), (low, number), (number, high)):
+            texts = [f"{_short(end, key)} {unit}".strip() for end in ends]
+            if texts[0] != texts[1] and all(_is_valid(text, key) for text in texts):
+                return texts[0], texts[1]
+    return None
+
+
+def _around(number: float, unit: str, ratio: float) -> tuple[float, float]:
+    if unit in ("degC", "°C", "K"):
+        return number - 10.0 * ratio, number + 10.0 * ratio
+    low, high = sorted((number / ratio, number * ratio))
+    return (low, high) if low < high else (0.0, 1.0)
+
+
+def _is_valid(text: str, key: str) -> bool:
+    kind = kind_of(key)
+    try:
+        if isinstance(kind, Count):
+            kind.parse(int(text))
+        elif kind is not None:
+            kind.parse(number_of_text(text), written=True)
+    except InputError:
+        return False
+    return True
+
+
+def _short(number: float, key: str) -> str:
+    """Number with two digits that count, in full up to a million; a whole number of a count."""
+    if isinstance(kind_of(key), Count):
+        return str(round(number))
+    return f"{float(f'{number:.2g}'):g}"
+
+
+def _in_si(value: float, key: str) -> tuple[float, str]:
+    """Number and unit of an SI value that a file lacks; speeds and temperatures in the usual units."""
+    unit = unit_of(key)
+    if unit == "K":
+        return value - 273.15, "degC"
+    if unit == "rad/s":
+        return rpm(value), "rpm"
+    if unit == "m":
+        return (value * 1e6, "um") if abs(value) < 1e-4 else (value * 1e3, "mm")
+    return value, unit
+
+
+def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
+    """Size of a sweep, refused corners of its ranges, and its time where the contacts are not solved.
+
+    The time is that of one of the corners, which is solved here.
+
+    Raises
+    ------
+    InputError
+        If the tables are no valid sweep, or no corner of the ranges is a valid case.
+    """
+    sweep = sweep_of(table)
+    ends = {key: sorted({axis[0], axis[-1]}) for key, axis in sweep.axes.items()}
+    corners = planned_points(Sweep.from_dict({"case": sweep.case, "vary": ends}))
+    refused = [point.refused for point in corners if point.key is None]
+    seconds = None
+    if is_quick(sweep.case):
+        inputs = next(point.inputs for point in corners if point.key is not None)
+        seconds = _seconds(sweep.case.replace(inputs)) * sweep.size / workers
+    return SweepPlan(sweep.size, seconds, workers, len(refused), len(corners), next(iter(refused), ""))
+
+
+def _seconds(case: SweptCase) -> float:
+    """Time of a point that is not solved [s]: the shortest of a few, as the first one takes longer."""
+    table = case.to_dict()
+    found = [solve_point(table).seconds]
+    while len(found) < _TRIES and sum(found) < _LONGEST_TRIES:
+        found.append(solve_point(table).seconds)
+    return min(found)
+
+
+# Most solutions that are timed for an estimate, and the time after which no other is begun [s].
+_TRIES, _LONGEST_TRIES = 3, 1.0
+
+
+def solved(
+    table: Mapping[str, Any], folder: str, workers: int, progress: Callable[[int, int, str], None]
+) -> Mapping[str, int]:
+    """Solve the open points of a sweep into a folder, as ``ehlectric sweep`` does; numbers by status."""
+    outcome = run_sweep(sweep_of(table), folder, progress, workers=workers)
+    return {key: value for key, value in outcome.summary.items() if isinstance(value, int)}
+
+
+def is_stored(results: SweepResults, table: Mapping[str, Any]) -> bool:
+    """Whether the stored sweep is that of the tables, with the varied inputs in the same order."""
+    asked = sweep_of(table)
+    # A case compares by its file, whose numbers have all digits.
+    same = (results.design, results.case.to_toml()) == (asked.design, asked.case.to_toml())
+    axes = [[(key, list(axis)) for key, axis in one.axes.items()] for one in (results, asked)]
+    return same and axes[0] == axes[1]
+
+
+def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:
+    """Address of the page that shows the case of a point.
+
+    Parameters
+    ----------
+    folder : str
+        Folder of the sweep.
+    table : mapping
+        Sweep as a person wrote it: the address keeps the texts of its base case, and the units of its ranges.
+    number : int
+        Number of the point.
+
+    Raises
+    ------
+    InputError
+        If there is no such sweep, or the inputs of the point are no valid case.
+    """
+    results = read_sweep(folder)
+    if not is_stored(results, table):
+        raise InputError("the sweep has been replaced by another one; run it again")
+    if not 0 <= number < len(results.points):
+        raise InputError("number", got=number, takes=f"from 0 to {len(results.points) - 1}")
+    kind = next((name for name, one in _KINDS.items() if isinstance(results.case, one)), "contact")
+    path = _PAGES[kind]
+    inputs, vary = results.points[number].inputs, table.get("vary", {})
+    units = {key: _written_unit(vary, key) for key in inputs}
+    found = point_table(results.case, table["case"], inputs, units)
+    return SweepPoint(number, path, Inputs(found).address())
+
+
+def point_table(
+    case: SweptCase,
+    table: Mapping[str, Any],
+    inputs: Mapping[str, Any],
+    units: Mapping[str, str] | None = None,
+) -> dict[str, Any]:
+    """Tables of a file with the case of a point.
+
+    Its texts are those of the base case, where these make the same case; else all keys are in SI units.
+    ``units`` are those in which the varied inputs are best read, by key.
+
+    Raises
+    ------
+    InputError
+        If the inputs of the point are no valid case.
+    """
+    wanted = case.replace(inputs)
+    changed: dict[str, Any] = tomllib.loads(Inputs(table).toml())
+    texts = {key: _text(key, value, (units or {}).get(key, "")) for key, value in inputs.items()}
+    set_keys(changed, swept_drives.in_tables(table, texts) if isinstance(case, DriveCase) else texts)
+    try:
+        if case_key(swept_case_of_dict(changed, written=True)) == case_key(wanted):
+            return changed
+    except InputError:
+        # As where a load replaces a Hertz pressure: the file must not have both.
+        pass
+    return tomllib.loads(wanted.to_toml())
+
+
+def _written_unit(vary: Mapping[str, Any], key: str) -> str:
+    """Unit in which a range or a list of values is written; empty without one."""
+    value = vary.get(key, Inputs(vary).value(key))
+    first = value.get("from") if isinstance(value, Mapping) else value
+    first = first[0] if isinstance(first, list) and first else first
+    found = split(first) if isinstance(first, str) else None
+    return "" if found is None else found[1]
+
+
+def _text(key: str, value: Any, unit: str = "") -> Any:
+    """Value of an input with a unit, such that it reads back as the same number.
+
+    The unit is the wanted one where a text in it has the same value to the last digit, else the SI unit.
+    """
+    si, kind = unit_of(key), kind_of(key)
+    if not si or not isinstance(value, float):
+        return value
+    if unit and isinstance(kind, Amount):
+        # The server reads units without the registry; an unknown one stays with the SI unit.
+        number = in_unit(f"{value!r} {si.replace('**', '^')}", unit)
+        for digits in () if number is None else (6, 9, 12):
+            text = f"{repr(float(f'{number:.{digits}g}')).removesuffix('.0')} {unit}"
+            if kind.parse(text, written=True) == value:
+                return text
+    return f"{value!r} {si}"
+
+
+def files(folder: str) -> tuple[str, ...]:
+    """Names of the files of a sweep, finished or not; its tables are those of the command.
+
+    Raises
+    ------
+    InputError
+        If there is no sweep, or its folder cannot be used.
+    """
+    place = Path(folder)
+    results = read_sweep(place)
+    if not all((place / name).exists() for name in FILES[:1]):
+        write_tables(results, place)
+    return tuple(name for name in (NAME, *FILES) if (place / name).exists())

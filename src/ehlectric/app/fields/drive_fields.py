@@ -1,0 +1,396 @@
+"""Fields of the page of a drive: source, circuit and arc, and the rules of its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from ehlectric.app.fields.bearing_fields import (
+    BREAKDOWN,
+    CLEARANCE,
+    COATING,
+    FILM,
+    GEOMETRY,
+    OIL,
+    OPERATION,
+    REPORT,
+    SUMMITS,
+)
+from ehlectric.app.fields.field import Field, Group, Way, When, fields_of
+from ehlectric.app.fields.field_defaults import DRIVE_END, NON_DRIVE_END, field_at, group_at
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.quantities.alternatives import ALTERNATIVES, DESCRIBED, MEASURED, dotted
+from ehlectric.quantities.inputs import form
+from ehlectric.quantities.units import rounded, split
+
+# Groups of alternatives of a drive: inputs have the keys of one row of each.
+DRIVE_ALTERNATIVES = (
+    *dotted("source", ((DESCRIBED, MEASURED), *ALTERNATIVES["source"])),
+    *dotted("breakdown", ALTERNATIVES["breakdown"]),
+)
+
+# Keys of a described source that six-step modulation has not, with first values of those that others need.
+OF_CARRIER = {"switching_frequency": "10 kHz", "modulation_index": 0.9, "base_frequency": None}
+
+SWITCHING = "source.switching_frequency"
+
+# Title of the remedy whose frequency follows that of the drive.
+HALF = "Half the switching frequency"
+
+# Usual remedies by their titles, with what they change; those of the example have its values.
+PRESETS: Mapping[str, Mapping[str, Any]] = {
+    "Grounding ring": {"circuit.grounding_ring_resistance": "1 ohm"},
+    "Ceramic balls": {
+        "bearings.bearing.element_material": "silicon-nitride",
+        "bearings.bearing.element_capacitance": "5 pF",
+    },
+    "Coated rings": {
+        "bearings.bearing.coating.base": "schaeffler-j20aa",
+        "bearings.bearing.coating.relative_permittivity": 9.0,
+    },
+    "Common-mode choke": {
+        "circuit.common_mode_inductance": "5 mH",
+        "circuit.common_mode_resistance": "500 ohm",
+    },
+    HALF: {},
+}
+
+
+def fitted_to_source(inputs: Inputs) -> dict[str, Any]:
+    """Changes that the modulation of a described source needs.
+
+    Examples
+    --------
+    >>> fitted_to_source(Inputs({"source": {"modulation": "six-step", "modulation_index": 0.9}}))
+    {'source.modulation_index': None}
+    """
+    modulation = inputs.value("source.modulation")
+    given = {key: inputs.value(f"source.{key}") for key in OF_CARRIER}
+    if modulation == "six-step":
+        return {f"source.{key}": None for key, value in given.items() if value is not None}
+    if modulation is None:
+        return {}
+    lacking = {key: first for key, first in OF_CARRIER.items() if given[key] is None and first is not None}
+    return {f"source.{key}": first for key, first in lacking.items()}
+
+
+def half_of(value: object) -> str | None:
+    """Half of a frequency as a person writes it; None where it is no number with a unit.
+
+    Examples
+    --------
+    >>> half_of("10 kHz"), half_of("fast"), half_of(None)
+    ('5 kHz', None, None)
+    """
+    found = split(str(value))
+    return f"{rounded(0.5 * found[0])} {found[1]}" if found is not None and found[1] else None
+
+
+def remedies_of(inputs: Inputs) -> dict[str, Mapping[str, Any]]:
+    """Changes of the remedies of a drive by their titles; what is no remedy is left out."""
+    given = inputs.value("remedies")
+    found = {}
+    for one in given if isinstance(given, list) else []:
+        changes = one.get("changes") if isinstance(one, Mapping) else None
+        if isinstance(changes, Mapping):
+            found[str(one.get("title", ""))] = changes
+    return found
+
+
+def changes_of(inputs: Inputs, title: str) -> Mapping[str, Any] | None:
+    """Changes of a usual remedy; None where the inputs do not have what it changes.
+
+    Examples
+    --------
+    >>> changes_of(Inputs({"source": {"switching_frequency": "10 kHz"}}), HALF)
+    {'source.switching_frequency': '5 kHz'}
+    """
+    if title != HALF:
+        return PRESETS[title]
+    half = half_of(inputs.value(SWITCHING))
+    return None if half is None else {SWITCHING: half}
+
+
+def with_remedy(inputs: Inputs, title: str, changes: Mapping[str, Any]) -> list[Any]:
+    """List of the remedies with a further one."""
+    given = inputs.value("remedies")
+    return [*(given if isinstance(given, list) else []), {"title": title, "changes": dict(changes)}]
+
+
+def without_remedy(inputs: Inputs, title: str) -> list[Any]:
+    """List of the remedies without those of a title."""
+    given = inputs.value("remedies")
+    return [
+        one
+        for one in (given if isinstance(given, list) else [])
+        if not isinstance(one, Mapping) or str(one.get("title", "")) != title
+    ]
+
+
+def with_fitted_remedies(before: Inputs, after: Inputs) -> Inputs:
+    """Inputs whose remedy with half the switching frequency follows a new frequency.
+
+    Parameters
+    ----------
+    before, after : Inputs
+        Inputs before and after a change.
+    """
+    old, new = before.value(SWITCHING), after.value(SWITCHING)
+    remedies = after.value("remedies")
+    if old == new or not isinstance(remedies, list):
+        return after
+    return after.changed({"remedies": [_fitted(one, half_of(old), half_of(new)) for one in remedies]})
+
+
+def _fitted(remedy: Any, old: str | None, new: str | None) -> Any:
+    """Remedy with another frequency where it had half the old one and nothing else."""
+    own = remedy.get("changes") if isinstance(remedy, Mapping) else None
+    if not isinstance(own, Mapping) or old is None or new is None or dict(own) != {SWITCHING: old}:
+        return remedy
+    return {**remedy, "changes": {SWITCHING: new}}
+
+
+def _measured(inputs: Inputs) -> bool:
+    return inputs.value("source.file") is not None
+
+
+def _described(inputs: Inputs) -> bool:
+    return not _measured(inputs)
+
+
+def _carrier(inputs: Inputs) -> bool:
+    return _described(inputs) and inputs.value("source.modulation") != "six-step"
+
+
+def _follows(inputs: Inputs) -> bool:
+    return _described(inputs) and inputs.value("source.pole_pairs") is not None
+
+
+def _fixed(inputs: Inputs) -> bool:
+    return _described(inputs) and inputs.value("source.pole_pairs") is None
+
+
+def _ringing(inputs: Inputs) -> bool:
+    return _described(inputs) and inputs.value("source.overshoot") is not None
+
+
+# Source of the example.
+_SOURCE = {
+    "source.dc_link": "560 V",
+    "source.modulation": "space-vector",
+    SWITCHING: "10 kHz",
+    "source.pole_pairs": 2,
+    "source.modulation_index": 0.9,
+    "source.base_frequency": "100 Hz",
+    "source.rise_time": "100 ns",
+}
+_RINGING = {
+    "source.overshoot": "20 %",
+    "source.ringing_frequency": "2 MHz",
+    "source.ringing_time": "1 us",
+}
+
+_WAYS = {
+    "source.dc_link": Field(
+        "source.way",
+        "Common-mode voltage",
+        kind="ways",
+        ways=(
+            Way("Measured waveform", {}, "source.file", listed=False),
+            Way("Described by its modulation", _SOURCE),
+        ),
+    ),
+    "source.pole_pairs": Field(
+        "source.frequency_way",
+        "Fundamental frequency",
+        kind="ways",
+        ways=(
+            Way("Follows the speed", {"source.pole_pairs": 2}, "source.pole_pairs"),
+            Way("The same at all speeds", {"source.fundamental_frequency": "100 Hz"}),
+        ),
+        when=_described,
+    ),
+    "source.overshoot": Field(
+        "source.ringing_way",
+        "Ringing",
+        kind="ways",
+        ways=(
+            Way("At the end of each edge", _RINGING, "source.overshoot"),
+            Way("None", dict.fromkeys(_RINGING)),
+        ),
+        when=_described,
+    ),
+}
+_SHOWN = {
+    **{f"source.{key}": {"when": _described} for key in DESCRIBED},
+    **{f"source.{key}": {"when": _measured} for key in MEASURED},
+    **{f"source.{key}": {"when": _carrier} for key in OF_CARRIER},
+    "source.pole_pairs": {"when": _follows},
+    "source.fundamental_frequency": {"when": _fixed},
+    **{key: {"when": _ringing} for key in _RINGING},
+}
+
+SOURCE = Group("Source", fields_of(form("drive")["Source"], _SHOWN, _WAYS))
+
+
+_ASSUMED = "The first values are assumptions: replace them with your own."
+
+
+def _machine(inputs: Inputs) -> bool:
+    return inputs.value("circuit.machine") is not None
+
+
+def _given(inputs: Inputs) -> bool:
+    return not _machine(inputs)
+
+
+def _by_current(inputs: Inputs) -> bool:
+    return inputs.value("breakdown.extinction_current") is not None
+
+
+def _by_voltage(inputs: Inputs) -> bool:
+    return not _by_current(inputs)
+
+
+# Geometry of the machine of the guide.
+_GEOMETRY = {
+    "stack_length": "120 mm",
+    "bore_diameter": "110 mm",
+    "air_gap": "0.5 mm",
+    "slots": 36,
+    "slot_opening": "3 mm",
+    "copper_depth": "2 mm",
+    "slot_permittivity": 2,
+    "liner_width": "50 mm",
+    "liner_thickness": "0.3 mm",
+    "liner_permittivity": 3.5,
+}
+_CAPACITANCES = {
+    "circuit.winding_rotor_capacitance": "50 pF",
+    "circuit.rotor_frame_capacitance": "500 pF",
+    "circuit.winding_frame_capacitance": "5 nF",
+}
+
+_DRIVE_WAYS = {
+    "circuit.winding_rotor_capacitance": Field(
+        "circuit.way",
+        "Capacitances",
+        kind="ways",
+        ways=(
+            Way(
+                "From the geometry of the machine",
+                {**dict.fromkeys(_CAPACITANCES), "circuit.machine": _GEOMETRY},
+                "circuit.machine",
+            ),
+            Way("Given, as measured", {**_CAPACITANCES, "circuit.machine": None}),
+        ),
+    ),
+    "breakdown.extinction_current": Field(
+        "breakdown.extinction_way",
+        "The arc goes out",
+        kind="ways",
+        ways=(
+            Way("Below a current", {"breakdown.extinction_current": "10 mA"}, "breakdown.extinction_current"),
+            Way("Below a voltage", {"breakdown.extinction_voltage": "0.1 V"}),
+        ),
+    ),
+}
+_DRIVE_SHOWN = {
+    **{key: {"when": _given} for key in _CAPACITANCES},
+    "breakdown.extinction_current": {"when": _by_current},
+    "breakdown.extinction_voltage": {"when": _by_voltage},
+}
+
+
+def _group(title: str, **more: Any) -> Group:
+    return Group(title, fields_of(form("drive")[title], _DRIVE_SHOWN, _DRIVE_WAYS), **more)
+
+
+DRIVE = _group("Operation")
+MACHINE = _group("Machine", note=_ASSUMED)
+STATOR = _group(
+    "Geometry of the machine",
+    note=f"{_ASSUMED} End windings are left out, and add to all capacitances.",
+    when=_machine,
+)
+PATHS = _group("Ring, choke and ground", opened=False)
+ARC = _group("Arc of a discharge", note="There is no model of the arc: these values are assumptions.")
+
+# Keys of a bearing that the table "drive" replaces, by those of the drive.
+_REPLACED = {"bearing.inner_speed": "drive.speed", "bearing.temperature": "drive.temperature"}
+
+
+def _open(key: str) -> When:
+    """Whether the drive leaves a key to its bearings."""
+    return lambda inputs: inputs.value(key) is None
+
+
+def _fields_at(group: Group, end: str) -> Iterator[Field]:
+    for field in group.fields:
+        if field.key in _REPLACED:
+            yield field_at(field, end, when=_open(_REPLACED[field.key]), strict=True)
+        elif field.key != "discharge.peak_current":
+            # The simulation computes the current of a discharge.
+            yield field_at(field, end)
+
+
+# Groups of a bearing, with their titles in a drive. The capacitances of the motor are in the circuit.
+_OF_BEARING = (
+    (GEOMETRY, "bearing"),
+    (OPERATION, "load"),
+    (OIL, "oil"),
+    (FILM, "films"),
+    (CLEARANCE, "clearance"),
+    (BREAKDOWN, "strength of the oil"),
+    (COATING, "coating"),
+    (SUMMITS, "summits"),
+)
+_OPENED = (GEOMETRY, OPERATION)
+
+
+def _bearing(end: str, name: str) -> Iterator[Group]:
+    """Groups of the bearing at an end; a drive needs a strength, so that its group is always on."""
+    for group, words in _OF_BEARING:
+        title, fields = f"{name}: {words}", tuple(_fields_at(group, end))
+        opened = group in _OPENED and end == DRIVE_END
+        found = group_at(group, end, title, fields, opened=opened)
+        if group is BREAKDOWN:
+            found = Group(title, fields, note=group.note, opened=False)
+        yield found if end == DRIVE_END else _only_own(found)
+
+
+def _own(inputs: Inputs) -> bool:
+    return inputs.value(NON_DRIVE_END) is not None
+
+
+def _only_own(group: Group) -> Group:
+    """Group that is there only where the non-drive end has a bearing of its own."""
+    return replace(group, when=_own)
+
+
+def _which(inputs: Inputs) -> str:
+    return "" if _own(inputs) else "The bearing at the non-drive end is the same as at the drive end."
+
+
+OTHER = Group(
+    "Another bearing at the non-drive end",
+    (),
+    table=NON_DRIVE_END,
+    copies=DRIVE_END,
+    tells=_which,
+    opened=False,
+)
+
+DRIVE_GROUPS = (
+    DRIVE,
+    SOURCE,
+    MACHINE,
+    STATOR,
+    PATHS,
+    ARC,
+    *_bearing(DRIVE_END, "Drive end"),
+    OTHER,
+    *_bearing(NON_DRIVE_END, "Non-drive end"),
+    REPORT,
+)

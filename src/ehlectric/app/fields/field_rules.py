@@ -1,0 +1,288 @@
+"""Rules by which a new input takes the place of others, and the memory of a form of what was replaced.
+
+Rules by which a new input takes the place of others, as ``BearingCase.replace`` and ``Case.replace`` do.
+They work on inputs as a person writes them, so that the values of the library stay in the library.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from copy import deepcopy
+from typing import Any
+
+from ehlectric.app.catalogue import bearing, coating
+from ehlectric.app.fields.drive_fields import DRIVE_ALTERNATIVES, fitted_to_source, with_fitted_remedies
+from ehlectric.app.fields.field import Field, Group, fitted_to_kind
+from ehlectric.app.fields.field_defaults import at_end, bearing_at, end_and_key
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.cases.defaults import FILM_FACTORS
+from ehlectric.quantities import alternatives
+from ehlectric.quantities.alternatives import (
+    CONTACT_ALTERNATIVES,
+    DIMENSIONS,
+    GRID_OF_ANY,
+    ONLY,
+    Rows,
+    dotted,
+)
+from ehlectric.quantities.inputs import ENDS
+
+# Keys of a geometry of one's own; those that a kind does not have are left out when they come back.
+_GEOMETRY = (*(f"bearing.{name}" for name in DIMENSIONS), "bearing.contact_angle")
+
+
+class Memory:
+    """Last values of groups that can be switched off, of own entries of lists, and of ways.
+
+    Parameters
+    ----------
+    groups : sequence of Group
+        Fields of the form under their headings.
+
+    Examples
+    --------
+    >>> memory = Memory([Group("Motor", (), table="motor", start={"rise_time": "1 us"})])
+    >>> memory.note(Inputs({"motor": {"rise_time": "3 us"}}))
+    >>> memory.table(memory.groups[0], Inputs({}))
+    {'rise_time': '3 us'}
+    """
+
+    def __init__(self, groups: Sequence[Group]) -> None:
+        self.groups = groups
+        self._tables: dict[str, Mapping[str, Any]] = {}
+        self._own: dict[str, dict[str, Any]] = {}
+        self._ways: dict[tuple[str, int], dict[str, Any]] = {}
+
+    def note(self, inputs: Inputs) -> None:
+        """Remember the values that inputs have now."""
+        for group in self.groups:
+            if group.table and inputs.value(group.table) is None:
+                continue
+            if group.table:
+                self._tables[group.table] = inputs.value(group.table)
+            for field in group.fields:
+                self._note_field(field, inputs)
+
+    def table(self, group: Group, inputs: Inputs) -> dict[str, Any]:
+        """Table of a group that is switched on: the last one, or that with which it begins."""
+        if group.table in self._tables:
+            return deepcopy(dict(self._tables[group.table]))
+        copied = inputs.value(group.copies) if group.copies else None
+        return deepcopy(dict(copied if isinstance(copied, Mapping) else group.start))
+
+    def own(self, field: Field, inputs: Inputs) -> dict[str, Any]:
+        """Changes that bring back the last own values of a list, or those of the library as own ones."""
+        return deepcopy(self._own[field.key]) if field.key in self._own else own_values(inputs, field.key)
+
+    def way(self, field: Field, place: int, inputs: Inputs) -> dict[str, Any]:
+        """Changes that take a way with its last values, or with those with which it begins."""
+        way = field.ways[place]
+        last = {**way.changes, **deepcopy(self._ways.get((field.key, place), {}))}
+        return last if field.way(changed(inputs, last)) == place else dict(way.changes)
+
+    def _note_field(self, field: Field, inputs: Inputs) -> None:
+        if field.kind == "ways":
+            place = field.way(inputs)
+            given = {key: inputs.value(key) for key in field.ways[place].changes}
+            self._ways[field.key, place] = {key: value for key, value in given.items() if value is not None}
+        elif field.own and is_own(inputs, field.key):
+            self._own[field.key] = _own_of(inputs, field.key)
+
+
+def _own_of(inputs: Inputs, key: str) -> dict[str, Any]:
+    """Changes that make the present own values those of other inputs."""
+    end, key = end_and_key(key)
+    return at_end(_own_of_case(bearing_at(inputs, end), key), end)
+
+
+def _own_of_case(inputs: Inputs, key: str) -> dict[str, Any]:
+    table = key.rpartition(".")[0]
+    if table != "bearing":
+        return {table: inputs.value(table)}
+    given = {name: inputs.value(name) for name in _GEOMETRY}
+    return {name: value for name, value in given.items() if value is not None} | {key: None}
+
+
+# Alternatives of the checks, and those of an oil of one's own and of tables that exclude each other.
+_TABLES = ("bearing", "lubricant", "discharge", "meter", "inlet", "motion", "grid", "contact")
+ALTERNATIVES: tuple[Rows, ...] = (
+    *(group for table in _TABLES for group in dotted(table, alternatives.ALTERNATIVES[table])),
+    (("lubricant.viscosity",), ("lubricant.temperature",), ("lubricant.atmospheric_law",)),
+    (("lubricant.density",), ("lubricant.temperature",)),
+    (("lubricant.relative_permittivity",), ("lubricant.permittivity_table",)),
+    (("lubricant.conductivity", "lubricant.conductivity_law"), ("lubricant.conductivity_table",)),
+    (("inlet",), ("film", "meter")),
+    (("inlet.film_ratio",), ("motion",)),
+    (("grid.error", "grid.refine", "grid.most_nodes"), ("motion",)),
+    *DRIVE_ALTERNATIVES,
+)
+
+# Alternatives that are others for a line contact and for a point contact.
+OF_GEOMETRY: Mapping[str, tuple[Rows, ...]] = {
+    geometry: dotted("contact", groups) for geometry, groups in CONTACT_ALTERNATIVES.items()
+}
+
+
+def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
+    """Inputs with new values, and without those that the new values take the place of.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Present inputs.
+    changes : mapping
+        New values by dotted key; None removes a key, and a mapping sets a table.
+
+    Returns
+    -------
+    Inputs
+        New inputs.
+
+    Examples
+    --------
+    >>> inputs = Inputs({"bearing": {"base": "6208", "elements": 8, "radial_clearance": "10 um"}})
+    >>> dict(changed(inputs, {"bearing.clearance_class": "C3"}).table["bearing"])
+    {'base': '6208', 'elements': 8, 'clearance_class': 'C3'}
+    >>> dict(changed(inputs, {"bearing.base": "6206"}).table["bearing"])
+    {'base': '6206', 'radial_clearance': '10 um'}
+    """
+    own: dict[str, Any] = {}
+    of_ends: dict[str, dict[str, Any]] = {end: {} for end in ENDS}
+    for key, value in changes.items():
+        end, inner = end_and_key(key)
+        (of_ends[end] if end else own)[inner] = value
+    found = _changed(inputs, own)
+    for end, changes_there in of_ends.items():
+        if changes_there:
+            after = _changed(bearing_at(found, end), changes_there)
+            found = found.changed({end: dict(after.table) or None})
+    return with_fitted_remedies(inputs, found)
+
+
+def _changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
+    """Inputs of a case, of which a drive has one at each end, with new values."""
+    given = _flat(changes)
+    dropped = {key: None for key in _displaced(inputs, given) if key not in given}
+    found = inputs.changed(dropped).changed(changes)
+    if {"bearing.base", "bearing.kind"} & set(given):
+        found = found.changed(fitted_to_kind(found))
+    if "bearing.film_factor" in given or _is_any_of(given, "lubricant"):
+        found = found.changed(_needed_by_heat(found))
+    if _is_any_of(given, "source"):
+        found = found.changed(fitted_to_source(found))
+    return found
+
+
+def _needed_by_heat(inputs: Inputs) -> dict[str, Any]:
+    """First values of the thermal properties of a data sheet, which the heat of the films needs."""
+    factor = inputs.value("bearing.film_factor")
+    needed = dict(_THERMAL[: FILM_FACTORS.index(factor)]) if factor in FILM_FACTORS else {}
+    if inputs.value("lubricant.temperature") is None:
+        return {}
+    return {key: value for key, value in needed.items() if inputs.value(key) is None}
+
+
+# Thermal properties of the oil of the examples, assumptions, in the order in which film factors need them.
+_THERMAL = (
+    ("lubricant.temperature.thermal_conductivity", "0.14 W/m/K"),
+    ("lubricant.heat_capacity", "2000 J/kg/K"),
+)
+
+
+def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
+    """Changes by which the values of the library under a key become values of one's own.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Present inputs.
+    key : str
+        ``bearing.base``, ``bearing.coating.base`` or ``lubricant.base``; those of a bearing of a drive follow
+        its end.
+    """
+    end, key = end_and_key(key)
+    return at_end(_own_values(bearing_at(inputs, end), key), end)
+
+
+def _own_values(inputs: Inputs, key: str) -> dict[str, Any]:
+    base = str(inputs.value(key))
+    if key == "bearing.base":
+        values = {f"bearing.{name}": value for name, value in bearing(base).items()}
+    elif key == "bearing.coating.base":
+        values = {f"bearing.coating.{name}": value for name, value in coating(base).items()}
+        values = {"bearing.coating.thickness": "200 um"} | values
+    else:
+        # The paper's oil has all laws; the data sheet replaces its viscosity and density.
+        return {key: _OIL_OF_LAWS, "lubricant.temperature": dict(_SHEET)}
+    return {name: value for name, value in values.items() if inputs.value(name) is None} | {key: None}
+
+
+_OIL_OF_LAWS = "paper"
+
+# Data sheet of the example of a bearing; an assumption.
+_SHEET = {
+    "kinematic_viscosity_40": "46 mm^2/s",
+    "kinematic_viscosity_100": "6.8 mm^2/s",
+    "density_15": "870 kg/m^3",
+}
+
+
+def is_own(inputs: Inputs, key: str) -> bool:
+    """Whether the values under a key are a user's own, and not those of the library."""
+    end, key = end_and_key(key)
+    own = bearing_at(inputs, end)
+    if key == "lubricant.base" and own.value("lubricant.temperature") is not None:
+        return True
+    return own.value(key) is None
+
+
+def _displaced(inputs: Inputs, given: Mapping[str, Any]) -> Iterable[str]:
+    """Keys that new values take the place of."""
+    new = {key for key, value in given.items() if value is not None}
+    if "lubricant.base" in new:
+        yield from _within(inputs, "lubricant")
+    if "bearing.base" in new:
+        names = {*DIMENSIONS, *bearing(str(inputs.value("bearing.base")))}
+        yield from (f"bearing.{name}" for name in names - {"base"})
+    if "bearing.coating.base" in new:
+        known = {"ring", "thickness", "breakdown_voltage", "strength", "resistance"}
+        yield from (f"bearing.coating.{name}" for name in known)
+    geometry = inputs.value("contact.geometry") or "line"
+    wanted = given.get("contact.geometry", geometry)
+    if wanted != geometry:
+        yield from (f"contact.{key}" for key in ONLY.get(geometry, ()))
+        yield from ("discharge.length", "meter.length")
+        yield from (key for key in _within(inputs, "grid") if key.partition(".")[2] not in GRID_OF_ANY)
+    for rows in (*ALTERNATIVES, *OF_GEOMETRY.get(str(wanted), ())):
+        yield from _of_other_rows(rows, new)
+
+
+def _of_other_rows(rows: Rows, new: set[str]) -> Iterable[str]:
+    """Keys of the rows without a new value, where another row has one."""
+    taken = [row for row in rows if any(_is_in(name, key) for name in new for key in row)]
+    for row in rows:
+        if taken and row not in taken:
+            yield from row
+
+
+def _is_in(name: str, key: str) -> bool:
+    return name == key or name.startswith(f"{key}.")
+
+
+def _is_any_of(given: Mapping[str, Any], table: str) -> bool:
+    return any(_is_in(key, table) for key in given)
+
+
+def _within(inputs: Inputs, table: str) -> list[str]:
+    return [key for key in inputs.flat() if key.startswith(f"{table}.")]
+
+
+def _flat(changes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Changes by dotted key, with those of tables under the keys of the tables."""
+    flat: dict[str, Any] = {}
+    for key, value in changes.items():
+        if isinstance(value, Mapping) and value:
+            flat |= _flat(value, f"{prefix}{key}.")
+        else:
+            flat[prefix + key] = value
+    return flat

@@ -1,0 +1,287 @@
+"""Figures of a bearing around its shaft and over its speed, for a page."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ehlectric.app.figures.charts import Plot, axis, log_ticks, plot, stack
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.speed_curves import Curves, Speed, Speeds, curves_of
+from ehlectric.cases.defaults import OF_CONTACTS
+from ehlectric.figures.breakdown_over_speed import breakdown_panel, capacitance_panel, speed_axis
+from ehlectric.figures.data import Panel, Upright, is_wide
+from ehlectric.quantities.palette import AMBER, BLUE, MIDDLE_GREY
+from ehlectric.quantities.units import rpm, rpm_text
+
+
+def shown_over(values: list[float]) -> tuple[float, float]:
+    """Ends of a radius over positive values: from 0 or, on a logarithmic one, from below the smallest."""
+    return (0.8 * min(values), 1.2 * max(values)) if is_wide(np.array(values)) else (0.0, 1.08 * max(values))
+
+
+def polar_layout(ends: tuple[float, float], *, radial: bool = True) -> Plot:
+    """Layout of a polar figure with the radial load at the bottom; logarithmic unless it begins at 0."""
+    log = ends[0] > 0.0
+    limits = [math.log10(end) for end in ends] if log else list(ends)
+    around = axis(rotation=270, direction="counterclockwise", tickmode="array", automargin=False)
+    around |= {
+        "tickvals": list(range(0, 360, 45)),
+        "ticktext": ["0° (load)" if radial else "0°", *(f"{angle}°" for angle in range(45, 360, 45))],
+    }
+    out = axis(range=limits, angle=90, tickangle=90, nticks=5)
+    return {
+        "margin": {"l": 40, "r": 40, "t": 30, "b": 40},
+        "legend": {"orientation": "h", "x": 0.5, "xanchor": "center", "y": -0.12, "yanchor": "top"},
+        "polar": {
+            "bgcolor": "rgba(0,0,0,0)",
+            "angularaxis": _without(around, "automargin"),
+            "radialaxis": _without(out | log_ticks(log=log), "automargin"),
+        },
+    }
+
+
+def _without(table: Plot, key: str) -> Plot:
+    """Axis without a key, which polar axes lack."""
+    return {name: value for name, value in table.items() if name != key}
+
+
+# Lambda ratios below which surfaces touch, and below which they touch at times.
+_RATIOS = (1.0, 3.0)
+
+# A circle of a lambda ratio is left out where the smallest film is above this many times its thickness.
+_FAR = 4.0
+
+# Height of a figure [px].
+_HEIGHT = 420
+
+# Colour, width of the line and marker of each ring: the inner one is drawn over the wider line of the outer.
+_LOOKS: Mapping[str, tuple[str, float, str]] = {
+    "outer": (AMBER, 4.0, "square"),
+    "inner": (BLUE, 2.0, "circle"),
+}
+
+
+@dataclass(frozen=True)
+class Around:
+    """Contacts of all elements with one ring, at all positions of the cage.
+
+    Attributes
+    ----------
+    angle : sequence of float
+        Angles from the load line, in ascending order [rad].
+    load, film : sequence of float
+        Load [N] and minimum film thickness [m], or the gap of a contact without load.
+    loaded : sequence of bool
+        Whether a contact is loaded.
+    """
+
+    angle: Sequence[float]
+    load: Sequence[float]
+    film: Sequence[float]
+    loaded: Sequence[bool]
+
+
+def load_figure(
+    rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around], *, radial: bool = True
+) -> Plot:
+    """Loads of the contacts with both rings around the shaft.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        Rows of the table of contacts, SI units.
+    around : mapping of str to Around
+        Contacts at all positions of the cage, of "inner" and "outer".
+    radial : bool
+        Whether a radial load acts, whose line is marked.
+
+    Returns
+    -------
+    dict
+        Figure of Plotly, in which the radial load on the inner ring points down.
+    """
+    data = []
+    for name in _LOOKS:
+        ring = around[name]
+        data.append(_line(name, ring.angle, list(ring.load)))
+        marks = [row for row in rows if row["ring"] == name]
+        values = [row["load"] for row in marks]
+        data.append(_marks(name, marks, values, "load", "N"))
+    largest = max(max(ring.load) for ring in around.values())
+    return plot(data, height=_HEIGHT, **polar_layout((0.0, 1.08 * largest), radial=radial))
+
+
+def film_figure(
+    rows: Sequence[Mapping[str, Any]],
+    around: Mapping[str, Around],
+    roughness: float,
+    *,
+    radial: bool = True,
+) -> Plot:
+    """Minimum films of the loaded contacts with both rings around the shaft.
+
+    Parameters
+    ----------
+    rows, around, radial
+        As for ``load_figure``.
+    roughness : float
+        Combined root-mean-square height of both surfaces [m], for the circles of lambda ratios.
+
+    Returns
+    -------
+    dict
+        Figure of Plotly. Contacts without load have a gap instead of a film, and are left out.
+    """
+    films = [
+        film
+        for ring in around.values()
+        for film, on in zip(ring.film, ring.loaded, strict=True)
+        if on and math.isfinite(film)
+    ]
+    ratios = [ratio for ratio in _RATIOS if min(films) < _FAR * ratio * roughness]
+    everything = [1e6 * film for film in [*films, *(ratio * roughness for ratio in ratios)]]
+    data = [_circle(ratio, 1e6 * ratio * roughness) for ratio in ratios]
+    for name in _LOOKS:
+        ring = around[name]
+        values = [1e6 * film if on else None for film, on in zip(ring.film, ring.loaded, strict=True)]
+        data.append(_line(name, ring.angle, values))
+        marks = [row for row in rows if row["ring"] == name and row["solved"]]
+        data.append(_marks(name, marks, [1e6 * row["minimum_thickness"] for row in marks], "h_min", "µm"))
+    layout = polar_layout(shown_over(everything), radial=radial)
+    return plot(data, height=_HEIGHT, **layout)
+
+
+def _line(name: str, angle: Sequence[float], values: list[float | None] | list[float]) -> Plot:
+    color, width, _ = _LOOKS[name]
+    degrees = [math.degrees(one) for one in angle]
+    return {
+        "type": "scatterpolar",
+        "mode": "lines",
+        "theta": [*degrees, degrees[0] + 360.0],
+        "r": [*values, values[0]],
+        "line": {"color": color, "width": width},
+        "hoverinfo": "skip",
+        "showlegend": False,
+    }
+
+
+def _marks(name: str, rows: Sequence[Mapping[str, Any]], values: list[float], symbol: str, unit: str) -> Plot:
+    color, width, marker = _LOOKS[name]
+    return {
+        "type": "scatterpolar",
+        "mode": "markers",
+        "theta": [math.degrees(row["position"]) for row in rows],
+        "r": values,
+        "customdata": [row["element"] for row in rows],
+        "name": f"{name} ring",
+        "marker": {"color": color, "size": 7.0 + width, "symbol": marker},
+        "hovertemplate": f"{name} contact of element %{{customdata}}<br>at %{{theta:.0f}}°<br>"
+        f"{symbol} = %{{r:.4g}} {unit}<extra></extra>",
+        "cliponaxis": False,
+    }
+
+
+def _circle(ratio: float, radius: float) -> Plot:
+    words = "surfaces touch inside" if ratio == _RATIOS[0] else "surfaces may touch inside"
+    return {
+        "type": "scatterpolar",
+        "mode": "lines",
+        "theta": list(range(0, 361, 5)),
+        "r": [radius] * 73,
+        "line": {"color": MIDDLE_GREY, "width": 1.5, "dash": "dot" if ratio == _RATIOS[0] else "dash"},
+        "name": f"λ = {ratio:g}: {words}",
+        "hovertemplate": f"λ = {ratio:g}<br>h = {radius:.4g} µm<extra></extra>",
+    }
+
+
+# Layout of a figure: its legend of long names stands below it.
+_LAYOUT: dict[str, Any] = {
+    "height": 440,
+    "margin": {"l": 62, "r": 16, "t": 16, "b": 50},
+    "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": -0.2, "yanchor": "top"},
+}
+
+
+@dataclass(frozen=True)
+class OverSpeed:
+    """Bearing over its speed: quick points, the bearing itself, and curves scaled to it."""
+
+    points: Speeds
+    own: Speed
+    curves: Curves
+    # Level of the verdict, which is no surer at other speeds.
+    level: str = ""
+
+    @classmethod
+    def of(cls, points: Speeds, own: Speed, *, level: str = "") -> OverSpeed:
+        """Curves through points, scaled to the bearing itself."""
+        return cls(points, own, curves_of(points, own), level)
+
+    @property
+    def contacts(self) -> str:
+        """Contacts of the points, in words."""
+        return OF_CONTACTS[self.points[0][1]["bearing"]["contacts"]]
+
+
+def breakdown_figure(over: OverSpeed) -> Plot:
+    """First and ring-to-ring breakdown over the speed, with the shaft voltage."""
+    likely = "likely" if over.level == "yellow" else "expected"
+    return _figure(over, breakdown_panel(over.points, over.curves, over.own, likely=likely))
+
+
+def capacitance_figure(over: OverSpeed) -> Plot:
+    """Capacitance over the speed, with its range from air to oil around the films."""
+    return _figure(over, capacitance_panel(over.points, over.curves, over.own))
+
+
+def _figure(over: OverSpeed, panel: Panel) -> Plot:
+    """Panel with a line at the speed of the bearing itself."""
+    at = over.own[0]
+    own = Upright(f"speed of this case, {rpm_text(at)} rpm", rpm(at), MIDDLE_GREY)
+    return stack(speed_axis(over.curves), [replace(panel, uprights=(*panel.uprights, own))], **_LAYOUT)
+
+
+def speed_rows(over: OverSpeed) -> list[tuple[str, ...]]:
+    """Cells of the table over the speed, a row for each speed."""
+    rows = []
+    for k, (speed, summary) in enumerate(sorted(over.points, key=lambda point: point[0])):
+        first, shaft = (float(over.curves[key][k]) for key in ("first_break", "shaft_voltage"))
+        ratio = first / shaft if math.isfinite(first) and math.isfinite(shaft) else math.nan
+        lambda_ratio = float(over.curves["lambda_ratio"][k])
+        capacitances = (1e12 * float(over.curves[f"capacitance_{key}"][k]) for key in ("air", "oil"))
+        rows.append(
+            (
+                rpm_text(speed),
+                f"{lambda_ratio:.3g}",
+                *(f"{value:.4g}" for value in capacitances),
+                *(f"{value:.4g}" if math.isfinite(value) else "none" for value in (first, shaft, ratio)),
+                _state(lambda_ratio, summary["bearing"]["lubrication"]),
+            )
+        )
+    return rows
+
+
+def _state(lambda_ratio: float, quick: str) -> str:
+    """State of lubrication at a scaled lambda ratio; ``quick`` is that of the quick ratio."""
+    if not math.isfinite(lambda_ratio):
+        return quick
+    if lambda_ratio < CONDUCTING:
+        return "touching" if quick == "touching" else "conducting"
+    return "partial film" if lambda_ratio < PARTIAL else "full film"
+
+
+SPEED_HEADS = (
+    "speed [rpm]",
+    "λ",
+    "C, air [pF]",
+    "C, oil [pF]",
+    "first breakdown [V]",
+    "shaft voltage [V]",
+    "margin",
+    "lubrication",
+)

@@ -1,0 +1,358 @@
+"""Common look of the figures of pages: colours, axes, numbers, and curves in panels that share an axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.figures.data import Along, Area, Curve, Panel, Upright
+from ehlectric.quantities.palette import MIDDLE_GREY, faint
+
+# Maps of colours: film, pressure and field. Plotly has no Plasma of its own.
+FILM_COLOURS, PRESSURE_COLOURS = "Viridis", "Cividis"
+_PLASMA = [
+    "#0d0887",
+    "#46039f",
+    "#7201a8",
+    "#9c179e",
+    "#bd3786",
+    "#d8576b",
+    "#ed7953",
+    "#fb9f3a",
+    "#fdca26",
+    "#f0f921",
+]
+FIELD_COLOURS = [[round(k / 9.0, 4), colour] for k, colour in enumerate(_PLASMA)]
+
+# Lines of the grid and of axes: seen on white and on black.
+_GRID, _LINE = "rgba(128,128,128,0.25)", "rgba(128,128,128,0.7)"
+
+# Colour of texts in figures of three dimensions, which the styles of the page do not reach: readable on
+# white and on black.
+INK = "#808080"
+
+# Text across a figure of a film that did not converge.
+NO_SOLUTION = "NOT CONVERGED<br>do not use these values"
+
+Plot = dict[str, Any]
+Indices = NDArray[np.intp]
+
+
+def plot(data: Iterable[Mapping[str, Any]], *, height: int, converged: bool = True, **layout: Any) -> Plot:
+    """Figure of Plotly with the look of the app.
+
+    Parameters
+    ----------
+    data : iterable of mapping
+        Traces.
+    height : int
+        Height of the figure [px].
+    converged : bool
+        Whether the result converged; if not, words across the figure say so.
+    **layout
+        Further keys of the layout.
+
+    Returns
+    -------
+    dict
+        Data, layout and config. Texts have no colours: the styles of the page give them, in light and dark.
+    """
+    whole: Plot = {
+        "height": height,
+        "margin": {"l": 62, "r": 16, "t": 36, "b": 48},
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)",
+        "font": {"size": 13},
+        "legend": {"orientation": "h", "x": 0.0, "y": 1.02, "yanchor": "bottom"},
+        "hoverlabel": {"font": {"size": 13}},
+        "modebar": {"bgcolor": "rgba(0,0,0,0)"},
+        "uirevision": "same",
+        **layout,
+    }
+    if not converged:
+        whole["annotations"] = [*whole.get("annotations", ()), _across(NO_SOLUTION)]
+    return {"data": [dict(trace) for trace in data], "layout": whole, "config": _CONFIG}
+
+
+_CONFIG: Plot = {
+    "displaylogo": False,
+    "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
+    "toImageButtonOptions": {"format": "svg", "filename": "ehlectric"},
+}
+
+
+def axis(title: str = "", **more: Any) -> Plot:
+    """Axis of a figure; ``title`` has its unit in brackets."""
+    look: Plot = {"gridcolor": _GRID, "zerolinecolor": _LINE, "linecolor": _LINE, "ticks": "outside"}
+    look |= {"tickcolor": _LINE, "automargin": True, "showline": True}
+    return look | ({"title": {"text": title, "standoff": 6}} if title else {}) | more
+
+
+def log_ticks(*, log: bool) -> Plot:
+    """Type of an axis, and ticks of a logarithmic one, whose numbers are written in full."""
+    if not log:
+        return {"type": "linear"}
+    ticks = [digit * 10.0**power for power in range(-6, 10) for digit in (1.0, 2.0, 5.0)]
+    texts = [f"{tick:.12g}" for tick in ticks]
+    return {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": texts}
+
+
+def vertical(at: float, **more: Any) -> Plot:
+    """Dashed line across all panels at a position, such as the edge of the dry contact."""
+    line = {"color": MIDDLE_GREY, "width": 1, "dash": "dash"}
+    return {"type": "line", "x0": at, "x1": at, "yref": "paper", "y0": 0.0, "y1": 1.0, "line": line} | more
+
+
+def values(array: Any, digits: int = 7) -> list[Any]:
+    """Numbers of an array as nested lists, with a number of digits; None where there is none.
+
+    Examples
+    --------
+    >>> values([1.23456789, float("nan"), 0.0], 4)
+    [1.235, None, 0.0]
+    """
+    numbers = np.asarray(array, dtype=float)
+    finite = np.isfinite(numbers)
+    size = np.abs(np.where(finite & (numbers != 0.0), numbers, 1.0))
+    factor = 10.0 ** np.clip(digits - 1 - np.floor(np.log10(size)), -300, 300)
+    rounded = np.where(finite, np.round(np.where(finite, numbers, 0.0) * factor) / factor, 0.0)
+    whole: NDArray[Any] = rounded
+    if not finite.all():
+        whole = rounded.astype(object)
+        whole[~finite] = None
+    found: list[Any] = whole.tolist()
+    return found
+
+
+def thinned(curves: Sequence[Array], most: int) -> Indices:
+    """Indices of nodes along a line, of which every curve keeps its smallest and its largest values.
+
+    Parameters
+    ----------
+    curves : sequence of ndarray, shape (n,)
+        Values over the same nodes.
+    most : int
+        Largest number of intervals; each has up to two nodes of each curve.
+
+    Returns
+    -------
+    ndarray of int
+        Increasing indices, with both ends; all of them where they are few.
+
+    Examples
+    --------
+    >>> wave = np.sin(np.linspace(0.0, 9.0, 10001))
+    >>> kept = thinned([wave], 100)
+    >>> kept.size < 210, bool(np.max(wave[kept]) == np.max(wave))
+    (True, True)
+    """
+    number = curves[0].size
+    if number <= 2 * most:
+        return np.arange(number)
+    edges = np.linspace(0, number, most + 1).astype(int)
+    kept = {0, number - 1}
+    for curve in curves:
+        for first, last in pairwise(edges):
+            part = curve[first:last]
+            kept |= {first + int(np.argmin(part)), first + int(np.argmax(part))}
+    return np.array(sorted(kept))
+
+
+def kept_nodes(number: int, most: int, also: Iterable[int] = ()) -> Indices:
+    """Indices of at most ``most`` nodes of a number, evenly spaced, with both ends and some others.
+
+    Examples
+    --------
+    >>> kept_nodes(17, 6, [3]).tolist()
+    [0, 3, 4, 8, 12, 16]
+    """
+    if number <= most:
+        return np.arange(number)
+    further = sorted(set(also))
+    even = np.round(np.linspace(0, number - 1, max(2, most - len(further)))).astype(int)
+    return np.unique(np.concatenate([even, np.array(further, dtype=int)]))
+
+
+def _across(text: str) -> Plot:
+    place = {"xref": "paper", "yref": "paper", "x": 0.5, "y": 0.5, "showarrow": False}
+    return place | {"text": text, "font": {"size": 26}, "opacity": 0.85, "textangle": -12}
+
+
+# Largest number of pixels along a side of a map that a page receives.
+MOST_PIXELS = 160
+
+
+def coarser(heights: Array, most: int = MOST_PIXELS) -> tuple[Array, tuple[int, int]]:
+    """Map of fewer pixels, each with the value of its block that is farthest from the mean of the map.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny)
+        Map, with NaN where it has no value.
+    most : int
+        Largest number of pixels along each side.
+
+    Returns
+    -------
+    ndarray, shape (mx, my)
+        Pixels. The largest and the smallest value of the map are among them.
+    tuple of int
+        Points along the sides of a block; those at the far ends may be smaller.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> surface = np.zeros((100, 30))
+    >>> surface[71, 11] = -2.0
+    >>> pixels, block = coarser(surface, 50)
+    >>> pixels.shape, block, float(pixels[35, 11])
+    ((50, 30), (2, 1), -2.0)
+    """
+    block = tuple(math.ceil(n / most) for n in heights.shape)
+    shape = tuple(math.ceil(n / size) for n, size in zip(heights.shape, block, strict=True))
+    whole = np.full([n * size for n, size in zip(shape, block, strict=True)], np.nan)
+    whole[: heights.shape[0], : heights.shape[1]] = heights
+    there = np.isfinite(heights)
+    mean = float(np.mean(heights[there])) if np.any(there) else 0.0
+    blocks = whole.reshape(shape[0], block[0], shape[1], block[1]).swapaxes(1, 2).reshape(*shape, -1)
+    away = np.where(np.isfinite(blocks), np.abs(blocks - mean), -1.0)
+    pixels: Array = np.take_along_axis(blocks, np.argmax(away, axis=-1)[..., np.newaxis], axis=-1)[..., 0]
+    return pixels, (block[0], block[1])
+
+
+# Height of a panel, and gap between panels as a part of the height of the figure [px].
+_PANEL, _GAP = 190, 0.05
+
+# Text before the signs of the axes; Plotly numbers axes from the second on. Behind them, those of the hidden
+# axes from 0 to 1 over each panel.
+_AXES, _HIDDEN = ("y", "y2", "y3", "y4"), ("y11", "y12", "y13", "y14")
+
+# Pixels of a line that is a point wide, and largest number of intervals of a curve whose extremes are kept.
+_PIXELS, _INTERVALS = 5.0 / 3.0, 1500
+
+
+def stack(along: Along, panels: Sequence[Panel], *, converged: bool = True, **more: Any) -> Plot:
+    """Figure with at most four panels, in which the pointer shows the values of all of them at one position.
+
+    Of a result that did not converge, all curves are grey, and words across the figure say so; ``more`` are
+    further keys of the layout.
+    """
+    layout: dict[str, Any] = {
+        "xaxis": axis(
+            f"{along.name} [{along.unit}]",
+            anchor=_AXES[len(panels) - 1],
+            unifiedhovertitle={"text": f"{along.name} = %{{x:.5g}} {along.unit}"},
+            **({"range": list(along.window)} if along.window else {}),
+            **log_ticks(log=along.log),
+        ),
+        "hovermode": "x unified",
+        "hoversubplots": "axis",
+        "hoverdistance": 30,
+        "shapes": [vertical(edge, layer="below") for edge in along.edges],
+        "height": _PANEL * len(panels) + 110,
+    }
+    share = (1.0 - _GAP * (len(panels) - 1)) / len(panels)
+    data: list[Plot] = []
+    for number, panel in enumerate(panels):
+        top, name, hidden = 1.0 - number * (share + _GAP), _AXES[number], _HIDDEN[number]
+        domain = {"domain": [max(0.0, top - share), top], "anchor": "x"}
+        ends = {} if panel.log else {"range": [panel.bottom, panel.top]}
+        title = f"{panel.title}{'<br>' if len(panels) > 1 else ' '}[{panel.unit}]"
+        layout["yaxis" + name[1:]] = axis(title, **domain, **ends, **log_ticks(log=panel.log))
+        for area in panel.areas:
+            data += _shaded(area, name, hidden)
+        data += [_trace(curve, panel, name, converged=converged) for curve in panel.curves]
+        data += [_upright(line, hidden) for line in panel.uprights]
+        if panel.areas or panel.uprights:
+            whole = {"overlaying": name, "range": [0.0, 1.0], "visible": False, "fixedrange": True}
+            layout["yaxis" + hidden[1:]] = whole | domain
+    return plot(data, converged=converged, **layout | more)
+
+
+def _trace(curve: Curve, panel: Panel, axis_name: str, *, converged: bool) -> Plot:
+    colour = curve.colour if converged else MIDDLE_GREY
+    kept = thinned([curve.y], _INTERVALS)
+    trace: Plot = {
+        "type": "scatter",
+        "x": values(curve.x[kept]),
+        "y": values(curve.y[kept]),
+        "yaxis": axis_name,
+        "name": curve.name,
+        "showlegend": bool(curve.name),
+    }
+    if curve.marker:
+        marker: Plot = {"color": colour, "size": 6}
+        if curve.marker == "ring":
+            marker = {"color": "rgba(0,0,0,0)", "size": 9, "line": {"color": colour, "width": 2}}
+        if curve.marker == "star":
+            marker |= {"symbol": "star", "size": 15, "line": {"color": "white", "width": 1}}
+        trace |= {"mode": "markers", "marker": marker}
+    else:
+        line = {"color": colour, "dash": curve.dash, "width": _PIXELS * curve.width}
+        trace |= {"mode": "lines", "line": line}
+    # The name of a single mark has its value.
+    if not curve.name or curve.x.size == 1:
+        return trace | {"hoverinfo": "skip"}
+    return trace | {"hovertemplate": f"%{{y:.4g}} {panel.unit}<extra>{curve.name}</extra>"}
+
+
+def _shaded(area: Area, axis_name: str, hidden: str) -> Iterator[Plot]:
+    """Outlines of the spans of an area, filled; the first one is in the legend."""
+    look: Plot = {"fillcolor": faint(area.colour, area.opacity)}
+    if area.hatched:
+        look["fillpattern"] = {"shape": "/", "size": 8, "fgcolor": area.colour, "fgopacity": 0.5}
+        look["fillpattern"]["bgcolor"] = look["fillcolor"]
+    for k, span in enumerate(_spans(area.within)):
+        x = area.x[span]
+        low, high = (np.zeros_like(x), np.ones_like(x)) if area.ends is None else area.ends
+        if area.ends is not None:
+            low, high = low[span], high[span]
+        yield {
+            "type": "scatter",
+            "mode": "lines",
+            "x": values(_around(x, x)),
+            "y": values(_around(low, high)),
+            "yaxis": hidden if area.ends is None else axis_name,
+            "fill": "toself",
+            "line": {"width": 0},
+            "hoverinfo": "skip",
+            "name": area.name,
+            "showlegend": bool(area.name) and k == 0,
+            **look,
+        }
+
+
+def _spans(within: Mask) -> Iterator[slice]:
+    """Nodes of the intervals in which a condition holds."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], within, [False]])))
+    for begin, end in zip(edges[::2], edges[1::2], strict=True):
+        yield slice(int(begin), int(end))
+
+
+def _around(low: Array, high: Array) -> Array:
+    return np.concatenate([low, high[::-1], low[:1]])
+
+
+def _upright(line: Upright, hidden: str) -> Plot:
+    return {
+        "type": "scatter",
+        "mode": "lines",
+        "x": values([line.at] * 2),
+        "y": [0.0, 1.0],
+        "yaxis": hidden,
+        "name": line.name,
+        "line": {"color": line.colour, "width": 2.0, "dash": line.dash},
+        "hoverinfo": "skip",
+    }
+
+
+def names_of(panels: Sequence[Panel]) -> Iterator[str]:
+    """Names of the quantities of panels, for a text that says what a figure shows."""
+    for panel in panels:
+        yield f"{panel.title} in {panel.unit}"

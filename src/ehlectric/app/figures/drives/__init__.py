@@ -1,1 +1,0 @@
-"""Figures of a drive: voltages over time and how long they last, discharges, and remedies."""

@@ -1,0 +1,63 @@
+"""Warnings as the pages tell them: next to the numbers that they concern."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
+
+
+@dataclass(frozen=True)
+class Told:
+    """Warning of a result.
+
+    Attributes
+    ----------
+    code, severity, text : str
+        As of ``ehlectric.errors.ResultWarning``.
+    beside : tuple of str
+        Keys of the quantities that it concerns, of which a page shows it beside those that it has; empty for
+        a warning that concerns the whole result.
+    meaning : str
+        Meaning of the code in one sentence, without numbers.
+    """
+
+    code: str
+    severity: str
+    text: str
+    beside: tuple[str, ...] = ()
+    meaning: str = ""
+
+
+# Order in which warnings are told.
+SEVERITIES = ("severe", "warning", "note")
+
+
+def beside(told: Iterable[Told], number: str) -> tuple[Told, ...]:
+    """Warnings that concern a number."""
+    return tuple(one for one in told if number in one.beside)
+
+
+def within(told: Iterable[Told], keys: Collection[str]) -> tuple[Told, ...]:
+    """Warnings of which each names those quantities alone that a page shows; the others stand in a list."""
+    return tuple(replace(one, beside=tuple(key for key in one.beside if key in keys)) for one in told)
+
+
+def elsewhere(told: Iterable[Told]) -> tuple[Told, ...]:
+    """Warnings that concern no single number, which a list below the numbers tells."""
+    return tuple(one for one in told if not one.beside)
+
+
+def counts(told: Iterable[Told]) -> str:
+    """Numbers of warnings by their severity.
+
+    Examples
+    --------
+    >>> counts([Told("partial-film", "warning", "thin"), Told("speed-high", "warning", "fast")])
+    '2 warnings'
+    >>> counts([])
+    'no warnings'
+    """
+    severities = [one.severity for one in told]
+    names = {"severe": "severe warning", "warning": "warning", "note": "note"}
+    found = [(severities.count(one), names[one]) for one in SEVERITIES if one in severities]
+    return ", ".join(f"{n} {name}{'' if n == 1 else 's'}" for n, name in found) or "no warnings"

@@ -1,0 +1,409 @@
+"""Page of two cases side by side: what differs, and the effect on every result."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from html import escape
+from typing import Any, Literal
+
+from fastapi import Request
+from nicegui import ui
+
+from ehlectric.app.answers import (
+    Effect,
+    InputRow,
+    Result,
+    Side,
+    effects,
+    file_title,
+    in_both,
+    input_rows,
+    only_in,
+)
+from ehlectric.app.calls import COMPARE_SIDE, COMPARE_WHOLE_SIDE, Call
+from ehlectric.app.fields import Group
+from ehlectric.app.figures import compare_charts as figures
+from ehlectric.app.following import Following
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages import page_parts
+from ehlectric.app.pages.form import Form, groups_for
+from ehlectric.app.pages.frame import (
+    BEARING,
+    PAGE_PATIENCE,
+    PATHS,
+    Toolbar,
+    address_of,
+    framed,
+    session_of,
+    show_address,
+)
+from ehlectric.app.session import Session
+from ehlectric.app.work import ReplacedError, Work
+from ehlectric.errors import InputError, LostError
+
+# Words of the signs of inputs, for readers who cannot see that a row is marked.
+_SIGNS = {"=": "equal", "≠": "≠ differs", "only A": "only in A", "only B": "only in B"}
+
+
+def inputs_table(rows: Sequence[InputRow], labels: Mapping[str, str]) -> str:
+    """Table of the inputs that differ, and of all others in a part that can be opened.
+
+    Parameters
+    ----------
+    rows : sequence of InputRow
+        Inputs of both cases.
+    labels : mapping of str to str
+        Names of the inputs by key.
+    """
+    differ = [row for row in rows if row.sign != "="]
+    equal = [row for row in rows if row.sign == "="]
+    first = (
+        "<p>Both cases have the same inputs.</p>" if not differ else _inputs(differ, labels, "inputs-differ")
+    )
+    return f"{first}{_details(f'{len(equal)} inputs that are equal', _inputs(equal, labels, 'inputs-equal'))}"
+
+
+def effects_table(effects: Sequence[Effect]) -> str:
+    """Table of the results that decide, and of all others in a part that can be opened."""
+    main = [effect for effect in effects if effect.either.main]
+    others = [effect for effect in effects if not effect.either.main]
+    return _effects(main) + _details(f"{len(others)} further results", _effects(others))
+
+
+def _inputs(rows: Iterable[InputRow], labels: Mapping[str, str], test: str) -> str:
+    body = ""
+    for row in rows:
+        own = _quoted(f"input-{row.key.replace('.', '-')}")
+        body += (
+            f"<tr{' class=differs' if row.sign != '=' else ''} data-testid={own}>"
+            f"<th scope=row>{_named(labels.get(row.key, ''), row.key)}</th>"
+            f"<td>{escape(row.first) or '–'}</td><td>{escape(row.second) or '–'}</td>"
+            f"<td>{_SIGNS[row.sign]}</td></tr>"
+        )
+    return _table(("input", "A", "B", "A and B"), body, test)
+
+
+def _effects(effects: Iterable[Effect]) -> str:
+    body, group = "", None
+    for effect in effects:
+        either = effect.either
+        if either.group != group:
+            group = either.group
+            body += f"<tr class=grouped><th colspan=4 scope=rowgroup>{escape(group)}</th></tr>"
+        test = f"effect-{file_title(either.name)}"
+        differs = "" if effect.words == "no change" else " class=differs"
+        body += (
+            f"<tr{differs} data-testid={_quoted(test)}><th scope=row>{escape(either.name)}</th>"
+            f"{_cell(effect.first)}{_cell(effect.second)}<td>{escape(effect.words)}</td></tr>"
+        )
+    return _table(("result", "A", "B", "from A to B"), body, "effects")
+
+
+def _cell(result: Result | None) -> str:
+    if result is None:
+        return "<td>–</td>"
+    note = f"<span class=note>{escape(result.note)}</span>" if result.note else ""
+    return f"<td>{escape(result.shown)}{note}</td>"
+
+
+def _named(label: str, key: str) -> str:
+    """Name of an input with its key beneath."""
+    return f"{escape(label)}<span class=note>{escape(key)}</span>" if label else escape(key)
+
+
+def _table(heads: Iterable[str], body: str, test: str) -> str:
+    head = "".join(f"<th scope=col>{head}</th>" for head in heads)
+    words = test.replace("-", " ")
+    return (
+        f'<div class=scroll tabindex=0 role=region aria-label="{words}"><table data-testid={test}>'
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
+    )
+
+
+def _details(words: str, inner: str) -> str:
+    return f"<details><summary>{words}</summary>{inner}</details>"
+
+
+def _quoted(text: str) -> str:
+    return f'"{escape(text, quote=True)}"'
+
+
+_PATH = "/compare"
+Name = Literal["a", "b"]
+Sides = tuple[Side | Exception, Side | Exception]
+_NAMES: tuple[Name, Name] = ("a", "b")
+
+# Two cases with which the page begins: a bearing at two speeds.
+_START = Inputs(
+    {"a": dict(BEARING.table), "b": dict(BEARING.changed({"bearing.inner_speed": "1000 rpm"}).table)}
+)
+
+# Time for which the page waits for its first answer before it is sent without one [s].
+_FIRST = 1.0
+
+# Number of answers that are kept.
+_KEPT = 20
+
+_LATE = "contacts not solved; the critical speeds took too long and are left out"
+_EARLIER = "A case has no answer: the effects below, if any, are those of earlier inputs."
+_NOTHING = "<p>The effects stand here when both cases have an answer.</p>"
+
+
+def add(work: Work) -> None:
+    """Add the page to the server."""
+
+    @ui.page(_PATH, response_timeout=PAGE_PATIENCE)
+    async def page(request: Request) -> None:
+        inputs, error = Inputs.of_link(request.query_params.multi_items(), _START)
+        given = [isinstance(inputs.value(name), Mapping) for name in _NAMES]
+        if not all(given):
+            # A link with one case compares it with itself.
+            one = next((inputs.value(name) for name, there in zip(_NAMES, given, strict=True) if there), None)
+            inputs = Inputs({"a": one, "b": one}) if one else _START
+        page = ComparePage(session_of(work, inputs))
+        ui.context.client.on_delete(page.close)
+        with framed("Two cases side by side", _PATH):
+            page.build(error)
+        # The first answer comes with the page, unless the processes are still starting.
+        await asyncio.wait([page.refresh()], timeout=_FIRST)
+
+
+class ComparePage:
+    """Page of one tab; its inputs have one case in the table ``a`` and one in ``b``."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self._forms: dict[Name, Form] = {}
+        self._groups: dict[Name, Sequence[Group]] = {}
+        self._quick: Sides | None = None
+        # Answers by call and case: of two cases, one is mostly as before.
+        self._known: dict[tuple[str, str], Side] = {}
+        self._following: Following[Inputs, Sides] = Following(
+            self._at_once,
+            self._whole,
+            show=self._show,
+            passing=self._show,
+            refuse=self._refuse,
+            behind=session.work.behind,
+        )
+
+    def case(self, name: Name) -> Inputs:
+        """Inputs of one of both cases."""
+        return Inputs(self.session.inputs.value(name) or {})
+
+    def build(self, error: InputError | None) -> None:
+        """Build the forms and the places of the answers."""
+        self.toolbar = Toolbar(self.session, _PATH, self.show, opens=False)
+        if error is not None:
+            ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
+        with ui.element("div").classes("toolbar").props('role="toolbar" aria-label="Both cases"'):
+            for words, test, first, second in (
+                ("Swap A and B", "swap", "b", "a"),
+                ("Take B as A", "b-as-a", "b", "b"),
+                ("Take A as B", "a-as-b", "a", "a"),
+            ):
+                button = ui.button(words, on_click=lambda one=first, two=second: self._take(one, two))
+                button.props(f'outline no-caps dense data-testid="{test}"')
+        with ui.element("div").classes("sides"):
+            self._verdicts = {name: self._side(name) for name in _NAMES}
+        self._notice = ui.label(_EARLIER).classes("wrong notice").props('role="status" data-testid="notice"')
+        self._notice.set_visibility(False)
+        with ui.element("div").props('data-testid="compared"'):
+            # The effects stand above the forms, so that a form that is opened does not push them away.
+            self._answers = [ui.element("div").classes("compared")]
+            with ui.element("div").classes("sides changing"):
+                self._places = {name: self._inputs_of(name) for name in _NAMES}
+            self._answers.append(ui.element("div").classes("compared"))
+        self._build_answer()
+        self._set_forms()
+
+    def _side(self, name: Name) -> ui.element:
+        """Place of the verdict of a case."""
+        number = "first" if name == "a" else "second"
+        with ui.element("section").classes(f"side {number}").props(f'data-testid="side-{name}"'):
+            page_parts.heading(f"Case {name.upper()}", 2)
+            return ui.element("div").props('aria-live="polite"')
+
+    def _inputs_of(self, name: Name) -> ui.expansion:
+        """Place of the form of a case, which is opened where an input is wrong."""
+        number = "first" if name == "a" else "second"
+        with ui.element("section").classes(f"side {number}").props(f'data-testid="form-{name}"'):
+            form = ui.expansion(f"Change the inputs of {name.upper()}").props(f'data-testid="inputs-{name}"')
+            return form.classes("inputs")
+
+    def _build_answer(self) -> None:
+        first, second = self._answers
+        with first, page_parts.card("Effect on the results"):
+            self._method = ui.label()
+            self._effects = ui.html(_NOTHING, sanitize=False)
+        with second:
+            self._build_details()
+
+    def _build_details(self) -> None:
+        with ui.element("div").classes("figures") as self._figures:
+            with page_parts.card("Change of the main results"):
+                self._changes = page_parts.figure(
+                    figures.changes([]),
+                    "Changes of the results from A to B in percent, as in the table",
+                )
+            with page_parts.card("Minimum film of the elements [µm]") as self._films_card:
+                self._films = page_parts.figure(
+                    figures.films([]), "Minimum film over the position of the elements"
+                )
+        self._figures.set_visibility(False)
+        with page_parts.card("Inputs"):
+            self._inputs = ui.html("", sanitize=False)
+        with page_parts.card("Warnings"):
+            self._warnings = ui.element("div")
+
+    def _set_forms(self) -> None:
+        """Show the present inputs in the forms, which are made anew where a case needs another one."""
+        for name in _NAMES:
+            case = self.case(name)
+            if self._groups.get(name) is groups_for(case):
+                self._forms[name].set(case)
+                continue
+            self._groups[name] = groups_for(case)
+            place = self._places[name]
+            place.clear()
+            with place:
+                words = f"Inputs of {name.upper()}"
+                self._forms[name] = Form(self._groups[name], case, self._change(name), label=words)
+
+    def _change(self, name: Name) -> Any:
+        async def change(key: str, value: Any) -> None:
+            case = self.case(name).changed({key: value})
+            self._push({**self.session.inputs.table, name: dict(case.table)})
+
+        return change
+
+    def _take(self, first: Name, second: Name) -> None:
+        """Take other cases as A and B."""
+        self._push({"a": dict(self.case(first).table), "b": dict(self.case(second).table)})
+        self._set_forms()
+
+    def _push(self, table: Mapping[str, Any]) -> None:
+        self.session.history.push(Inputs(table))
+        if self.session.inputs.linkable:
+            show_address(self.session.inputs, _PATH)
+        self.refresh()
+
+    def show(self) -> None:
+        """Show inputs that have changed in another way than by the forms."""
+        self._set_forms()
+        self.refresh()
+
+    def refresh(self) -> asyncio.Task[None]:
+        """Answer both cases at once, and then with their critical speeds.
+
+        Returns
+        -------
+        asyncio.Task
+            Ends with the answers at once.
+        """
+        for one in self._answers:
+            one.classes(add="old")
+        return self._following.ask(self.session.inputs)
+
+    def close(self) -> None:
+        """Want no further answers."""
+        self._following.drop()
+
+    async def _at_once(self, inputs: Inputs) -> Sides:
+        first, second = await asyncio.gather(*(self._ask(COMPARE_SIDE, inputs, name) for name in _NAMES))
+        self._quick = (first, second)
+        return first, second
+
+    async def _whole(self, inputs: Inputs) -> Sides:
+        """Answers with the critical speeds, one after the other: others need the processes, too."""
+        found: list[Side | Exception] = []
+        for name, quick in zip(_NAMES, self._quick or (None, None), strict=True):
+            if inputs != self.session.inputs:
+                raise ReplacedError("the inputs have changed")
+            answer = await self._ask(COMPARE_WHOLE_SIDE, inputs, name)
+            late = isinstance(answer, LostError) and isinstance(quick, Side)
+            found.append(replace(quick, method=_LATE) if late and isinstance(quick, Side) else answer)
+        return found[0], found[1]
+
+    def _refuse(self, error: Exception) -> None:
+        """Say what is wrong with both cases together; that of each stands beside it."""
+        self._notice.text = str(error)
+        self._notice.set_visibility(True)
+
+    def _show(self, inputs: Inputs, found: Sides) -> None:
+        """Show the answers, and their differences where there are two."""
+        for name, answer in zip(_NAMES, found, strict=True):
+            self._show_side(name, answer)
+        first, second = found
+        both = isinstance(first, Side) and isinstance(second, Side)
+        self._notice.text = _EARLIER
+        self._notice.set_visibility(not both)
+        if isinstance(first, Side) and isinstance(second, Side):
+            self._show_both(inputs, first, second)
+
+    async def _ask(self, call: Call[Side], inputs: Inputs, name: Name) -> Side | Exception:
+        """Answer about one case, or its error."""
+        table = dict(inputs.value(name) or {})
+        known = (call.name, repr(table))
+        if known in self._known:
+            return self._known[known]
+        try:
+            answer = await self.session.work.quick(call, table, self.session.folder)
+        except (InputError, LostError) as error:
+            return error
+        self._known[known] = answer
+        while len(self._known) > _KEPT:
+            del self._known[next(iter(self._known))]
+        return answer
+
+    def _show_side(self, name: Name, answer: Side | Exception) -> None:
+        place = self._verdicts[name]
+        self._forms[name].tell(answer if isinstance(answer, Exception) else None)
+        place.clear()
+        with place:
+            if isinstance(answer, Exception):
+                self._places[name].open()
+                page_parts.light("grey", f"No answer: {answer}")
+                return
+            ui.label(answer.title or "no title").props(f'data-testid="title-{name}"')
+            with ui.element("div").props(f'data-testid="verdict-{name}"'):
+                page_parts.light(answer.level, answer.text)
+            path = PATHS["bearing" if answer.kind == "bearing" else "contact"]
+            ui.link("Open this case alone", address_of(path, self.case(name)))
+
+    def _show_both(self, inputs: Inputs, first: Side, second: Side) -> None:
+        """Show the differences of two answers."""
+        found = effects(first, second)
+        cases = [Inputs(inputs.value(name) or {}) for name in _NAMES]
+        methods = dict.fromkeys((first.method, second.method))
+        self._method.text = "; ".join(methods)
+        self._effects.content = effects_table(found)
+        self._inputs.content = inputs_table(input_rows(cases[0].table, cases[1].table), _labels(cases))
+        self._draw([effect for effect in found if effect.either.main], (first, second))
+        self._warnings.clear()
+        with self._warnings:
+            for words, told in (
+                ("Only A", list(only_in(first, second))),
+                ("Only B", list(only_in(second, first))),
+                ("Both, in the words of A", list(in_both(first, second))),
+            ):
+                page_parts.heading(f"{words}: {len(told) or 'none'}", 3)
+                page_parts.warnings(told)
+        for one in self._answers:
+            one.classes(remove="old")
+
+    def _draw(self, main: Sequence[Effect], sides: tuple[Side, Side]) -> None:
+        self._figures.set_visibility(True)
+        self._changes.update_figure(figures.changes(main))
+        both = all(side.films for side in sides)
+        self._films_card.set_visibility(both)
+        if both:
+            self._films.update_figure(figures.films(sides))
+
+
+def _labels(sides: Iterable[Inputs]) -> dict[str, str]:
+    """Names of the inputs of cases by their keys."""
+    groups = (group for case in sides for group in groups_for(case))
+    return {field.key: field.label for group in groups for field in group.fields}

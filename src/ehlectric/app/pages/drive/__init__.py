@@ -1,1 +1,0 @@
-"""Page of a drive: its form, its first answer, its simulation, and its remedies."""

@@ -1,0 +1,74 @@
+"""Field for a file: an ordinary field of the browser, so that a keyboard and a screen reader can use it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from nicegui import events, ui
+
+from ehlectric.app.pages.page_parts import weakly
+from ehlectric.app.session import ENDINGS, LARGEST, shown_name
+
+# Sends the chosen file to the address of the uploader, and tells the page what became of it.
+_SEND = """async (event) => {
+  const field = event.target, file = field.files[0];
+  if (!file) return;
+  if (file.size > %(largest)d) { emit({name: file.name, size: file.size}); field.value = ""; return; }
+  const form = new FormData();
+  form.append("file", file, file.name);
+  emit({name: file.name, status: 0});
+  try {
+    const answer = await fetch(%(address)s, {method: "POST", body: form});
+    if (!answer.ok) emit({name: file.name, status: answer.status});
+  } catch (error) { emit({name: file.name, status: -1}); }
+  field.value = "";
+}"""
+
+
+class UploadField:
+    """Field for the file of an instrument.
+
+    Parameters
+    ----------
+    take : callable
+        Method of an object of the page, called with the event of NiceGUI that has the uploaded file.
+    refuse : callable
+        Called with a line that says why a file is not taken.
+    name : str
+        Name for tests and for the element of its error, "surface" or another one of the page.
+    label : str
+        Label of the field; that of a surface if not given.
+    """
+
+    def __init__(
+        self,
+        take: Callable[[events.UploadEventArguments], Awaitable[None]],
+        refuse: Callable[[str], None],
+        *,
+        name: str = "surface",
+        label: str = "",
+    ) -> None:
+        self._refuse = refuse
+        uploader = ui.upload(on_upload=weakly(take), max_file_size=LARGEST).style("display: none")
+        send = _SEND % {"largest": LARGEST, "address": json.dumps(uploader.props["url"])}
+        with ui.element("div").classes("key upload"):
+            words = f"File of an instrument: {', '.join(ENDINGS)} and others, at most {LARGEST / 1e6:g} MB"
+            ui.html(label or words, sanitize=False, tag="label").props(f'for="{name}-file"')
+            field = ui.element("input").props(f'type="file" id="{name}-file" data-testid="upload-{name}"')
+            field.props["aria-describedby"] = "roughness-error" if name == "surface" else f"{name}-error"
+            field.props["accept"] = ",".join((*ENDINGS, "*/*"))
+            field.on("change", self._told, js_handler=send)
+            self._state = ui.label().classes("muted").props('aria-live="polite"')
+
+    def _told(self, event: Any) -> None:
+        told = event.args
+        name, status = shown_name(str(told.get("name", ""))), told.get("status")
+        if status is None:
+            size = float(told.get("size", 0)) / 1e6
+            self._refuse(f"{name}: has {size:.4g} MB; expected at most {LARGEST / 1e6:g} MB")
+        elif status == 0:
+            self._state.text = f"Reading {name}"
+        else:
+            self._refuse(f"{name}: could not be sent to the server; try again")

@@ -1,0 +1,254 @@
+"""Box of moving roughness: a run in the background, and its film, pressure and field as a movie."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Awaitable, Callable, Mapping
+from html import escape
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from nicegui import ui
+
+from ehlectric.app.answers import MotionAnswer
+from ehlectric.app.calls import MOTION_RUN, MOTION_STORED
+from ehlectric.app.pages.frame import start
+from ehlectric.app.pages.page_parts import JobBox, figure, heading, warnings
+from ehlectric.app.pages.roughness_box import Keys
+from ehlectric.app.roughness_keys import RoughKey
+from ehlectric.app.session import Session
+from ehlectric.app.work import Job
+from ehlectric.errors import InputError, LostError
+
+Changed = Callable[[], Awaitable[None] | None]
+
+_KEYS = (
+    RoughKey("passes", "Lengths of the domain travelled at the mean speed", "1.5", number=True),
+    RoughKey("duration", "Or the duration of the motion", "0.5 ms"),
+    RoughKey("steps", "Time steps (empty: from the grid)", "2400", number=True),
+    RoughKey("record", "Recorded instants", "200", number=True),
+)
+
+# Motion with which the page begins: that of the example, with fewer instants, at each of which a field is
+# solved.
+_FIRST = {**start("moving_roughness").value("motion"), "record": 60}
+
+
+class MovieBox:
+    """Box in which the roughness of a contact is set in motion and shown over time.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab.
+    changed : callable, optional
+        Called after the inputs of the session have another table ``motion``.
+
+    Attributes
+    ----------
+    folder : Path or None
+        Folder with the files of the movie, if it is complete and of the present inputs.
+    """
+
+    def __init__(self, session: Session, changed: Changed | None = None) -> None:
+        self._session, self._changed = session, changed
+        self._of: Mapping[str, Any] | None = None
+        self._folder: Path | None = None
+        self._told = ""
+        self._keys: Keys | None = None
+        self._on = False
+        with ui.element("div").classes("box").props('data-testid="motion"'):
+            self._switch = ui.switch("Moving roughness", on_change=self._switched)
+            self._switch.props('data-testid="switch-motion"')
+            self._inputs = ui.element("div").classes("box")
+            self._message = ui.label().classes("error").props('role="alert" data-testid="error-motion"')
+            with ui.element("div").classes("buttons"):
+                self._run = ui.button("Compute the movie", on_click=self._start, color=None)
+                self._run.classes("primary").props('flat no-caps data-testid="solve-motion"')
+            self._job = JobBox(self._ended)
+            self._state = ui.label().classes("muted").props('aria-live="polite" data-testid="motion-state"')
+            self._view = ui.element("div").classes("box").props('data-testid="movie"')
+        self._tell(None)
+        self.refresh()
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder with the files of the movie; see the attributes."""
+        return self._folder if self._of == self._session.inputs.table else None
+
+    def show_switch(self) -> None:
+        """Bring the switch into view with the focus, after its card has changed its place."""
+        found = f'document.getElementById("{self._switch.html_id}")'
+        shown = f"{found}?.scrollIntoView({{block: 'center'}}); {found}?.focus();"
+        ui.run_javascript(f"setTimeout(() => {{{shown}}}, 100)")
+
+    def refresh(self) -> None:
+        """Show the present inputs; a movie of other inputs is dimmed, and words say so."""
+        table = self._session.inputs.value("motion")
+        on = isinstance(table, Mapping)
+        if on != self._on or self._keys is None or not on:
+            self._build(table if on else None)
+        self._on = on
+        self._switch.set_value(on)
+        self._run.set_visibility(on)
+        old = self._of is not None and self._of != self._session.inputs.table
+        self._view.classes(add="old" if old else None, remove=None if old else "old")
+        if old:
+            self._state.text = "This movie is of earlier inputs. Compute it again for the present ones."
+        elif self._of is None:
+            self._state.text = "No movie yet." if on else ""
+        else:
+            self._state.text = self._told
+
+    def _build(self, table: Mapping[str, Any] | None) -> None:
+        self._inputs.clear()
+        with self._inputs:
+            if table is None:
+                self._keys = None
+                ui.label(
+                    "Rough surfaces pass through the contact at the speeds of their bodies, and the film "
+                    "follows over time. It needs a rough surface."
+                ).classes("hint")
+                return
+            self._keys = Keys("motion", _KEYS, table, self._set)
+            ui.label("The values at first are those of an example: assumptions.").classes("hint")
+
+    async def _switched(self, event: Any) -> None:
+        on = bool(event.value)
+        if on == isinstance(self._session.inputs.value("motion"), Mapping):
+            return
+        await self._give(_FIRST if on else None)
+
+    async def _set(self, key: str, value: Any) -> None:
+        table = {**(self._session.inputs.value("motion") or {}), key: value}
+        if value is not None and key in ("passes", "duration"):
+            table.pop("duration" if key == "passes" else "passes", None)
+        given = {name: entry for name, entry in table.items() if entry is not None}
+        self._keys = None
+        await self._give(given)
+
+    async def _give(self, table: Mapping[str, Any] | None) -> None:
+        self._session.history.push(self._session.inputs.changed({"motion": table}))
+        self._tell(None)
+        self.refresh()
+        waiting = self._changed() if self._changed is not None else None
+        if waiting is not None:
+            await waiting
+
+    def _start(self) -> None:
+        self._tell(None)
+        self._running = dict(self._session.inputs.table)
+        try:
+            job = self._session.start(MOTION_RUN, self._running, str(self._session.folder))
+        except LostError as error:
+            self._tell(error)
+            return
+        self._run.disable()
+        self._job.show(job)
+
+    async def _ended(self, job: Job) -> None:
+        self._run.enable()
+        if job.state == "done":
+            self._show(job.result, "")
+            return
+        if job.error is not None and self._running == self._session.inputs.table:
+            self._tell(job.error)
+        await self._show_part("cancelled" if job.state == "cancelled" else str(job.error))
+
+    async def _show_part(self, why: str) -> None:
+        """Show the instants that were solved before a run ended."""
+        self._state.text = "Reading the instants that are solved."
+        try:
+            answer = await self._session.work.quick(MOTION_STORED, self._running, str(self._session.folder))
+        except (InputError, LostError) as error:
+            # The error of the run itself is told already.
+            if why == "cancelled" and self._running == self._session.inputs.table:
+                self._tell(error)
+            answer = None
+        if answer is not None:
+            self._show(answer, why)
+        else:
+            newer = self._running != self._session.inputs.table
+            self._state.text = (
+                f"Earlier inputs ({why}): no instant is solved." if newer else "No instant is solved."
+            )
+
+    def _show(self, answer: MotionAnswer, why: str) -> None:
+        self._of = self._running
+        self._folder = Path(answer.folder) if answer.complete else None
+        self._told = _state(answer, why)
+        failed = None if answer.complete else "failed"
+        self._state.classes(add=failed, remove=None if failed else "failed")
+        self._view.clear()
+        self._view.classes(remove="old")
+        with self._view:
+            _movie(answer)
+        self.refresh()
+
+    def _tell(self, error: Exception | None) -> None:
+        beside = self._keys is not None and self._keys.tell(error)
+        self._message.text = "" if error is None or beside else str(error)
+        self._message.set_visibility(bool(self._message.text))
+
+
+def _state(answer: MotionAnswer, why: str) -> str:
+    shown = len(answer.times)
+    count = f"{shown} instants" if shown == answer.of else f"{shown} of {answer.of} recorded instants"
+    if answer.complete:
+        return f"All time steps are solved; {count}."
+    reason = answer.failure or why or "stopped"
+    last = answer.texts[-1].split(":")[0]
+    return f"Not complete ({reason}): {count} until {last}. Later instants are not known."
+
+
+def _movie(answer: MotionAnswer) -> None:
+    """Slider, figures and tables of a movie."""
+    with ui.element("div").classes("movie-bar"):
+        play = ui.html("Play", sanitize=False, tag="button")
+        play.props('type="button" class="q-btn movie-play" aria-pressed="false" data-testid="movie-play"')
+        slider = ui.element("input").props(
+            f'type="range" min="0" max="{len(answer.times) - 1}" step="1" aria-label="Instant of the movie" '
+            'data-testid="movie-slider"'
+        )
+    text = ui.html("", sanitize=False).classes("movie-text").props('data-testid="movie-text"')
+    with ui.element("div").classes("buttons"):
+        for label, instant in (
+            ("Thinnest film", answer.at_least_film),
+            ("Largest field", answer.at_largest_field),
+        ):
+            go = f'() => document.getElementById("{slider.html_id}")'
+            go += f'.dispatchEvent(new CustomEvent("instant", {{detail: {instant}}}))'
+            ui.button(label, color=None).props("flat no-caps").on("click", js_handler=go)
+    movie = figure(answer.movie, f"Film, pressure and field of {answer.title} at one instant")
+    heading("Over time", 3)
+    ui.label(
+        "A click sets the time. Dots: instants at which the field is solved; between them it follows from "
+        "the minimum film. Dashed: the same roughness held stationary."
+    ).classes("hint")
+    history = figure(answer.history, "Minimum film, maximum field and breakdown voltage over time")
+    warnings(answer.warnings)
+    with ui.expansion("Numbers of the run").props('data-testid="motion-numbers"'):
+        ui.html(_table(answer), sanitize=False, tag="table")
+    values = {
+        "movie": movie.html_id,
+        "history": history.html_id,
+        "slider": slider.html_id,
+        "text": text.html_id,
+        "play": play.html_id,
+        "times": answer.times,
+        "texts": answer.texts,
+        "first": answer.at_least_film,
+    }
+    script = resources.files("ehlectric.app").joinpath("static/movie.js").read_text(encoding="utf-8")
+    ui.run_javascript(f"{script}({json.dumps(values)})")
+
+
+def _table(answer: MotionAnswer) -> str:
+    rows = "".join(
+        f'<tr><th scope="row">{escape(name)}</th><td>{escape(value)}</td></tr>'
+        if value
+        else f'<tr><th scope="rowgroup" colspan="2">{escape(name)}</th></tr>'
+        for name, value in answer.rows
+    )
+    return f"<tbody>{rows}</tbody>"

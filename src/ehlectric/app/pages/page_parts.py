@@ -1,0 +1,288 @@
+"""Parts of the pages: headings, cards, numbers with their warnings, the traffic light, and figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from html import escape
+from time import monotonic
+from typing import TYPE_CHECKING, Any, cast
+from weakref import WeakMethod
+
+from nicegui import ui
+from nicegui.element import Element
+
+from ehlectric.app.answers import Line
+from ehlectric.app.page_warnings import Told
+from ehlectric.app.work import Job, Remaining
+from ehlectric.errors import SEVERITY_WORDS
+from ehlectric.report.light import Light, light_of
+
+if TYPE_CHECKING:
+    from ehlectric.discharge.film_verdict import Level
+
+
+def weakly(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """Function that calls a method for as long as its object lives.
+
+    The framework keeps the routes of uploads, and with them what they call, for long after the page has
+    ended. With this function it does not keep the page, too.
+
+    Parameters
+    ----------
+    method : bound method
+        Method of an object that the page keeps, with one argument.
+
+    Examples
+    --------
+    >>> class Page:
+    ...     def told(self, text):
+    ...         return text.upper()
+    >>> page = Page()
+    >>> told = weakly(page.told)
+    >>> told("a file")
+    'A FILE'
+    >>> del page
+    >>> told("another") is None
+    True
+    """
+    reference = WeakMethod(method)
+
+    def call(argument: Any) -> Any:
+        bound = reference()
+        return None if bound is None else bound(argument)
+
+    return call
+
+
+# Time for which a short message is shown [s].
+_BRIEF = 8.0
+
+
+def brief(label: ui.label, text: str) -> None:
+    """Show a short message in a label for a while; an empty text takes it away."""
+    label.text = text
+    label.set_visibility(bool(text))
+    if not text:
+        return
+
+    def over() -> None:
+        if label.text == text:
+            label.set_visibility(False)
+
+    with label:
+        ui.timer(_BRIEF, over, once=True)
+
+
+class _Shown(Element):
+    """Element that sends to the browser only what changed."""
+
+    def show(self, **props: Any) -> None:
+        """Show other properties; nothing is sent where they are the present ones."""
+        changed = {name: value for name, value in props.items() if self.props.get(name) != value}
+        if changed:
+            self.props.update(changed)
+            self.update()
+
+    def turn(self, **props: Any) -> None:
+        """Show properties again, also where only the browser has others."""
+        self.show(turn=int(self.props.get("turn", 0)) + 1, **props)
+
+
+class Control(_Shown, component="../static/control.js"):
+    """Field of a form.
+
+    It emits ``commit`` with a text that was typed or chosen, and ``slide`` with a place from 0 to 1.
+    """
+
+    def __init__(self, key: str, **props: Any) -> None:
+        super().__init__()
+        self.props.update(testid=key.replace(".", "-"), **{"box-id": f"box{self.id}"}, **props)
+
+
+class GroupBox(_Shown, component="../static/group.js"):
+    """Group of fields that opens and closes; it emits ``switch``."""
+
+    def __init__(self, name: str, **props: Any) -> None:
+        super().__init__()
+        self.props.update(testid=name.lower().replace(" ", "-"), **props)
+
+
+class ThemeButton(Element, component="../static/theme.js"):
+    """Button for light, dark, or the colours of the system."""
+
+
+# Signs of the levels, and words of the bounds.
+_SIGNS = {"green": "✓", "yellow": "!", "red": "✕", "grey": "?"}
+_BOUNDS = {"≤": "upper bound", "≥": "lower bound"}
+
+
+def heading(text: str, level: int) -> None:
+    """Heading of a level from 1 to 6."""
+    with ui.element(f"h{level}"):
+        ui.html(escape(text), sanitize=False, tag="span")
+
+
+@contextmanager
+def card(title: str) -> Iterator[ui.element]:
+    """Context of a section with a heading of level 2."""
+    with ui.element("section").classes("card") as section:
+        heading(title, 2)
+        yield section
+
+
+_TO_ANSWER = "() => document.querySelector('.answer')?.scrollIntoView({ block: 'start' })"
+
+
+class Strip:
+    """Short answer that stays at the top of a narrow screen while inputs change; build it in the page itself.
+
+    A screen reader has the answer itself, so that it does not read this one; the button leads to it.
+    """
+
+    def __init__(self) -> None:
+        with ui.element("div").classes("strip grey").props('data-testid="strip"') as self._box:
+            self._word = ui.label().classes("word").props('aria-hidden="true"')
+            self._numbers = ui.label().props('aria-hidden="true"')
+            button = ui.element("button").classes("to-answer").props('type="button" data-testid="to-answer"')
+            button.on("click", js_handler=_TO_ANSWER)
+            with button:
+                ui.html("Answer", sanitize=False, tag="span")
+
+    def show(self, level: str, word: str, numbers: Iterable[str] = (), *, bound: str = "") -> None:
+        """Show the level of a verdict, its word and bound, and a few numbers such as "margin ≤ 1.46"."""
+        self._box.classes(replace=f"strip {level}")
+        self._word.text = f"{_SIGNS[level]} {word}"
+        self._numbers.text = " · ".join(filter(None, [bound, *numbers]))
+
+    def dim(self, *, dimmed: bool) -> None:
+        """Dim the answer while it is that of earlier inputs."""
+        self._box.classes(add="old" if dimmed else "", remove="" if dimmed else "old")
+
+
+def number(
+    label: str,
+    text: str,
+    unit: str = "",
+    *,
+    bound: str = "",
+    warnings: Iterable[Told] = (),
+    testid: str = "",
+    note: str = "",
+) -> None:
+    """Number with its name, its unit and the warnings that concern it.
+
+    ``bound`` is "≤" or "≥" where the number is a bound only. ``note`` is a short remark, such as by how much
+    a formula differs.
+    """
+    told = tuple(warnings)
+    worst = next((level for level in ("severe", "warning") if any(one.severity == level for one in told)), "")
+    with ui.element("div").classes(f"number {worst}").props(f'data-testid="{testid}"'):
+        ui.label(label).classes("label")
+        with ui.element("div").classes("value"):
+            ui.label(" ".join(filter(None, [bound, text]))).classes("digits")
+            if unit:
+                ui.label(unit).classes("unit")
+        if bound:
+            ui.label(_BOUNDS.get(bound, "bound")).classes("bound")
+        if note:
+            ui.label(note).classes("remark")
+        for one in told:
+            ui.label(one.text).classes(f"told {one.severity}")
+
+
+def light_shown(level: str, text: str) -> Light:
+    """Traffic light of a verdict, with the words that pages and reports show."""
+    return light_of(cast("Level", level), text)
+
+
+def light(level: str, text: str, *, testid: str = "verdict") -> None:
+    """Traffic light of a verdict, with its heading, its bound and its sentences."""
+    shown = light_shown(level, text)
+    with ui.element("div").classes(f"light {level}") as box:
+        box.props(f'role="status" data-testid="{testid}" data-level="{level}"')
+        ui.label(_SIGNS[level]).classes("sign").props('aria-hidden="true"')
+        with ui.element("div").classes("words"):
+            with ui.element("div").classes("heading"):
+                ui.label(shown.words).classes("level")
+                if shown.bound:
+                    ui.label(shown.bound).classes("at-most")
+            ui.label(shown.rest).classes("sentences")
+
+
+def warnings(told: Iterable[Told]) -> None:
+    """List of warnings."""
+    with ui.element("ul").classes("warnings"):
+        for one in told:
+            with ui.element("li").classes(one.severity):
+                ui.label(SEVERITY_WORDS[one.severity]).classes("severity")
+                ui.label(one.text)
+
+
+def lines_html(lines: Iterable[Line], caption: str) -> str:
+    """Table of the lines that the command prints, with a caption for screen readers."""
+    rows = []
+    for line in lines:
+        name, look = escape(line.name), " class=alarm" if line.alarm else ""
+        if line.text:
+            rows.append(f"<tr{look}><th scope=row>{name}</th><td>{escape(line.text)}</td></tr>")
+        else:
+            rows.append(f"<tr><th scope=rowgroup colspan=2>{name}</th></tr>")
+    head = f"<caption class=unseen>{escape(caption)}</caption>"
+    return f"<div class=scroll><table class=rows>{head}<tbody>{''.join(rows)}</tbody></table></div>"
+
+
+def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
+    """Figure that can be zoomed; ``label`` says to a screen reader what it shows."""
+    plot = ui.plotly(dict(data)).classes("figure")
+    # As an item: in a text of properties, a label could hold further properties, which browsers run.
+    plot.props.update({"role": "img", "aria-label": label})
+    return plot
+
+
+class JobBox:
+    """Progress of a job, with a button that cancels it.
+
+    Parameters
+    ----------
+    done : callable
+        Called with the job when it has ended in any way.
+    """
+
+    def __init__(self, done: Callable[[Job], Any]) -> None:
+        self._done = done
+        self._job: Job | None = None
+        self._remaining = Remaining()
+        with ui.element("div").classes("job").props('aria-live="polite"') as self._box:
+            self._bar = ui.element("progress").props('max=1 aria-label="Progress" data-testid="progress"')
+            self._text = ui.label().classes("job-text")
+            ui.button("Cancel", on_click=self.cancel, color=None).props('flat no-caps data-testid="cancel"')
+        self._timer = ui.timer(0.2, self._look, active=False)
+        self._box.set_visibility(False)
+
+    def show(self, job: Job) -> None:
+        """Show a job until it ends."""
+        self._job, self._remaining = job, Remaining()
+        self._box.set_visibility(True)
+        self._timer.activate()
+
+    def cancel(self) -> None:
+        """Cancel the job."""
+        if self._job is not None:
+            self._job.cancel()
+
+    async def _look(self) -> None:
+        job = self._job
+        if job is None:
+            return
+        self._bar.props(f"value={job.done / job.of:.4f}" if job.of else "", remove="" if job.of else "value")
+        left = self._remaining.told(job.text, job.done, job.of, now=monotonic())
+        count = f"{job.text}: {job.done} of {job.of}" if job.of else job.text
+        self._text.text = ", ".join(filter(None, [count, left]))
+        if job.over:
+            self._timer.deactivate()
+            self._box.set_visibility(False)
+            self._job = None
+            found = self._done(job)
+            if found is not None:
+                await found

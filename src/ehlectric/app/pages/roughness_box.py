@@ -1,0 +1,455 @@
+"""Box of the rough surfaces of a contact: uploaded or made, and shown step by step before they are used."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
+from html import escape
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from nicegui import events, ui
+
+from ehlectric.app.answers import SummitsTable, SurfaceAnswer
+from ehlectric.app.calls import SURFACE
+from ehlectric.app.page_inputs import Inputs
+from ehlectric.app.pages.file_field import UploadField
+from ehlectric.app.pages.page_parts import JobBox, figure, heading, warnings
+from ehlectric.app.roughness_keys import (
+    FILE_KEYS,
+    FIRST_VALUES,
+    GENERATOR_KEYS,
+    GENERATOR_NAMES,
+    PLACE_KEYS,
+    STEP_KEYS,
+    STEPPED,
+    RoughKey,
+    value_of,
+)
+from ehlectric.app.session import LARGEST, MOST_TOGETHER, SURFACES, Session, new_file, own_file, shown_name
+from ehlectric.app.work import Job
+from ehlectric.errors import InputError, LostError
+
+Changed = Callable[[str, Any], Awaitable[None]]
+
+
+class Keys:
+    """Fields of a table.
+
+    Parameters
+    ----------
+    table : str
+        Name of the table, before the keys in errors and in test marks.
+    keys : sequence of RoughKey
+        Fields in their order.
+    values : mapping
+        Present values by key.
+    changed : callable
+        Called with a key and its new value, None for an empty field.
+    """
+
+    def __init__(
+        self, table: str, keys: Sequence[RoughKey], values: Mapping[str, Any], changed: Changed
+    ) -> None:
+        self._table, self._changed = table, changed
+        self._errors: dict[str, tuple[ui.label, ui.element]] = {}
+        with ui.element("div").classes("key-fields"):
+            for key in keys:
+                self._field(key, values.get(key.key))
+
+    def tell(self, error: Exception | None) -> bool:
+        """Show an error beside its field, and take away others; False where no field here has its key."""
+        name = str(getattr(error, "key", None) or "").removeprefix(f"{self._table}.")
+        for key, (label, box) in self._errors.items():
+            wrong = error is not None and key == name
+            label.text = str(error) if wrong else ""
+            label.set_visibility(wrong)
+            box.props(f"aria-invalid={'true' if wrong else 'false'}")
+        return name in self._errors
+
+    def _field(self, key: RoughKey, value: Any) -> None:
+        async def typed(event: Any) -> None:
+            found = event.args if isinstance(event.args, str) else ""
+            keep(found)
+            await self._changed(key.key, value_of(key, found))
+
+        name = f"{self._table}-{key.key}"
+        text = "true" if value is True else "" if value is None else str(value)
+        with ui.element("div").classes("key"):
+            ui.html(escape(key.label), sanitize=False, tag="label").props(f'for="{name}"')
+            box, keep = _box(key, text)
+            box.props(f'id="{name}" data-testid="field-{name}" aria-describedby="{name}-error"')
+            box.on("change", typed, js_handler="(event) => emit(event.target.value)")
+            label = ui.label().classes("error").props(f'id="{name}-error" role="alert"')
+            label.props(f'data-testid="error-{name}"')
+            label.set_visibility(False)
+            self._errors[key.key] = (label, box)
+
+
+def _box(key: RoughKey, text: str) -> tuple[ui.element, Callable[[str], None]]:
+    """Field, and the function that keeps what was typed there when the page draws it again."""
+    if not key.choices:
+        box = ui.element("input").props('type="text" autocomplete="off" spellcheck="false"')
+        box.props["placeholder"] = f"for example {key.example}" if key.example else ""
+
+        def typed(found: str) -> None:
+            # The attribute, not the value: each answer draws the whole page again, and would write the value
+            # over what is being typed.
+            box.props["^value"] = found
+
+        typed(text)
+        return box, typed
+    options: dict[str, ui.html] = {}
+    with ui.element("select") as box:
+        for choice, label in key.choices.items():
+            options[choice] = ui.html(escape(label), sanitize=False, tag="option")
+            options[choice].props["value"] = choice
+
+    def chosen(found: str) -> None:
+        for choice, option in options.items():
+            option.props.set_bool("selected", choice == (found or next(iter(key.choices))))
+
+    chosen(text)
+    return box, chosen
+
+
+def show_surface(answer: SurfaceAnswer) -> None:
+    """Show a surface with its steps, its summits and warnings."""
+    ui.label(_sentence(answer)).props('data-testid="surface-size"')
+    if answer.rows:
+        _show_table("Statistics", "surface-statistics", answer.heads, answer.rows)
+    warnings(answer.warnings)
+    if answer.summits is not None:
+        _show_summits(answer.summits)
+    with ui.element("div").classes("steps"):
+        for step in answer.figures:
+            with ui.element("div"):
+                heading(step.name, 3)
+                figure(step.figure, step.label)
+
+
+def _show_summits(summits: SummitsTable) -> None:
+    """Table of the summits, which bearings and models of asperities take."""
+    title = summits.title[0].upper() + summits.title[1:]
+    heading(title, 3)
+    _show_table(title, "surface-summits", summits.heads, summits.rows)
+    ui.label(summits.note).classes("note")
+
+
+def _show_table(name: str, testid: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Table that scrolls sideways where it is wider than the screen."""
+    with ui.element("div").classes("scrolls").props(f'tabindex="0" role="group" aria-label="{name}"'):
+        ui.html(_table(heads, rows), sanitize=False, tag="table").props(f'data-testid="{testid}"')
+
+
+def _sentence(answer: SurfaceAnswer) -> str:
+    if not answer.rows:
+        return "Exact shape, drawn over the domain of the contact."
+    first, last = answer.rows[0], answer.rows[-1]
+    name = answer.heads[2].split("\n")[0]
+    parts = [answer.size, f"{name} {first[2]} nm {first[0]}"]
+    if len(answer.rows) > 1:
+        parts.append(f"{last[2]} nm as used")
+    if answer.lines:
+        parts.append(f"{answer.lines['row']} rows and {answer.lines['column']} columns in the file")
+    return "; ".join(parts)
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    head = "".join(f'<th scope="col">{escape(one)}</th>' for one in heads)
+    body = "".join(
+        f'<tr><th scope="row">{escape(row[0])}</th>'
+        + "".join(f"<td>{escape(entry)}</td>" for entry in row[1:])
+        + "</tr>"
+        for row in rows
+    )
+    return f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody>"
+
+
+RoughnessChanged = Callable[[], Awaitable[None] | None]
+
+# Size of a file from which a process of its own reads it [bytes]; smaller ones take a second at most.
+_LARGE = 4_000_000
+
+_SURFACE = RoughKey("surface", "Surface of the contact", choices={"1": "1, the lower", "2": "2, the upper"})
+_SOURCE = RoughKey("source", "Surface", choices={"file": "from an instrument's file"} | dict(GENERATOR_NAMES))
+
+
+class RoughnessBox:
+    """Box in which rough surfaces are uploaded or made, processed, and put into the inputs.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab.
+    changed : callable
+        Called after the inputs of the session have other rough surfaces.
+    """
+
+    def __init__(self, session: Session, changed: RoughnessChanged) -> None:
+        self._session, self._changed = session, changed
+        self._draft: dict[str, Any] = {"surface": 1}
+        self._names = _NAMES.setdefault(session, {})
+        self._coming = _COMING.setdefault(session, {})
+        self._parts: list[Keys] = []
+        self._groups: dict[Keys, ui.element] = {}
+        self._answer: SurfaceAnswer | None = None
+        # Numbers of the last look, and of that for which a job reads a large file.
+        self._asked = self._asked_by_job = 0
+        # Inputs of which the note tells something.
+        self._noted: Inputs | None = None
+        with ui.element("div").classes("box").props('data-testid="roughness"'):
+            self._used = ui.element("div").classes("box").props('aria-live="polite"')
+            self._note = ui.label().classes("hint").props('role="status" data-testid="roughness-note"')
+            self._editor = ui.element("div").classes("box")
+            self._message = ui.label().classes("error").props('role="alert" id="roughness-error"')
+            self._message.props('data-testid="error-roughness"')
+            self._job = JobBox(self._ended)
+            self._view = ui.element("div").classes("box").props('aria-live="polite" data-testid="surface"')
+            with ui.element("div").classes("buttons"):
+                self._use = ui.button("Use this surface", on_click=self._put, color=None).classes("primary")
+                self._use.props('flat no-caps data-testid="use-surface"')
+        self._tell(None)
+        self._use.disable()
+        self._edit()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the rough surfaces of the present inputs, as after an undo."""
+        if self._point != self._is_point():
+            self._edit()
+        if self._noted != self._session.inputs:
+            self._note.text = ""
+        self._used.clear()
+        with self._used:
+            tables = _tables(self._session)
+            if not tables:
+                ui.label("Both surfaces are smooth.").classes("muted").props('data-testid="surfaces-used"')
+            for table in tables:
+                self._show_used(table)
+
+    def _show_used(self, table: Mapping[str, Any]) -> None:
+        file = table.get("file")
+        lost = isinstance(file, str) and not self._is_here(file)
+        with ui.element("div").classes("used"):
+            text = f"Surface {table.get('surface', '?')}: {self._told(table)}"
+            ui.label(text).props('data-testid="surfaces-used"')
+            remove = ui.button("Remove", on_click=lambda: self._remove(table), color=None).props(
+                "flat no-caps"
+            )
+            remove.props["data-testid"] = f"remove-surface-{table.get('surface', 0)}"
+            if not lost:
+                ui.button("Change", on_click=lambda: self._reopen(table), color=None).props("flat no-caps")
+        if lost:
+            text = "This file was uploaded in another session. Upload it again, or remove the surface."
+            ui.label(text).classes("error").props('role="alert"')
+        elif isinstance(file, str):
+            ui.label("A link cannot hold the file; a download with everything has it.").classes("hint")
+
+    def _is_point(self) -> bool:
+        return bool(self._session.inputs.value("contact.geometry") == "point")
+
+    def _is_here(self, file: str) -> bool:
+        return own_file(file, self._session.folder) is not None
+
+    def _told(self, table: Mapping[str, Any]) -> str:
+        if isinstance(table.get("file"), str):
+            source = self._names.get(table["file"], shown_name(table["file"]))
+        else:
+            source = GENERATOR_NAMES.get(str(table.get("generator")), str(table.get("generator")))
+        shown = (f"{key} {value}" for key, value in table.items() if key not in _HIDDEN)
+        return ", ".join([source, *shown])
+
+    def _edit(self) -> None:
+        """Build the fields for the kind of surface of the draft."""
+        self._editor.clear()
+        self._parts, self._groups = [], {}
+        point = self._point = self._is_point()
+        generator = self._draft.get("generator")
+        values = {**self._draft, "source": generator or "file"}
+        with self._editor:
+            self._parts.append(Keys("roughness", (_SOURCE, _SURFACE), values, self._set))
+            if generator is None:
+                UploadField(self._take, self._refuse)
+                name = self._names.get(self._draft.get("file", ""))
+                ui.label(f"File: {name}" if name else "No file yet.").classes("muted")
+                ui.label(
+                    "The server keeps the file in a folder that is removed when this tab is closed. The "
+                    "address of the page cannot hold it; the downloaded case comes with it."
+                ).classes("hint")
+                self._group("Units and lines of the file", FILE_KEYS, point=point)
+            else:
+                keys = GENERATOR_KEYS[generator]
+                self._group("Heights (values at first are assumptions)", keys, point=point, opened=True)
+            if generator is None or generator in STEPPED:
+                self._group("Form and filter", STEP_KEYS, point=point, opened=True)
+            self._group("Place in the contact", PLACE_KEYS, point=point)
+
+    def _group(self, title: str, keys: Sequence[RoughKey], *, point: bool, opened: bool = False) -> None:
+        shown = [key for key in keys if point or not key.point]
+        with ui.element("details") as group:
+            ui.html(title, sanitize=False, tag="summary")
+            part = Keys("roughness", shown, self._draft, self._set)
+        group.props.set_bool("open", opened or any(key.key in self._draft for key in shown))
+        self._parts.append(part)
+        self._groups[part] = group
+
+    async def _set(self, key: str, value: Any) -> None:
+        if key == "source":
+            surface = self._draft["surface"]
+            self._draft = {"surface": surface}
+            if value is not None:
+                self._draft |= {"generator": value, **FIRST_VALUES[value]}
+            self._edit()
+        elif key == "surface":
+            self._draft["surface"] = 1 if value is None else int(value)
+        elif value is None:
+            self._draft.pop(key, None)
+        else:
+            self._draft[key] = value
+        await self._look()
+
+    async def _take(self, event: events.UploadEventArguments) -> None:
+        """Keep an uploaded file in the folder of the session, and show it."""
+        size, given, folder = event.file.size(), event.file.name, self._session.folder
+        kept = sum(
+            max(file.stat().st_size, self._coming.get(f"{SURFACES}/{file.name}", 0))
+            for file in folder.glob(f"{SURFACES}/*")
+        )
+        if size > LARGEST or kept + size > MOST_TOGETHER:
+            limits = f"at most {LARGEST / 1e6:g} MB, and {MOST_TOGETHER / 1e6:g} MB of all uploaded files"
+            self._refuse(f"{shown_name(given)}: has {size / 1e6:.4g} MB; expected {limits}")
+            return
+        name = new_file(given, folder)
+        self._coming[name] = size
+        try:
+            await event.file.save(folder / name)
+        except OSError:
+            (folder / name).unlink(missing_ok=True)
+            self._refuse(f"{shown_name(given)}: could not be stored; try again")
+            return
+        finally:
+            del self._coming[name]
+        if self._view.is_deleted:
+            # The tab was closed meanwhile, and its folder removed.
+            shutil.rmtree(folder, ignore_errors=True)
+            return
+        self._names[name] = shown_name(given)
+        # The file of an instrument has the tilt of the sample, which is no roughness.
+        self._draft = {"form": "line"} | {
+            key: value for key, value in self._draft.items() if key != "generator"
+        }
+        self._draft["file"] = name
+        self._edit()
+        await self._look()
+
+    def _refuse(self, text: str) -> None:
+        self._tell(InputError.worded(None, text))
+
+    async def _look(self) -> None:
+        """Show the surface of the draft; an answer that comes after newer values is dropped."""
+        self._asked += 1
+        asked = self._asked
+        self._job.cancel()
+        if "file" not in self._draft and "generator" not in self._draft:
+            self._show(None)
+            return
+        self._view.classes("old")
+        self._use.disable()
+        file = self._draft.get("file", "")
+        path = own_file(file, self._session.folder) if file else None
+        inputs, folder = dict(self._session.inputs.table), str(self._session.folder)
+        values = dict(self._draft), inputs, folder, self._names.get(file, shown_name(file) if file else "")
+        if path is not None and path.stat().st_size > _LARGE:
+            self._asked_by_job = asked
+            try:
+                self._job.show(self._session.start(SURFACE, *values))
+            except LostError as error:
+                self._tell(error)
+            return
+        try:
+            answer = await self._session.work.quick(SURFACE, *values)
+        except (InputError, LostError) as error:
+            if asked == self._asked:
+                self._fail(error)
+            return
+        if asked == self._asked:
+            self._show(answer)
+
+    def _ended(self, job: Job) -> None:
+        if self._asked_by_job != self._asked:
+            return
+        if job.state == "done":
+            self._show(job.result)
+        else:
+            self._fail(job.error or LostError("cancelled"))
+
+    def _fail(self, error: Exception) -> None:
+        self._show(None)
+        self._tell(error)
+
+    def _show(self, answer: SurfaceAnswer | None) -> None:
+        self._answer = answer
+        self._tell(None)
+        self._use.set_enabled(answer is not None)
+        self._view.classes(remove="old")
+        self._view.clear()
+        if answer is not None:
+            with self._view:
+                show_surface(answer)
+
+    def _tell(self, error: Exception | None) -> None:
+        found = [part for part in self._parts if part.tell(error)]
+        for part in found:
+            if part in self._groups:
+                self._groups[part].props("open")
+        self._message.text = "" if error is None or found else str(error)
+        self._message.set_visibility(bool(self._message.text))
+        if error is not None:
+            self._use.disable()
+
+    async def _put(self) -> None:
+        """Put the surface of the draft into the inputs, in place of the one before on the same body."""
+        if self._answer is not None:
+            kept = [
+                table for table in _tables(self._session) if table.get("surface") != self._draft["surface"]
+            ]
+            await self._give(sorted([*kept, dict(self._draft)], key=lambda table: int(table["surface"])))
+
+    async def _remove(self, table: Mapping[str, Any]) -> None:
+        await self._give([other for other in _tables(self._session) if other != table])
+
+    async def _reopen(self, table: Mapping[str, Any]) -> None:
+        self._draft = dict(table)
+        self._edit()
+        await self._look()
+
+    async def _give(self, tables: list[Any]) -> None:
+        """Put other rough surfaces into the inputs; nothing moves without one."""
+        changes: dict[str, Any] = {"roughness": tables or None}
+        moved = self._session.inputs.value("motion") is not None
+        if moved and not tables:
+            changes["motion"] = None
+        self._session.history.push(self._session.inputs.changed(changes))
+        self.refresh()
+        if moved and not tables:
+            self._noted = self._session.inputs
+            self._note.text = "The motion is removed, too: it needs a rough surface."
+        waiting = self._changed()
+        if waiting is not None:
+            await waiting
+
+
+# Names that users gave to the uploaded files of a session, by path; a box may be built again in a session.
+_NAMES: WeakKeyDictionary[Session, dict[str, str]] = WeakKeyDictionary()
+
+# Sizes of the files of a session that are being stored [bytes].
+_COMING: WeakKeyDictionary[Session, dict[str, int]] = WeakKeyDictionary()
+
+_HIDDEN = ("surface", "file", "generator")
+
+
+def _tables(session: Session) -> list[Any]:
+    """Tables of rough surfaces in the inputs."""
+    found = session.inputs.value("roughness")
+    return [table for table in found if isinstance(table, Mapping)] if isinstance(found, list) else []

@@ -1,1 +1,0 @@
-"""Boxes of the contact page for rough surfaces and for roughness that moves."""

@@ -1,0 +1,946 @@
+"""Page of a sweep: two inputs with their ranges, a map that fills as points are solved, and the chosen
+point.
+"""
+
+from __future__ import annotations
+
+import shutil
+import time
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from fastapi import Request
+from nicegui import ui
+
+from ehlectric.app.answers import SweepChoices, SweepPlan, SweepView, Variable
+from ehlectric.app.calls import (
+    SWEEP_CHOICES,
+    SWEEP_FILES,
+    SWEEP_PLANNED,
+    SWEEP_POINT,
+    SWEEP_SEEN,
+    SWEEP_SOLVED,
+)
+from ehlectric.app.fields import Group
+from ehlectric.app.fields.field import in_field_unit
+from ehlectric.app.figures.sweep_charts import chosen_trace
+from ehlectric.app.figures.sweep_charts import place as place_of_point
+from ehlectric.app.page_inputs import (
+    Inputs,
+    Range,
+    case_of_link,
+    lists_of,
+    ranges_of,
+    same_sweep,
+    sweep_file,
+    sweep_inputs,
+    with_ranges,
+)
+from ehlectric.app.pages import page_parts
+from ehlectric.app.pages.downloads import Downloads
+from ehlectric.app.pages.form import Form, groups_for
+from ehlectric.app.pages.frame import (
+    DRIVE,
+    PAGE_PATIENCE,
+    SWEEP,
+    Toolbar,
+    framed,
+    session_of,
+    show_address,
+    start,
+)
+from ehlectric.app.pages.page_parts import card
+from ehlectric.app.session import Session
+from ehlectric.app.work import Job, Work
+from ehlectric.errors import InputError, LostError
+from ehlectric.runtime.worker_processes import cores
+
+Change = Callable[[Inputs], Awaitable[None]]
+
+# Examples that may be the base case. Their films are computed as they say.
+EXAMPLES = {
+    "bearing_6208": "Ball bearing 6208 in a drive",
+    "drive": "Inverter, motor and both bearings",
+    "discharge": "Line contact with breakdown",
+    "oil_contact": "Ball on disc",
+}
+
+_NONE = "no second input"
+
+# Longest text that is read as a number of values [characters].
+_LONGEST = 7
+
+# Number of choices above which a list can be searched by typing.
+_SEARCHED = 9
+
+
+class Box:
+    """Text field whose error is told beside it.
+
+    Parameters
+    ----------
+    label, value : str
+        Label and text.
+    test_id : str
+        Name of the field for tests.
+    typed : callable
+        Called with a new text.
+    """
+
+    def __init__(self, label: str, value: str, test_id: str, typed: Callable[[str], Awaitable[None]]) -> None:
+        async def changed() -> None:
+            await typed(str(self._input.value or "").strip())
+
+        with ui.element("div").classes("sweep-box"):
+            self._input = ui.input(label, value=value).props("outlined dense").classes("full")
+            self._input.props(f"data-testid=field-{test_id}")
+            self._input.on("change", changed)
+            self._error = ui.label().classes("wrong")
+            self._error.props(f'role="alert" id="wrong-{test_id}" data-testid="error-{test_id}"')
+
+    def put(self, text: str) -> None:
+        """Show another text."""
+        if self._input.value != text:
+            self._input.value = text
+
+    def tell(self, text: str) -> None:
+        """Show an error; an empty text takes it away."""
+        self._error.text = text
+        self._error.set_visibility(bool(text))
+        name = self._error.props["id"]
+        if text:
+            self._input.props(f'error hide-bottom-space aria-invalid=true aria-describedby="{name}"')
+        else:
+            self._input.props(remove="error aria-invalid aria-describedby")
+
+
+class RangesForm:
+    """Form of a sweep.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Present inputs.
+    choices : SweepChoices or None
+        What may vary; None where the base case is not valid.
+    change : callable
+        Called with new inputs.
+    """
+
+    def __init__(self, inputs: Inputs, choices: SweepChoices | None, change: Change) -> None:
+        self._inputs, self._choices, self._change = inputs, choices, change
+        self._boxes: dict[str, Box] = {}
+        self._selects: dict[str, ui.select] = {}
+        self._groups: Sequence[Group] | None = None
+        self._focus = ""
+        with ui.element("div").classes("form sweep-form").props('role="form" aria-label="Sweep"'):
+            with card("What varies"):
+                self._varied = ui.element("div")
+                self._message = ui.label().classes("wrong").props('role="alert" data-testid="error-form"')
+            with card("Base case"):
+                self._build_base()
+        self._build_axes()
+        self._set_base()
+
+    def set(self, inputs: Inputs, choices: SweepChoices | None) -> None:
+        """Show other inputs; fields are made anew only where others are needed, so that the focus stays."""
+        before = _shape(self._inputs, self._choices)
+        self._inputs, self._choices = inputs, choices
+        self._set_base()
+        if _shape(inputs, choices) != before:
+            self._build_axes()
+            return
+        for key, text in _texts(inputs).items():
+            if key in self._boxes:
+                self._boxes[key].put(text)
+            elif key in self._selects:
+                self._selects[key].value = text if text in self._selects[key].options else None
+
+    def tell(self, error: InputError | None) -> None:
+        """Show an error beside its field, and take away the one before."""
+        for box in (*self._boxes.values(), self._link):
+            box.tell("")
+        self._message.text = ""
+        self.case.tell(None)
+        key = "" if error is None else str(error.key or "")
+        found = self._boxes.get(key) or self._boxes.get(f"{key}.from")
+        if error is None:
+            return
+        if found is not None:
+            found.tell(self._in_unit(key, error.text))
+        elif key and not f"{key}.".startswith("vary."):
+            self._values.open()
+            self.case.tell(InputError(key.removeprefix("case."), error.text))
+        else:
+            self._message.text = str(error)
+
+    def _in_unit(self, key: str, text: str) -> str:
+        """Text of an error of a range with its bounds in the unit of the field of its input."""
+        name = key.removeprefix("vary.").rpartition(".")[0]
+        fields = [field for group in self._groups or () for field in group.fields if field.key == name]
+        return in_field_unit(fields[0], text) if fields else text
+
+    def _build_axes(self) -> None:
+        """Fields of the varied inputs."""
+        self._boxes.clear()
+        for name in [name for name in self._selects if name.startswith("vary")]:
+            del self._selects[name]
+        self._varied.clear()
+        with self._varied:
+            ranges = ranges_of(self._inputs)
+            lists = lists_of(self._inputs)
+            for key, values in lists.items():
+                ui.label(f"{key} takes {values}, as the file says.").classes("muted")
+            # A map has two axes, of which lists take some.
+            if ranges or len(lists) < 2:
+                self._axis(0, ranges)
+            if len(ranges) > 1 or (ranges and not lists):
+                self._axis(1, ranges)
+        if self._focus in self._selects:
+            self._selects[self._focus].run_method("focus")
+        self._focus = ""
+
+    def _build_base(self) -> None:
+        """Source of the base case, and its inputs in the form of its page."""
+        self._title = ui.label().classes("case-title")
+        chosen = ui.select(EXAMPLES, label="Take an example", on_change=self._example)
+        chosen.props("outlined dense data-testid=base-example").classes("full")
+        self._link = Box("or paste a link of a page", "", "base-link", self._take_over)
+        with ui.element("div") as self._kind:
+            kinds = {
+                "atlas": "from the atlas: half a second each",
+                "formula": "by formula: half a second each",
+                "solved": "solved: ten seconds or more each",
+            }
+            self._select("case.contacts", "Contacts of the bearing", kinds, self._contacts)
+        self._page = ui.link("Open the base case on its page", "/", new_tab=True)
+        self._values = ui.expansion("Inputs of the base case").props('data-testid="base-inputs"')
+
+    def _set_base(self) -> None:
+        """Show the base case."""
+        case = Inputs(self._inputs.value("case") or {})
+        self._title.text = str(case.value("title") or "Case without a title")
+        path = "/drive" if case.value("drive_end") else "/" if case.value("bearing") else "/contact"
+        self._page.props["href"] = f"{path}?{case.address()}"
+        self._page.update()
+        self._kind.set_visibility(bool(case.value("bearing")))
+        self._selects["case.contacts"].value = _texts(self._inputs)["case.contacts"]
+        if self._groups is groups_for(case):
+            self.case.set(case)
+            return
+        self._groups = groups_for(case)
+        self._values.clear()
+        with self._values:
+            self.case: Form = Form(self._groups, case, self._changed_case, label="Inputs of the base case")
+
+    async def _changed_case(self, key: str, value: Any) -> None:
+        await self._change(self._inputs.changed({f"case.{key}": value}))
+
+    async def _example(self, event: Any) -> None:
+        table = dict((DRIVE if event.value == "drive" else start(str(event.value))).table)
+        await self._change(Inputs({"case": table | ({"contacts": "atlas"} if "bearing" in table else {})}))
+
+    async def _take_over(self, link: str) -> None:
+        found = case_of_link(link)
+        if found is not None:
+            await self._change(Inputs({"case": found}))
+        elif link:
+            self._link.tell("this link has no bearing, drive or contact: copy one of their pages")
+
+    async def _contacts(self, value: str) -> None:
+        await self._change(self._inputs.changed({"case.contacts": value}))
+
+    def _axis(self, place: int, ranges: Sequence[Range]) -> None:
+        """Fields of one varied input."""
+        now = ranges[place] if place < len(ranges) else None
+        others = {one.key for one in ranges} - ({now.key} if now else set())
+        names = {key: one.label for key, one in self._offered().items() if key not in others}
+        if now is not None and now.key not in names:
+            names = {now.key: now.key, **names}
+        name = f"vary-{place}"
+
+        async def chosen(key: str) -> None:
+            present, offered = ranges_of(self._inputs), self._offered()
+            new = present[:place] + ([range_of(offered[key])] if key in offered else [])
+            self._focus = name
+            await self._change(with_ranges(self._inputs, new + ([] if place else present[1:])))
+
+        title = "Second input (upwards)" if place else "First input (to the right)"
+        with ui.element("fieldset").classes("axis"):
+            self._select(name, title, {"": _NONE, **names} if place else names, chosen)
+            if now is not None:
+                self._range(place, now)
+
+    def _offered(self) -> dict[str, Variable]:
+        """Inputs that can be varied, by key."""
+        return {one.key: one for one in (self._choices.variables if self._choices else ())}
+
+    def _range(self, place: int, now: Range) -> None:
+        async def put(**changes: Any) -> None:
+            present = ranges_of(self._inputs)
+            present[place] = replace(present[place], **changes)
+            await self._change(with_ranges(self._inputs, present))
+
+        async def first(text: str) -> None:
+            await put(start=text)
+
+        async def last(text: str) -> None:
+            await put(stop=text)
+
+        async def count(text: str) -> None:
+            await put(count=int(text) if text.isdecimal() and len(text) < _LONGEST else text)
+
+        async def spacing(value: str) -> None:
+            await put(log=value == "log")
+
+        parts = (
+            ("from", "From", now.start, first),
+            ("to", "To", now.stop, last),
+            ("count", "Number of values", str(now.count), count),
+        )
+        with ui.element("div").classes("range"):
+            for name, label, value, typed in parts:
+                self._boxes[f"vary.{now.key}.{name}"] = Box(label, value, f"vary-{place}-{name}", typed)
+            kinds = {"linear": "equal steps", "log": "equal ratios"}
+            self._select(f"vary-{place}-spacing", "Spacing", kinds, spacing)
+
+    def _select(
+        self, name: str, label: str, options: Mapping[str, str], chosen: Callable[[str], Awaitable[None]]
+    ) -> None:
+        """List to choose from; ``name`` is its key among the texts of the inputs."""
+
+        async def changed(event: Any) -> None:
+            if event.value is not None and event.value != _texts(self._inputs)[name]:
+                await chosen(str(event.value))
+
+        text = _texts(self._inputs)[name]
+        value = text if text in options else None
+        box = ui.select(
+            dict(options), label=label, value=value, on_change=changed, with_input=len(options) > _SEARCHED
+        )
+        box.props(f"outlined dense data-testid=field-{name.replace('.', '-')}").classes("full")
+        self._selects[name] = box
+
+
+def range_of(variable: Variable) -> Range:
+    """Range of an input to begin with."""
+    return Range(variable.key, variable.low, variable.high, log=variable.log)
+
+
+def _shape(inputs: Inputs, choices: SweepChoices | None) -> tuple[Any, ...]:
+    """Values on which the fields of the varied inputs depend."""
+    offered = tuple((one.key, one.label) for one in (choices.variables if choices else ()))
+    return tuple(one.key for one in ranges_of(inputs)), str(lists_of(inputs)), offered
+
+
+def _texts(inputs: Inputs) -> dict[str, str]:
+    """Texts of all fields by their keys."""
+    ranges = ranges_of(inputs)
+    texts = {"case.contacts": str(inputs.value("case.contacts") or "solved")}
+    texts |= {f"vary-{place}": "" for place in range(2)}
+    for place, one in enumerate(ranges):
+        texts |= {f"vary-{place}": one.key, f"vary-{place}-spacing": "log" if one.log else "linear"}
+        ends = {"from": one.start, "to": one.stop, "count": str(one.count)}
+        texts |= {f"vary.{one.key}.{name}": text for name, text in ends.items()}
+    return texts
+
+
+# Only the number of the point goes to the server, not the whole figure.
+_CLICKED = "(event) => emit(event.points.map((p) => p.customdata).find((n) => n !== undefined))"
+_KEYS = """(event) => {
+  if (["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Enter"].includes(event.key)) {
+    event.preventDefault(); emit(event.key);
+  }
+}"""
+_STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
+
+# Words of the link to the case of a point, by the address of its page.
+_OPEN = {"/": "Open its bearing", "/drive": "Open its drive", "/contact": "Open its contact"}
+
+# States of points whose own words say too little.
+_STATES = {
+    "do not use": 'solved, but "do not use"',
+    "no value": "solved, without this number",
+    "failed": "refused or failed",
+}
+
+# Most points whose table is written anew at each look while points are being solved.
+_FEW = 200
+
+
+class MapPart:
+    """Map of a sweep with its table.
+
+    Parameters
+    ----------
+    session : Session
+        Session of the tab.
+    shown : callable
+        Called with the dotted key of the result that shall be shown.
+
+    Attributes
+    ----------
+    shown : str
+        Dotted key of the shown result.
+    """
+
+    def __init__(self, session: Session, shown: Callable[[str], Awaitable[None]]) -> None:
+        self.session = session
+        self.shown = ""
+        self._told = shown
+        self._ran: Inputs | None = None
+        self._view: SweepView | None = None
+        self._drawn = ""
+        self._chosen: int | None = None
+        self._address = ""
+        self._build()
+
+    @property
+    def open_points(self) -> int:
+        """Number of points that are not solved yet."""
+        return self._view.counts.get("open", 0) if self._view else 0
+
+    @property
+    def differs(self) -> bool:
+        """Whether the map shows another result than that which is asked for."""
+        return self._view is not None and self._drawn != self.shown
+
+    @property
+    def finished(self) -> bool:
+        """Whether every point has been tried with an end that another try would not change."""
+        counts = self._view.counts if self._view else {}
+        return bool(counts) and not counts.get("open") and not counts.get("failed")
+
+    def _build(self) -> None:
+        with page_parts.card("Map") as self._card:
+            self._select = ui.select({}, label="Result to show", on_change=self._other, with_input=True)
+            self._select.props("outlined dense data-testid=show").classes("full")
+            self._note = ui.label("Nothing is solved yet: Run fills the map.").props('data-testid="map-note"')
+            self._verdict = ui.element("div").props('aria-live="polite" data-testid="verdict"')
+            with ui.element("div").classes("map-keys").props('tabindex="0" data-testid="map"') as self._keys:
+                self._plot = page_parts.figure({"data": [], "layout": {}}, "Map of the sweep")
+                self._plot.on("plotly_click", self._clicked, js_handler=_CLICKED)
+            self._keys.on("keydown", self._pressed, js_handler=_KEYS)
+            self._keys.set_visibility(False)
+            self._point = ui.element("div").classes("point").props('aria-live="polite" data-testid="point"')
+            self._warnings = ui.element("div")
+            with ui.expansion("Table of the points").props('data-testid="points"') as self._points:
+                self._table = ui.table(columns=[], rows=[], row_key="number", pagination=10).classes(
+                    "points-table"
+                )
+                self._table.add_slot("body-cell-number", _BUTTON)
+                self._table.on("choose", self._from_table)
+            self._points.set_visibility(False)
+
+    def offer(self, values: Mapping[str, str], shown: str) -> None:
+        """Offer results to show; the first unless another is asked for."""
+        options = dict(values)
+        if self._view is not None:
+            options |= {key: name for key, name in self._view.values.items() if key not in options}
+        if shown and shown not in options:
+            options[shown] = shown
+        self.shown = shown or next(iter(values), self.shown)
+        self._select.set_options(options, value=self.shown or None)
+
+    def began(self, ran: Inputs) -> None:
+        """Remember the inputs of the points that are being solved."""
+        if self._ran != ran:
+            self._ran, self._chosen = ran, None
+            self._point.clear()
+
+    def clear(self) -> None:
+        """Take everything away."""
+        self._view = self._ran = self._chosen = None
+        self._point.clear()
+        self._verdict.clear()
+        self._warnings.clear()
+        self._keys.set_visibility(False)
+        self._points.set_visibility(False)
+        self._note.text = "Nothing is solved yet: Run fills the map."
+
+    def outdated(self, *, old: bool) -> None:
+        """Dim the map where the inputs have changed since."""
+        self._card.classes(add="old" if old else "", remove="" if old else "old")
+        if old:
+            self._note.text = "The inputs have changed: this is the map of the ones before."
+        elif self._view is not None:
+            self._note.text = _told(self._view)
+
+    def show(self, view: SweepView, *, running: bool) -> None:
+        """Show the state of a sweep."""
+        self._view = view
+        self._drawn = self.shown
+        self._note.text = _told(view)
+        if self._chosen is not None and self._chosen >= len(view.chart.points):
+            self._chosen = None
+        self._draw()
+        self._keys.set_visibility(True)
+        self._verdict.clear()
+        self._warnings.clear()
+        if view.text and not running:
+            with self._verdict:
+                page_parts.light(view.level, view.text)
+            with self._warnings:
+                page_parts.warnings(view.warnings)
+        if not running or len(view.rows) <= _FEW:
+            self._fill(view)
+
+    def _draw(self) -> None:
+        view = self._view
+        if view is None:
+            return
+        figure = dict(view.figure)
+        figure["data"] = [*figure["data"][:-1], chosen_trace(view.chart, self._chosen)]
+        self._plot.update_figure(figure)
+        about = f"{view.chart.title} over {view.chart.x.title}"
+        about += f" and {view.chart.y.title}" if view.chart.y else ""
+        about += "; arrow keys choose a point, Enter opens its case; the table below has all numbers"
+        self._keys.props.update({"role": "group", "aria-label": about})
+
+    def _fill(self, view: SweepView) -> None:
+        columns = [{"name": "number", "label": "Point", "field": "number", "sortable": True}]
+        columns += [
+            {"name": f"c{k}", "label": name, "field": f"c{k}", "align": "left"}
+            for k, name in enumerate(view.columns[1:])
+        ]
+        self._table.columns = columns
+        self._table.rows = [
+            {"number": int(row[0]), **{f"c{k}": cell for k, cell in enumerate(row[1:])}} for row in view.rows
+        ]
+        self._points.set_visibility(True)
+
+    async def _other(self, event: Any) -> None:
+        if event.value and event.value != self.shown:
+            self.shown = str(event.value)
+            await self._told(self.shown)
+
+    async def _clicked(self, event: Any) -> None:
+        if isinstance(event.args, int) and await self._choose(event.args):
+            ui.navigate.to(self._address, new_tab=True)
+
+    async def _from_table(self, event: Any) -> None:
+        if isinstance(event.args, int):
+            await self._choose(event.args)
+
+    async def _pressed(self, event: Any) -> None:
+        if self._view is None:
+            return
+        if event.args == "Enter":
+            if self._chosen is not None and self._address:
+                ui.navigate.to(self._address, new_tab=True)
+            return
+        right, up = _STEPS[str(event.args)]
+        chart = self._view.chart
+        i, j = (0, 0) if self._chosen is None else place_of_point(chart, self._chosen)
+        if self._chosen is not None:
+            i, j = i + right, j + up
+        height = len(chart.y.values) if chart.y else 1
+        if 0 <= i < len(chart.x.values) and 0 <= j < height:
+            await self._choose(i * height + j)
+
+    async def _choose(self, number: int) -> bool:
+        """Choose a point; whether it has a case that a page can show."""
+        view, ran = self._view, self._ran
+        if view is None or ran is None or not 0 <= number < len(view.chart.points):
+            return False
+        self._chosen, self._address, refused = number, "", ""
+        self._draw()
+        folder = str(self.session.folder / "sweep")
+        try:
+            found = await self.session.work.quick(SWEEP_POINT, folder, dict(ran.table), number)
+            self._address = f"{found.path}?{found.query}"
+        except (InputError, LostError) as error:
+            refused = str(error)
+        self._tell(view, number, refused)
+        return bool(self._address)
+
+    def _tell(self, view: SweepView, number: int, refused: str) -> None:
+        self._point.clear()
+        with self._point:
+            page_parts.heading(f"Point {number}", 3)
+            with ui.element("ul"):
+                for text in view.chart.points[number].texts:
+                    with ui.element("li"):
+                        ui.label(text)
+            if self._address:
+                name = _OPEN[self._address.partition("?")[0]]
+                link = ui.link(f"{name} (new tab)", self._address, new_tab=True)
+                link.props('data-testid="open-point"')
+            else:
+                ui.label(f"It has no page: {refused}").classes("wrong")
+
+
+_BUTTON = """
+<q-td :props="props">
+  <button type="button" class="choose" @click="() => $parent.$emit('choose', props.row.number)"
+    :aria-label="'choose point ' + props.row.number">{{ props.row.number }}</button>
+</q-td>
+"""
+
+
+def _told(view: SweepView) -> str:
+    """How many points have which state, and how their contacts are computed."""
+    some = (f"{count} {_STATES.get(state, state)}" for state, count in view.counts.items())
+    return f"Points: {', '.join(some)}.{_basis(view)}"
+
+
+def _basis(view: SweepView) -> str:
+    return f" {view.accuracy}" if view.accuracy else ""
+
+
+_PATH = "/sweep"
+
+# Shortest time between two looks at the database [s]; where reading takes longer, looks are rarer.
+_LOOK = 1.0
+_SHARE = 4.0
+
+# Files of a sweep that can be downloaded: name, label and what it is for tests.
+_DOWNLOADS = (
+    ("sweep.sqlite", "Database (SQLite)", "download-sqlite"),
+    ("sweep.csv", "Table (CSV)", "download-csv"),
+    ("sweep.nc", "Table (NetCDF)", "download-netcdf"),
+)
+
+
+def add(work: Work) -> None:
+    """Add the page to the server."""
+
+    @ui.page(_PATH, response_timeout=PAGE_PATIENCE)
+    async def page(request: Request) -> None:
+        found, error = Inputs.of_link(request.query_params.multi_items(), Inputs())
+        given = sweep_inputs(found)
+        if given is None and found.table and error is None:
+            error = InputError("address", "has no case", takes="the inputs of a case, or of a sweep")
+        page = SweepPage(session_of(work, SWEEP if given is None else given))
+        with framed("Sweep: what happens over a range?", _PATH):
+            page.build(error)
+        client = ui.context.client
+        await client.connected()
+        if not client.is_deleted:
+            await page.begin()
+
+
+class SweepPage:
+    """Page of one tab."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.workers = max(1, cores() - 1)
+        self._asked = 0
+        self._choices: SweepChoices | None = None
+        # Inputs whose points the map shows; None where nothing was run. The database has them, until a run of
+        # other inputs, the wanted ones, has begun to write its own.
+        self._ran: Inputs | None = None
+        self._wanted: Inputs | None = None
+        self._job: Job | None = None
+        self._started = self._next = 0.0
+        self._first = 0
+        # Time of a point in the last run, on all its processes together [s], and its base case.
+        self._pace: tuple[Any, float] | None = None
+        self._looking = self._valid = False
+
+    @property
+    def folder(self) -> str:
+        """Folder of the database."""
+        return str(self.session.folder / "sweep")
+
+    def build(self, error: InputError | None) -> None:
+        """Build the form, the buttons and the place of the map."""
+        self.toolbar = Toolbar(self.session, _PATH, self.shown_again)
+        if error is not None:
+            ui.label(str(error)).classes("wrong").props('role="alert" data-testid="error-address"')
+        with ui.element("div").classes("columns") as self._place:
+            self.form = RangesForm(self.session.inputs, None, self.change)
+            with ui.element("section").props('aria-label="Sweep"'):
+                self._controls()
+                self.map = MapPart(self.session, self._show)
+                self._outputs()
+        self._timer = ui.timer(0.25, self._look, active=False)
+
+    async def begin(self) -> None:
+        """Complete the inputs of an address, and show the size of the sweep."""
+        await self._set(self.session.inputs, begins=True)
+
+    async def shown_again(self) -> None:
+        """Show the present inputs, as after an undo."""
+        await self._set(self.session.inputs)
+
+    async def change(self, inputs: Inputs) -> None:
+        """Take over changed inputs."""
+        # The field that was changed may be made anew meanwhile, and with it the place of its events.
+        with self._place:
+            await self._set(inputs)
+
+    async def _set(self, inputs: Inputs, *, begins: bool = False) -> None:
+        """Take over inputs; those without varied ones get the usual ranges."""
+        self._asked += 1
+        asked = self._asked
+        if inputs.value("vary"):
+            self._take(inputs)
+        try:
+            choices = await self.session.work.quick(SWEEP_CHOICES, dict(inputs.value("case") or {}))
+        except (InputError, LostError) as error:
+            if asked == self._asked:
+                self._take(inputs)
+                self._refuse(error)
+            return
+        if asked != self._asked:
+            return
+        self._choices = choices
+        if not inputs.value("vary"):
+            inputs = with_ranges(inputs, [range_of(one) for one in choices.variables[:2]])
+            if begins:
+                # Nothing was there before that an undo could show.
+                self.session.history.now = inputs
+        self._take(inputs)
+        if self._ran is not None and self.map.differs:
+            await self._read()
+        await self._plan(asked)
+
+    def _take(self, inputs: Inputs) -> None:
+        self.session.history.push(inputs)
+        if inputs.linkable:
+            show_address(inputs, _PATH)
+        self.form.set(inputs, self._choices)
+        self.map.offer(self._choices.values if self._choices else {}, str(inputs.value("show") or ""))
+        self._tell_state()
+
+    async def _plan(self, asked: int) -> None:
+        self.plan.text = "Checking …"
+        self._allow(valid=True)
+        try:
+            found = await self.session.work.quick(SWEEP_PLANNED, self._table(), self.workers)
+        except (InputError, LostError) as error:
+            if asked == self._asked:
+                self._refuse(error)
+            return
+        if asked == self._asked:
+            self.form.tell(None)
+            self.plan.text = _in_words(self._paced(found))
+
+    def _paced(self, plan: SweepPlan) -> SweepPlan:
+        """Plan with the time that the points of the same base case took, where some are solved."""
+        if self._pace is None or self._pace[0] != self.session.inputs.value("case"):
+            return plan
+        return replace(plan, seconds=plan.points * self._pace[1])
+
+    def _table(self) -> dict[str, Any]:
+        return dict(sweep_file(self.session.inputs).table)
+
+    def _allow(self, *, valid: bool) -> None:
+        self._valid = valid
+        self._tell_state()
+
+    def _refuse(self, error: Exception) -> None:
+        self._allow(valid=False)
+        self.plan.text = "The inputs cannot be run; see what is wrong beside them."
+        if isinstance(error, InputError):
+            self.form.tell(error)
+        else:
+            self.plan.text = str(error)
+
+    async def _show(self, key: str) -> None:
+        """Show another result of the points."""
+        self.session.history.push(self.session.inputs.changed({"show": key}))
+        if self.session.inputs.linkable:
+            show_address(self.session.inputs, _PATH)
+        if self._ran is not None:
+            await self._read()
+
+    def _controls(self) -> None:
+        with card("Run"):
+            self.plan = ui.label().props('data-testid="plan" aria-live="polite"')
+            with ui.element("div").classes("buttons"):
+                self.run = ui.button("Run", on_click=self._run, color=None).classes("primary")
+                self.run.props("no-caps unelevated data-testid=solve")
+                self.stop = ui.button("Stop", on_click=self._stop)
+                self.stop.props("no-caps outline data-testid=cancel").set_enabled(False)
+                self.clear = ui.button("Clear results", on_click=self._clear)
+                self.clear.props("no-caps flat data-testid=clear").set_enabled(False)
+            self.bar = ui.linear_progress(0.0, show_value=False)
+            self.bar.props('aria-label="Solved part of the sweep"').set_visibility(False)
+            self.state = ui.label().props('role="status" data-testid="progress"')
+            self.failure = ui.label().classes("wrong").props('role="alert" data-testid="failure"')
+
+    def _outputs(self) -> None:
+        with card("Downloads"):
+            with ui.element("div").classes("buttons"):
+                button = ui.button("Sweep file (TOML)", on_click=self._download_toml)
+                button.props("no-caps outline data-testid=download-toml")
+                self.downloads = [self._download_of(*about) for about in _DOWNLOADS]
+            ui.label("ehlectric sweep sweep.toml runs this file; the files are those that it writes.")
+        Downloads(self.session, "sweep", self._finished_folder, only_made=True)
+
+    def _finished_folder(self) -> Path | None:
+        """Folder of the database, where it has points of the present inputs and is not written to."""
+        return self.session.folder / "sweep" if self._same and not self.stop.enabled else None
+
+    @property
+    def _same(self) -> bool:
+        """Whether the map shows the sweep of the present inputs."""
+        return self._ran is not None and same_sweep(self._ran, sweep_file(self.session.inputs))
+
+    def _download_of(self, name: str, label: str, test_id: str) -> ui.button:
+        async def download() -> None:
+            try:
+                names = await self.session.work.quick(SWEEP_FILES, self.folder)
+            except (InputError, LostError) as error:
+                self.failure.text = str(error)
+                return
+            if name in names:
+                ui.download.file(self.session.folder / "sweep" / name, name)
+
+        button = ui.button(label, on_click=download).props(f"no-caps outline data-testid={test_id}")
+        button.set_enabled(False)
+        return button
+
+    def _download_toml(self) -> None:
+        ui.download.content(sweep_file(self.session.inputs).toml(), "sweep.toml", "application/toml")
+
+    def _run(self) -> None:
+        """Solve the open points; those that the database has are kept."""
+        self.failure.text = ""
+        try:
+            self._job = self.session.start(SWEEP_SOLVED, self._table(), self.folder, self.workers)
+        except LostError as error:
+            self.failure.text = str(error)
+            return
+        self._wanted = sweep_file(self.session.inputs)
+        self._started = self._next = 0.0
+        self.state.text = ""
+        self._timer.activate()
+        self._tell_state()
+
+    def _stop(self) -> None:
+        if self._job is not None:
+            self._job.cancel()
+
+    def _clear(self) -> None:
+        """Remove the database; its points would have to be solved again."""
+        if self._job is None or self._job.over:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            self._ran = self._wanted = None
+            self.map.clear()
+            self.state.text = self.failure.text = ""
+            self._tell_state()
+
+    async def _look(self) -> None:
+        """Show the progress of the job, and now and then the points that it has solved."""
+        job = self._job
+        if job is None or self._looking:
+            return
+        self._looking = True
+        try:
+            over = job.over
+            self._tell_progress(job)
+            if over:
+                self._timer.deactivate()
+                self._tell_state()
+            if over or (job.of and time.monotonic() > self._next):
+                await self._read(running=not over)
+            if over and job is self._job:
+                self._end(job)
+        finally:
+            self._looking = False
+
+    def _tell_progress(self, job: Job) -> None:
+        if not job.of:
+            self.state.text = {"waiting": job.text, "running": "starting"}.get(job.state, "")
+            return
+        if not self._started:
+            self._started, self._first = time.monotonic(), job.done
+        self.bar.value = job.done / job.of
+        solved, passed = job.done - self._first, time.monotonic() - self._started
+        if solved > 0 and self._wanted is not None:
+            self._pace = (self._wanted.value("case"), passed / solved)
+        more = f" ({job.text})" if job.text else ""
+        self.state.text = f"{job.done} of {job.of} points done{more}{self._left(job, 'about {} left')}"
+
+    def _left(self, job: Job, text: str) -> str:
+        """Time that the other points of a job will take, in a text; empty where none is solved yet."""
+        if self._pace is None or job.done >= job.of or job.done <= self._first:
+            return ""
+        return f", {text.format(duration((job.of - job.done) * self._pace[1]))}"
+
+    def _end(self, job: Job) -> None:
+        """Say how a job has ended, after the last look at its points."""
+        if self._wanted is not self._ran:
+            # The job ended before its sweep was in the database, which still has that of the map.
+            self._wanted = self._ran
+        if job.state == "cancelled" and not job.of:
+            self.state.text = "Stopped before the first point was done."
+        elif job.state == "cancelled":
+            rest = self._left(job, "in about {}")
+            self.state.text = f"Stopped: {job.done} of {job.of} points are done and kept. "
+            self.state.text += f"Resume solves only the others{rest}."
+        elif job.state == "failed":
+            self.failure.text = f"{job.error}. The points that are done are kept; Resume solves the others."
+            if isinstance(job.error, InputError):
+                self.failure.text = str(job.error)
+        self._tell_state()
+
+    async def _read(self, *, running: bool = False) -> None:
+        """Look at the points, and show them if they are those of the wanted sweep."""
+        begun, wanted = time.monotonic(), self._wanted
+        if wanted is None:
+            return
+        try:
+            view = await self.session.work.quick(SWEEP_SEEN, self.folder, self.map.shown, dict(wanted.table))
+        except (InputError, LostError) as error:
+            # A job that has just begun has no database yet.
+            if not running and self._job is not None and self._job.state == "done":
+                self.failure.text = str(error)
+            return
+        finally:
+            self._next = time.monotonic() + max(_LOOK, _SHARE * (time.monotonic() - begun))
+        if view is None or wanted is not self._wanted:
+            return
+        self._ran = wanted
+        self.map.began(wanted)
+        self.map.show(view, running=running)
+        self._tell_state()
+
+    def _tell_state(self) -> None:
+        """Enable the buttons that can be used, and name the first one by what it does."""
+        running = self._job is not None and not self._job.over
+        same = self._same
+        remain = self.map.open_points
+        finished = same and self.map.finished and not running
+        self.run.set_enabled(self._valid and not running and not finished)
+        self.run.text = "Resume" if same and remain and not running else "Run"
+        self.stop.set_enabled(running)
+        self.clear.set_enabled(not running and self._ran is not None)
+        self.bar.set_visibility(running)
+        for button in self.downloads:
+            button.set_enabled(not running and same)
+        self.map.outdated(old=self._ran is not None and not same)
+
+
+def duration(seconds: float) -> str:
+    """Time in words, with two digits.
+
+    Examples
+    --------
+    >>> duration(12.3), duration(200.0), duration(9000.0)
+    ('12 s', '3.3 min', '2.5 h')
+    """
+    if seconds < 100.0:
+        return f"{max(1, round(seconds))} s"
+    return f"{seconds / 60.0:.2g} min" if seconds < 5400.0 else f"{seconds / 3600.0:.2g} h"
+
+
+def _in_words(plan: SweepPlan) -> str:
+    where = f"on {plan.workers} core{'s' if plan.workers > 1 else ''}"
+    text = f"{plan.points} points {where}"
+    if plan.seconds is None:
+        text += (
+            ": each takes as long as one solution, a second for a contact or a quick drive, ten or more "
+            "for a bearing."
+        )
+    else:
+        text += f", without solving contacts: about {duration(plan.seconds)}."
+    if plan.refused:
+        text += f" {plan.refused} of {plan.corners} corners of the ranges are no valid case: {plan.reason}."
+    return text

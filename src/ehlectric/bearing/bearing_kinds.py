@@ -1,0 +1,143 @@
+"""Table of the kinds of bearings, with the functions that differ between balls and rollers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from ehlectric.bearing.loads.ball_loads import ball_equilibrium
+from ehlectric.bearing.loads.geometry import BallBearing, RollerBearing
+from ehlectric.bearing.loads.ring import Operation
+from ehlectric.bearing.loads.roller_loads import roller_equilibrium
+from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.quick_contacts import (
+    QuickContact,
+    ball_by_atlas,
+    ball_by_formula,
+    roller_by_atlas,
+    roller_by_formula,
+)
+from ehlectric.bearing.ring_contacts import (
+    BallContact,
+    ContactSolution,
+    RingContacts,
+    RollerContact,
+    ball_fits,
+    ball_grid,
+    rigid_ball,
+    rigid_roller,
+    roller_fits,
+    roller_grid,
+    solve_ball,
+    solve_roller,
+)
+from ehlectric.cases.bearing_inputs import ANGULAR, ROLLERS, Bearing
+from ehlectric.cases.grid_inputs import Grid, Solver
+
+G = TypeVar("G", BallBearing, RollerBearing)
+C = TypeVar("C", BallContact, RollerContact)
+
+
+@dataclass(frozen=True)
+class Kind(Generic[G, C]):
+    """Functions of a solution that differ between bearings with balls and with rollers.
+
+    Attributes
+    ----------
+    geometry : callable
+        Table ``[bearing]`` -> internal geometry.
+    equilibrium : callable
+        Geometry, operation, reduced modulus [Pa] and density of the elements [kg/m^3] -> loads of all
+        elements.
+    contact : callable
+        Contacts with a ring and load [N] -> contact.
+    grid : callable
+        Contact -> grid of its film and field.
+    solve : callable
+        Contact and table ``[solver]`` -> contact with its film and field solved.
+    quick : mapping of str to callable
+        Contact -> contact without solving it, by ``contacts`` of a bearing file: "atlas" or "formula". The
+        numbers of all contacts with a ring follow by ``quick_solutions``.
+    fits : callable
+        Contact -> whether the domain holds the length over which the film builds up.
+    rigid_capacitance : callable
+        Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
+    loads : int
+        Number of loads that are solved for each ring, without those of light elements. Rollers, whose films
+        change more between them, are solved ten times as fast as balls.
+    dry_exponents : tuple of float
+        Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling
+        direction.
+    """
+
+    geometry: Callable[[Bearing], G]
+    equilibrium: Callable[[G, Operation, float, float], Equilibrium]
+    contact: Callable[[RingContacts[G], float], C]
+    grid: Callable[[C], Grid]
+    solve: Callable[[C, Solver], ContactSolution]
+    quick: Mapping[str, Callable[[C], QuickContact]]
+    fits: Callable[[C], bool]
+    rigid_capacitance: Callable[[RingContacts[G], float], float]
+    loads: int
+    dry_exponents: tuple[float, float, float]
+
+
+def _ball_geometry(bearing: Bearing) -> BallBearing:
+    assert bearing.inner_groove is not None and bearing.outer_groove is not None
+    return BallBearing(
+        bearing.elements,
+        bearing.element_diameter,
+        bearing.pitch_diameter,
+        bearing.inner_groove,
+        bearing.outer_groove,
+        bearing.radial_clearance,
+        bearing.contact_angle,
+    )
+
+
+def _roller_geometry(bearing: Bearing) -> RollerBearing:
+    assert bearing.roller_length is not None and bearing.radial_clearance is not None
+    assert bearing.profile is not None
+    return RollerBearing(
+        bearing.elements,
+        bearing.element_diameter,
+        bearing.pitch_diameter,
+        bearing.roller_length,
+        bearing.radial_clearance,
+        bearing.profile,
+    )
+
+
+_BALLS = Kind[BallBearing, BallContact](
+    geometry=_ball_geometry,
+    equilibrium=ball_equilibrium,
+    contact=BallContact,
+    grid=ball_grid,
+    solve=solve_ball,
+    quick={"atlas": ball_by_atlas, "formula": ball_by_formula},
+    fits=ball_fits,
+    rigid_capacitance=rigid_ball,
+    loads=5,
+    dry_exponents=(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0),
+)
+_ROLLERS = Kind[RollerBearing, RollerContact](
+    geometry=_roller_geometry,
+    equilibrium=roller_equilibrium,
+    contact=RollerContact,
+    grid=roller_grid,
+    solve=solve_roller,
+    quick={"atlas": roller_by_atlas, "formula": roller_by_formula},
+    fits=roller_fits,
+    rigid_capacitance=rigid_roller,
+    loads=10,
+    dry_exponents=(0.5, 0.5, 0.0),
+)
+
+# Kinds of bearings by ``bearing.kind`` of a bearing file.
+KINDS: dict[str, Kind[Any, Any]] = {"deep-groove ball": _BALLS, ANGULAR: _BALLS, ROLLERS: _ROLLERS}
+
+
+def kind_of(ring: RingContacts[Any]) -> Kind[Any, Any]:
+    """Kind of the bearing of a ring."""
+    return KINDS[ring.conditions.bearing.kind]

@@ -1,0 +1,384 @@
+"""Asperities that touch in a bearing: load shares, share of time in which it conducts, and its regime."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.quick_contacts import quick_case
+from ehlectric.bearing.solution import CONDUCTING, BearingSolution, RingState, lambda_ratio, lubrication
+from ehlectric.bearing.solving import quick_solution
+from ehlectric.cases.bearing_inputs import ROLLERS
+from ehlectric.errors import InputError
+from ehlectric.formulas.asperities import (
+    LOAD_SHARE,
+    LOWEST_SEPARATION,
+    AsperityContact,
+    SpectralMoments,
+    Summits,
+    area_while_touching,
+    bearing_time_share,
+    contact_probability,
+    contact_time_share,
+    expected_spots,
+    greenwood_williamson,
+    johnson_end,
+    load_shares,
+    separation_of_gap,
+    summit_separation,
+)
+
+# Share of time below which a text gives no number: a hundredth of a per cent.
+SELDOM = 1e-4
+
+# End of all texts.
+OF_TIME = " of the time"
+
+
+def time_text(share: float) -> str:
+    """Share of time as text.
+
+    Examples
+    --------
+    >>> time_text(0.0257), time_text(3e-9), time_text(0.99999)
+    ('2.57 % of the time', 'less than 0.01 % of the time', 'more than 99.99 % of the time')
+    """
+    if share < SELDOM:
+        return f"less than 0.01 %{OF_TIME}"
+    if share > 1.0 - SELDOM:
+        return f"more than 99.99 %{OF_TIME}"
+    digits = ".3g" if share < 0.99 else ".4g"
+    return f"{100.0 * share:{digits}} %{OF_TIME}"
+
+
+# Law of ``LOAD_SHARE`` whose asperity load share is given; the others are its spread. It is one of the two
+# that are models of a load share at any lambda: Clarke's is a share of time, Johnson's ends near lambda 2.
+DEFAULT_SHARE = "patir_cheng"
+
+# Shares of time up to which a bearing is called capacitive, and from which it is called resistive. Within 1 %
+# of either end the time-averaged current or charge is that of the one state to 1 %, which is less than the
+# error of any film. Such a bearing still discharges at times: 1 % of the time is minutes in a day.
+CAPACITIVE, RESISTIVE = 0.01, 0.99
+
+# What the share of time of a contact is from, without and with ``[bearing.summits]``.
+_MODELS = {False: "clarke", True: "greenwood_williamson"}
+
+
+@dataclass(frozen=True, eq=False)
+class RingDuty:
+    """Asperities in the contacts of all elements with one ring at one position of the cage.
+
+    Attributes
+    ----------
+    central_lambda_ratio : ndarray, shape (n,)
+        Central film thickness over composite roughness, dimensionless; infinite without load.
+    asperity_share, asperity_share_low, asperity_share_high : ndarray, shape (n,)
+        Share of the load on asperities by ``DEFAULT_SHARE``, and the least and the largest of all laws.
+    contact_probability : ndarray, shape (n,)
+        Share of time with metallic contact by Clarke's fit over lambda.
+    expected_spots : ndarray, shape (n,), or None
+        Expected number of simultaneous spots in the Hertz area; None without summits.
+    contact_time_share : ndarray, shape (n,)
+        Share of time with metallic contact: from the expected spots, or by Clarke's fit without summits.
+    real_area : ndarray, shape (n,), or None
+        Mean area of the spots together, while there are any [m^2]; None without summits.
+    """
+
+    central_lambda_ratio: Array
+    asperity_share: Array
+    asperity_share_low: Array
+    asperity_share_high: Array
+    contact_probability: Array
+    expected_spots: Array | None
+    contact_time_share: Array
+    real_area: Array | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class BearingDuty:
+    """Asperities in a whole bearing.
+
+    Attributes
+    ----------
+    rings : tuple of (RingDuty, RingDuty)
+        Contacts with the inner and the outer ring at each position of the cage.
+    touching_time_share : float
+        Share of time in which at least one element touches both rings, mean over the positions.
+    clarke_time_share : float
+        The same with Clarke's fit for each contact.
+    insulated : bool
+        Whether ceramic elements or a coating insulate, so that the bearing never conducts.
+    model : str
+        What the share of time of a contact is from: "clarke" or "greenwood_williamson".
+    regime : str
+        Regime in one word, as ``regime_of`` gives it.
+    """
+
+    rings: tuple[tuple[RingDuty, RingDuty], ...]
+    touching_time_share: float
+    clarke_time_share: float
+    insulated: bool
+    model: str
+    regime: str
+
+    @property
+    def contact_time_share(self) -> float:
+        """Share of time in which the bearing conducts from shaft to housing by metallic contact."""
+        return 0.0 if self.insulated else self.touching_time_share
+
+    @property
+    def real_area(self) -> float | None:
+        """Real area of contact of all elements that touch both rings, while any does [m^2].
+
+        Each has the smaller one of its two contacts; mean over time and positions. None without summits, and
+        where nothing touches.
+        """
+        areas = 0.0
+        for inner, outer in self.rings:
+            if inner.real_area is None or outer.real_area is None:
+                return None
+            weight = inner.contact_time_share * outer.contact_time_share
+            areas += float(np.sum(weight * np.minimum(inner.real_area, outer.real_area)))
+        return areas / len(self.rings) / self.touching_time_share if areas else None
+
+    @property
+    def closed(self) -> float:
+        """Mean number of elements that touch both rings at a time, while any does; 0 where none ever does."""
+        number = np.mean([np.sum(a.contact_time_share * b.contact_time_share) for a, b in self.rings])
+        return float(number) / self.touching_time_share if self.touching_time_share else 0.0
+
+
+def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDuty:
+    """Load shares of asperities and shares of time with contact in a solved bearing.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+    film_scale : float
+        Factor on all film thicknesses, dimensionless; for films of a quick way, scaled to solved ones.
+
+    Returns
+    -------
+    BearingDuty
+        Contacts at each position of the cage, and the whole bearing.
+
+    Notes
+    -----
+    Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which pressure
+    flattens. An element conducts while both its contacts do, and one element shorts the bearing
+    (``asperities.intermittency``). All contacts are taken as independent.
+    """
+    rings = tuple(
+        (_ring(solution, position.inner, film_scale), _ring(solution, position.outer, film_scale))
+        for position in solution.positions
+    )
+    coated = solution.case.bearing.coating is not None
+    insulated = solution.conditions.ceramic or coated
+    touching = _mean_share([(a.contact_time_share, b.contact_time_share) for a, b in rings])
+    state = lubrication(solution, film_scale=film_scale)
+    share = 0.0 if insulated else touching
+    return BearingDuty(
+        rings=rings,
+        touching_time_share=touching,
+        clarke_time_share=_mean_share([(a.contact_probability, b.contact_probability) for a, b in rings]),
+        insulated=insulated,
+        model=_MODELS[solution.case.bearing.summits is not None],
+        regime=regime_of(share, touching=state == "conducting" and not coated),
+    )
+
+
+def regime_of(share: float, *, touching: bool = False) -> str:
+    """Regime of a bearing in one word: "capacitive", "intermittent" or "resistive".
+
+    Parameters
+    ----------
+    share : float
+        Share of time in which the bearing conducts, dimensionless.
+    touching : bool
+        Whether its least lambda ratio is below 1, where no voltage is computed. It is not called capacitive
+        then, whatever the share: laws of the share are least certain there.
+
+    Examples
+    --------
+    >>> regime_of(1e-4), regime_of(0.3), regime_of(0.995), regime_of(1e-4, touching=True)
+    ('capacitive', 'intermittent', 'resistive', 'intermittent')
+    """
+    if share > RESISTIVE:
+        return "resistive"
+    return "intermittent" if touching or share > CAPACITIVE else "capacitive"
+
+
+def _mean_share(pairs: list[tuple[Array, Array]]) -> float:
+    """Share of time in which a bearing conducts, mean over the positions, from the shares of its contacts."""
+    inner, outer = (np.array(column) for column in zip(*pairs, strict=True))
+    return float(np.mean(bearing_time_share(inner, outer)))
+
+
+def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> RingDuty:
+    """Asperities in the contacts with one ring; elements without load have none."""
+    bearing, loaded = solution.case.bearing, ring.solved
+    film = film_scale * ring.values.central_thickness[loaded]
+
+    def whole(values: Array, otherwise: float = 0.0) -> Array:
+        column = np.full(loaded.shape, otherwise)
+        column[loaded] = values
+        return column
+
+    ratio = film / bearing.composite_rq
+    shares, probability = load_shares(ratio), contact_probability(ratio)
+    low = np.min([_in_range(name, share, ratio) for name, share in shares.items()], axis=0)
+    spots, real, time_share = None, None, probability
+    if bearing.summits is not None:
+        factor = 4.0 if bearing.kind == ROLLERS else np.pi
+        area = factor * ring.values.semi_axis_x[loaded] * ring.values.semi_axis_y[loaded]
+        touching = _touching(solution, film)
+        number = expected_spots(touching.spots_per_area, area)
+        time_share = contact_time_share(number)
+        spots, real = whole(number), whole(area_while_touching(touching, area))
+    return RingDuty(
+        central_lambda_ratio=whole(ratio, np.inf),
+        asperity_share=whole(shares[DEFAULT_SHARE]),
+        asperity_share_low=whole(low),
+        asperity_share_high=whole(np.max(list(shares.values()), axis=0)),
+        contact_probability=whole(probability),
+        expected_spots=spots,
+        contact_time_share=whole(time_share),
+        real_area=real,
+    )
+
+
+def _in_range(name: str, share: Array, ratio: Array) -> Array:
+    """Load share by a law, infinite beyond its range: Johnson's fit ends at a share of 0."""
+    assert name in LOAD_SHARE
+    return np.where(ratio < johnson_end(), share, np.inf) if name == "johnson" else share
+
+
+def _touching(solution: BearingSolution, film: Array) -> AsperityContact:
+    """Asperities of contacts with a central film [m], after Greenwood and Williamson."""
+    bearing = solution.case.bearing
+    given, rq = bearing.summits, bearing.composite_rq
+    assert given is not None
+    deviation, separation = given.height_deviation or rq, separation_of_gap(film, rq)
+    if given.bandwidth is not None:
+        # Of the moments only m0 and the bandwidth m0 m4/m2^2 count for the heights of the summits.
+        deviation = SpectralMoments(rq**2, 1.0, given.bandwidth / rq**2).summits().height_deviation
+        separation = summit_separation(separation, rq, given.bandwidth)
+    highest = np.inf if given.highest is None else given.highest
+    summits = Summits(density=given.density, radius=given.radius, height_deviation=deviation, highest=highest)
+    # Summits of nearly one height all touch from a separation on that is below the range of the integrals.
+    level = np.maximum(separation, LOWEST_SEPARATION * deviation)
+    return greenwood_williamson(level, summits, solution.conditions.modulus)
+
+
+# Factor between the speeds that are looked at, their number in each direction from that of the case, and the
+# tolerance of the logarithm of the speed: 0.2 %.
+_STEP, _STEPS, _TOLERANCE = 3.0, 3, 2e-3
+
+# Least share of time whose logarithm is taken; far below any speed that is looked for.
+_LEAST = 1e-12
+
+
+def capacitive_speed(solution: BearingSolution) -> float | None:
+    """Speed of the inner ring from which a bearing is capacitive at its temperature.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+
+    Returns
+    -------
+    float or None
+        Speed [rad/s] at which the bearing becomes capacitive: it conducts ``CAPACITIVE`` of the time, or its
+        least lambda ratio is 1 if that speed is higher. Of a bearing that is capacitive it is the next lower
+        one, of another the next higher one. None where there is none from a 27th to 27 times the speed of the
+        case; for ceramic elements and coatings, which insulate at any speed; for an oil that no quick way
+        describes; and where a film of the solution is not converged.
+
+    Notes
+    -----
+    Films at other speeds are from the atlas, or by formula where the contacts of the case are, and are
+    scaled to the least lambda ratio of the solution at its own speed. The temperature is that of the case at
+    all speeds.
+    """
+    case = solution.case
+    if solution.conditions.ceramic or case.bearing.coating is not None or not solution.converged:
+        return None
+    quick, _ = quick_case(case)
+    if quick is None:
+        return None
+    own, start = math.log(case.bearing.inner_speed), quick_solution(quick)
+    scale = lambda_ratio(solution) / lambda_ratio(start)
+
+    known: dict[float, float] = {}
+
+    def excess(log: float) -> float:
+        if log not in known:
+            known[log] = found(log)
+        return known[log]
+
+    def found(log: float) -> float:
+        """How far the bearing is beyond both limits, by logarithms; negative where it is not capacitive."""
+        changed = quick.replace({"bearing.inner_speed": math.exp(log)})
+        at = start if log == own else quick_solution(changed)
+        share = duty_of(at, film_scale=scale).contact_time_share
+        room = math.log(scale * lambda_ratio(at) / CONDUCTING)
+        return min(math.log(CAPACITIVE / max(share, _LEAST)), room)
+
+    first = excess(own)
+    step = math.log(_STEP) if first < 0.0 else -math.log(_STEP)
+    for k in range(_STEPS):
+        ends = own + k * step, own + (k + 1) * step
+        try:
+            beyond = excess(ends[1])
+        except InputError:
+            # The bearing has no equilibrium or no film at this speed, nor beyond it.
+            return None
+        if (beyond < 0.0) != (first < 0.0):
+            return math.exp(float(brentq(excess, min(ends), max(ends), xtol=_TOLERANCE)))
+    return None
+
+
+def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
+    """Regime, shares of time and load shares of a bearing, as in the table ``bearing`` of summary.json."""
+    rq = solution.case.bearing.composite_rq
+    found: dict[str, Any] = {
+        "regime": duty.regime,
+        "contact_time_share": duty.contact_time_share,
+        "insulating_time_share": 1.0 - duty.touching_time_share,
+        "touching_time_share": duty.touching_time_share,
+        "clarke_time_share": duty.clarke_time_share,
+        "contact_model": duty.model,
+    }
+    for k, name in enumerate(("inner", "outer")):
+        rings = [position.rings[k] for position in solution.positions]
+        least = [np.min(ring.values.minimum_thickness[ring.solved], initial=np.inf) for ring in rings]
+        found[f"{name}_lambda_ratio"] = float(min(least)) / rq
+    for k, name in enumerate(("inner", "outer")):
+        shares = [rings[k].contact_time_share for rings in duty.rings]
+        found[f"{name}_contact_time_share"] = float(np.max(shares))
+    all_of = [ring for rings in duty.rings for ring in rings]
+    for key in ("asperity_share", "asperity_share_low", "asperity_share_high"):
+        found[key] = float(max(np.max(getattr(ring, key)) for ring in all_of))
+    spots = [np.max(ring.expected_spots) for ring in all_of if ring.expected_spots is not None]
+    return found | {"expected_spots": float(max(spots)) if spots else None}
+
+
+def contact_duty(ring: RingDuty, k: int) -> dict[str, float | None]:
+    """Values of the contact of element ``k`` with a ring, as in a row of ``contacts``."""
+    ratio, spots = ring.central_lambda_ratio[k], ring.expected_spots
+    return {
+        "central_lambda_ratio": float(ratio) if np.isfinite(ratio) else None,
+        "asperity_share": float(ring.asperity_share[k]),
+        "asperity_share_low": float(ring.asperity_share_low[k]),
+        "asperity_share_high": float(ring.asperity_share_high[k]),
+        "contact_probability": float(ring.contact_probability[k]),
+        "expected_spots": None if spots is None else float(spots[k]),
+        "contact_time_share": float(ring.contact_time_share[k]),
+    }

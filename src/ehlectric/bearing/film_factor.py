@@ -1,0 +1,576 @@
+"""Film factor of the contacts of a bearing, of heat and of supply of oil, and the friction of rolling.
+
+Hydrodynamic rolling resistance of all contacts of a bearing, from one solved contact of each ring.
+It is one part of the friction of a bearing. Spin and the slip along the ellipse of a ball, cage, ribs and
+ends of rollers, seals, oil that is churned, and hysteresis of the steel have no part in it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.bearing_kinds import kind_of
+from ehlectric.bearing.conditions import BearingConditions, ContactFriction
+from ehlectric.bearing.loads.geometry import Geometry, rolling_speeds
+from ehlectric.bearing.ring_contacts import Contact, RingContacts, check_contact, error_of_contact
+from ehlectric.bearing.solution import BearingSolution, RingState
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
+from ehlectric.cases.case_oil import Lubricant, temperature_coefficient
+from ehlectric.cases.contact_inputs import Body as BodyTable
+from ehlectric.cases.film_inputs import thermal_properties
+from ehlectric.cases.grid_inputs import Grid
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.contact_heat import hot_oil
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.problems import Setup
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.film.hot_oil import Body, Physics, Thermal
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.film.shear_laws import Rheology
+from ehlectric.formulas.inlet_supply import (
+    decay_rate,
+    film_half_time,
+    inlet_shear_factor,
+    line_rolling_force,
+    point_rolling_force,
+    replenishment_factor,
+)
+from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.units import rpm
+from ehlectric.runtime.progress import LOGGER
+
+
+def half_time(solution: BearingSolution) -> float | None:
+    """Time [s] after which the film of the most loaded contact of a ring has halved without supply.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+
+    Returns
+    -------
+    float or None
+        Smaller time of both rings; None for a flooded bearing, whose tracks are filled up at every passage,
+        and for rollers, from whose contacts hardly any oil flows to the sides.
+
+    Notes
+    -----
+    All contacts are taken as loaded like the most loaded one, so that real films decay more slowly.
+    """
+    bearing = solution.case.bearing
+    if bearing.supply == "flooded" or bearing.kind == ROLLERS:
+        return None
+    rings = zip((solution.inner, solution.outer), solution.positions[0].rings, strict=True)
+    return min(_half_time(ring, state) for ring, state in rings)
+
+
+def _half_time(ring: RingContacts[Any], state: RingState) -> float:
+    """Time in which the most loaded film of a ring halves [s]."""
+    most, values = int(np.argmax(state.load)), state.values
+    axes = float(values.semi_axis_x[most]), float(values.semi_axis_y[most])
+    return contact_half_time(
+        ring, float(values.max_pressure[most]), axes, float(values.central_thickness[most])
+    )
+
+
+def contact_half_time(
+    ring: RingContacts[Any], max_pressure: float, semi_axes: tuple[float, float], thickness: float
+) -> float:
+    """Time in which the film of a contact with a ring halves if no oil returns to its track [s].
+
+    Parameters
+    ----------
+    ring : RingContacts
+        Contacts with the ring, with their oil.
+    max_pressure : float
+        Hertz pressure of the contact [Pa].
+    semi_axes : tuple of float
+        Semi-axes of the contact along and across the track [m].
+    thickness : float
+        Central film thickness at the start [m].
+    """
+    rate = decay_rate(
+        max_pressure=max_pressure,
+        semi_axes=semi_axes,
+        viscosity=ring.oil.viscosity,
+        pressure_viscosity_coefficient=ring.oil.alpha_star,
+        density_ratio=float(ring.oil.density_ratio(max_pressure)[0]),
+        track_length=track_length(ring.conditions, ring.angle, inner=ring.inner),
+    )
+    return float(film_half_time(thickness, rate))
+
+
+def track_length(conditions: BearingConditions[Any], angle: float, *, inner: bool) -> float:
+    """Length of track on both surfaces from which one contact with a ring presses oil [m].
+
+    All Z contacts with the ring share its track of the length pi (d_m -+ D cos a), and both contacts of an
+    element share that of the length pi D on its surface.
+    """
+    bearing = conditions.bearing
+    sign = -1.0 if inner else 1.0
+    race = bearing.pitch_diameter + sign * bearing.element_diameter * math.cos(angle)
+    return math.pi * (race / bearing.elements + 0.5 * bearing.element_diameter)
+
+
+# Intervals along entrainment for one across: half of the nodes across change the factor by 1e-4.
+_ACROSS = 2
+
+# Least number of intervals of a ball's contact along entrainment. With twice as many the factor of a 6208 at
+# 15 000 rpm is 0.4 % larger.
+_ALONG = 128
+
+# Grids that are tried, each with twice the nodes of the last: thin films of slow contacts need more of them.
+_GRIDS = 2
+
+
+@dataclass(frozen=True)
+class _HotContact:
+    """Contact whose film is solved with and without heat; equal ones have the same heat.
+
+    Attributes
+    ----------
+    conditions : Conditions or PointConditions
+        Operating conditions of the isothermal, fully flooded film.
+    temperature : float
+        Temperature of the oil that enters, and of the ring [K].
+    bodies : tuple of Body
+        Ring and element.
+    identity : str
+        Lubricant and solver of the file, as text.
+    lubricant, setup
+        Lubricant, and setup with its grid; both follow from the other attributes.
+    """
+
+    conditions: Conditions | PointConditions
+    temperature: float
+    bodies: tuple[Body, Body]
+    identity: str
+    lubricant: Lubricant = field(compare=False, repr=False)
+    setup: Setup = field(compare=False, repr=False)
+
+
+def solved_heat(case: BearingCase, ring: RingContacts[Any], load: float) -> tuple[float, ContactFriction]:
+    """Film factor of the heat in a contact, and its friction and temperature in pure rolling.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file, with ``bearing.film_factor`` "solved".
+    ring : RingContacts
+        Contacts with the ring; their film factor is not used.
+    load : float
+        Load of the contact [N].
+
+    Returns
+    -------
+    factor : float
+        Central film thickness with heat over that of the isothermal Newtonian film, dimensionless.
+    friction : ContactFriction
+        Rolling friction and temperature of the film with heat. Those of the same contact are kept.
+
+    Raises
+    ------
+    InputError
+        Where the contact is beyond the model, or the oil has no values at its temperatures.
+    ConvergenceError
+        Where one of both films does not converge.
+
+    Notes
+    -----
+    Both surfaces have the entrainment speed: the slip by spin, of the cage and along the ellipse is left out.
+    The oil thins where it is sheared if the lubricant has an Eyring stress, and is Newtonian otherwise.
+    """
+    kind = kind_of(ring)
+    contact: Contact = kind.contact(_flooded(ring), load)
+    check_contact(contact)
+    try:
+        factor, found = _solved(_hot(case, contact, kind.grid(contact)))
+    except InputError as error:
+        raise error_of_contact(contact, error) from None
+    except ConvergenceError as error:
+        where = f"{ring.name} contact at {load:.4g} N"
+        text = f"bearing.film_factor 'solved': {where}: {error}; 'inlet-shear' needs no solved film"
+        raise ConvergenceError(text) from None
+    # Load and power of a line contact are those of a metre of it.
+    length = case.bearing.roller_length or 1.0
+    return factor, replace(found, load=load, power_loss=length * found.power_loss)
+
+
+def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
+    """Contacts with a ring whose films are isothermal and fully flooded."""
+    at = ring.conditions
+    inner, outer = (replace(own, film_factor=1.0) for own in (at.inner, at.outer))
+    return replace(ring, conditions=replace(at, inner=inner, outer=outer))
+
+
+def _hot(case: BearingCase, contact: Contact, grid: Grid) -> _HotContact:
+    """Contact of a bearing with its bodies, its oil and its grid."""
+    ring, bearing = contact.ring, case.bearing
+    temperature = bearing.ring_temperature(inner=ring.inner)
+    conditions: Conditions | PointConditions = contact.conditions
+    if isinstance(conditions, PointConditions):
+        assert grid.side is not None
+        conditions = replace(conditions, side=grid.side)
+    return _HotContact(
+        conditions,
+        temperature,
+        (
+            _body(bearing.ring_material, temperature, "bearing.ring_material"),
+            _body(bearing.element_material, bearing.element_temperature, "bearing.element_material"),
+        ),
+        f"{case.lubricant.model_dump_json()} {case.solver.model_dump_json()}",
+        case.lubricant,
+        Setup(ring.oil, _coarse(grid), solver=case.solver),
+    )
+
+
+def _body(material: str, temperature: float, key: str) -> Body:
+    """Body of a material of the library at a temperature [K]."""
+    return Body(temperature, **thermal_properties(BodyTable.from_dict({"material": material}), key))
+
+
+def _coarse(grid: Grid) -> Grid:
+    """Grid for the factor, on the domain of a grid for the film: errors of both films nearly cancel."""
+    if grid.side is None:
+        return _with_nodes(grid, grid.nodes_along // 2)
+    parts = _ALONG
+    while parts + 1 < grid.nodes_along:
+        parts *= 2
+    return _with_nodes(grid, parts)
+
+
+def _with_nodes(grid: Grid, parts: int) -> Grid:
+    """Grid with a number of intervals along entrainment, which is not refined."""
+    across = {} if grid.side is None else {"nodes_y": parts // _ACROSS + 1}
+    return grid.model_copy(update={"nodes": parts + 1, "refine": None, **across})
+
+
+@lru_cache(maxsize=256)
+def _solved(hot: _HotContact) -> tuple[float, ContactFriction]:
+    """Central film with heat over that without it, and friction; seconds for a roller, more for a ball."""
+    conditions, lubricant = hot.conditions, hot.lubricant
+    stress = lubricant.eyring_stress
+    rheology = Rheology() if stress is None else Rheology("eyring", {"eyring_stress": stress})
+    temperatures = (hot.temperature, *(body.temperature for body in hot.bodies))
+    oil = hot_oil(lubricant, temperatures, conditions.max_pressure)
+    speeds = (conditions.entrainment_speed, conditions.entrainment_speed)
+    physics = Physics(rheology, speeds, conditions.viscosity, Thermal(hot.bodies, hot.temperature, oil))
+    kind, setup = KINDS[conditions.geometry], hot.setup
+    for _ in range(_GRIDS):
+        film = kind.solve_film(replace(kind.film_problem(setup, conditions, ()), physics=physics))
+        isothermal = film.heated.isothermal_central_thickness
+        if film.converged and isothermal is not None:
+            factor = float(film.central_thickness / isothermal)
+            nodes = " x ".join(map(str, film.thickness.shape))
+            LOGGER.info("film factor of the heat: %.4g on %s nodes", factor, nodes)
+            return factor, _friction(film, conditions, hot.temperature)
+        setup = replace(setup, grid=_with_nodes(setup.grid, 2 * (setup.grid.nodes_along - 1)))
+    if film.converged:
+        raise ConvergenceError("the isothermal film did not converge; raise solver.max_iterations")
+    raise ConvergenceError(f"film with heat, {film.status} at a residual of {film.residual:.1e}")
+
+
+def _friction(
+    film: Film | PointFilm, conditions: Conditions | PointConditions, temperature: float
+) -> ContactFriction:
+    """Friction and temperature of a film with heat whose oil enters with a temperature [K]."""
+    heated = film.heated
+    assert heated is not None and heated.mid_temperature is not None
+    assert heated.max_temperature_rise is not None
+    assert heated.rolling_coefficient is not None and heated.power_loss is not None
+    return ContactFriction(
+        load=conditions.load if isinstance(conditions, PointConditions) else conditions.load_per_length,
+        rolling_coefficient=heated.rolling_coefficient,
+        power_loss=heated.power_loss,
+        inlet_temperature_rise=float(np.max(heated.mid_temperature[film.x <= 0.0])) - temperature,
+        max_temperature_rise=heated.max_temperature_rise,
+        temperature_rise_error=heated.temperature_rise_error,
+    )
+
+
+# Least factor by rule: far below it the rule leaves films thinner than an atom.
+_LEAST = 0.01
+
+
+@dataclass(frozen=True)
+class FilmFactor:
+    """Film thickness over that of isothermal, fully flooded oil, with its parts; dimensionless.
+
+    Attributes
+    ----------
+    total : float
+        Film thickness over that of isothermal, fully flooded oil.
+    heat : float or None
+        Part of the heat in the inlet; None where a number stands for it and possibly for more.
+    supply : float or None
+        Part of the supply of oil; None where ``total`` contains it, as in a measured film factor.
+    inlet_shear : float or None
+        Part of the heat in the inlet by formula, also where the heat is to be solved; None where no heat is
+        computed.
+    """
+
+    total: float
+    heat: float | None = None
+    supply: float | None = None
+    inlet_shear: float | None = None
+
+
+def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> FilmFactor:
+    """Film factor of the contacts with a ring at its temperature [K], by the bearing file.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
+    geometry : BallBearing or RollerBearing
+        Internal geometry in operation.
+    oil : Oil
+        Oil at the temperature of the ring.
+    temperature : float
+        Temperature of the ring [K].
+
+    Returns
+    -------
+    FilmFactor
+        Factor with its parts. With ``film_factor`` "solved", whose heat is that of a loaded contact, ``heat``
+        and ``total`` are NaN.
+
+    Raises
+    ------
+    InputError
+        Where the rule for a way of supply leaves next to no film.
+    """
+    factor, supply = case.bearing.film_factor, _supply_factor(case.bearing, oil)
+    if isinstance(factor, float):
+        return FilmFactor(factor * supply, None, supply)
+    if factor == "none":
+        return FilmFactor(supply, 1.0, supply)
+    by_formula = _inlet_shear(case, geometry, oil, temperature)
+    heat = by_formula if factor == "inlet-shear" else math.nan
+    return FilmFactor(heat * supply, heat, supply, by_formula)
+
+
+def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
+    """Film over the isothermal one at a temperature [K] by the formula of the heat in the inlet."""
+    bearing = case.bearing
+    # Speed at the free contact angle: it differs little from the speed at the loaded contact angle.
+    speeds = rolling_speeds(
+        bearing.element_diameter,
+        bearing.pitch_diameter,
+        bearing.inner_speed,
+        contact_angle=geometry.free_angle,
+    )
+    slope = temperature_coefficient(case.lubricant, temperature)
+    assert slope is not None and oil.thermal_conductivity is not None
+    return inlet_shear_factor(oil.viscosity, slope, float(speeds.inner_entrainment), oil.thermal_conductivity)
+
+
+def _supply_factor(bearing: Bearing, oil: Oil) -> float:
+    """Film thickness over the fully flooded one, by the number or the rule of the file."""
+    if isinstance(bearing.supply, float):
+        return bearing.supply
+    if not bearing.by_supply_rule:
+        return 1.0
+    assert bearing.bore is not None and bearing.outer_diameter is not None and oil.density is not None
+    factor = replenishment_factor(
+        bearing.inner_speed,
+        oil.viscosity / oil.density,
+        bore=bearing.bore,
+        outer_diameter=bearing.outer_diameter,
+        supply=bearing.supply,
+        kind=bearing.kind,
+    )
+    if factor < _LEAST:
+        raise InputError(
+            "bearing.supply",
+            got=f"{bearing.supply!r}, whose rule leaves {float(factor):.2g} of the flooded film at "
+            f"{1e6 * oil.viscosity / oil.density:.0f} mm^2/s and {rpm(bearing.inner_speed):.0f} rpm;",
+            takes=f"a speed and an oil of which it leaves {_LEAST:g}, or a measured number",
+        )
+    return float(factor)
+
+
+# Numbers of the contact of each ring in the summary, by the attribute of its friction.
+_OF_CONTACT = {
+    "rolling_coefficient": "rolling_coefficient",
+    "contact_power_loss": "power_loss",
+    "inlet_temperature_rise": "inlet_temperature_rise",
+    "max_temperature_rise": "max_temperature_rise",
+    "temperature_rise_error": "temperature_rise_error",
+}
+
+
+def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Array) -> Array:
+    """Hydrodynamic rolling force on each surface of the contacts with a ring.
+
+    Parameters
+    ----------
+    ring : RingContacts
+        Contacts with the ring, without their loads.
+    friction : ContactFriction
+        Friction of the solved contact.
+    load : ndarray, shape (...)
+        Loads of the contacts [N]; 0 without contact.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Force [N]: that of the solved contact times the ratio of the forces at both loads by formula.
+
+    Notes
+    -----
+    The formulas are those of Biboulet and Houpert (2010), doi:10.1243/13506501JET790 and JET791. The force of
+    a heavily loaded ball goes with the cube root of the load, that of a roller does not depend on it. Heat
+    reduces the force of all contacts as that of the solved one, and lightly loaded ones too much.
+    """
+    # The formulas take the speed of the surfaces, which a film factor would reduce.
+    conditions = replace(kind_of(ring).contact(ring, friction.load).conditions, film_factor=1.0)
+    loads = np.array([friction.load, *np.ravel(load)])
+    if isinstance(conditions, PointConditions):
+        by_formula = point_rolling_force(conditions.formulas, loads)
+    else:
+        per_length = loads * (conditions.load_per_length / friction.load)
+        by_formula = line_rolling_force(conditions.formulas, per_length)
+    solved = friction.rolling_coefficient * friction.load
+    return np.reshape(solved * by_formula[1:] / by_formula[0], np.shape(load))
+
+
+def rolling_power_loss(solution: BearingSolution) -> float | None:
+    """Power that the hydrodynamic rolling resistance of all contacts takes, mean over the positions.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+
+    Returns
+    -------
+    float or None
+        Power [W] with flooded contacts, 2 F u for each of them; None where no heat is solved.
+    """
+    power = 0.0
+    for ring in (solution.inner, solution.outer):
+        own = solution.conditions.inner if ring.inner else solution.conditions.outer
+        if own.friction is None:
+            return None
+        states = [position.inner if ring.inner else position.outer for position in solution.positions]
+        force = rolling_force(ring, own.friction, np.array([state.load for state in states]))
+        power += 2.0 * ring.speed * float(np.mean(np.sum(force, axis=-1)))
+    return power
+
+
+def friction_summary(solution: BearingSolution) -> dict[str, float | None]:
+    """Friction of the solved contacts and of the bearing as in summary.json; None where no heat is solved."""
+    power = rolling_power_loss(solution)
+    numbers: dict[str, float | None] = {
+        "rolling_power_loss": power,
+        "rolling_moment": None if power is None else power / solution.case.bearing.inner_speed,
+    }
+    for name, own in (("inner", solution.conditions.inner), ("outer", solution.conditions.outer)):
+        for key, attribute in _OF_CONTACT.items():
+            value = None if own.friction is None else getattr(own.friction, attribute)
+            numbers[f"{name}_{key}"] = value
+    return numbers
+
+
+# Supply factor below which the layer of oil on the tracks sets the film rather than speed and viscosity: the
+# flooded film is then about twice as thick as the layer, or more.
+_LOW = 0.5
+
+# Film factor below which films differ from it by more than some per cent, as the speed at which they are
+# computed is reduced with one exponent for all contacts: for balls from the atlas 5 % here, 16 % at 0.1.
+_FAR = 0.5
+
+# Half time of a film without supply [s] below which a bearing runs for long without it: all but slow ones.
+_SOON = 3600.0
+
+# Heat of a film factor in words.
+_HEAT: Mapping[object, str] = {
+    "inlet-shear": "the heat in the inlet",
+    "solved": "the solved heat in the film in pure rolling",
+}
+
+# Ways of supply that bring little or no oil to the track at each passage.
+_SPARSE = ("grease", "oil-air")
+
+
+def film_note(solution: BearingSolution) -> ResultWarning:
+    """Note about the effects that the films neglect, so that breakdown voltages are upper bounds."""
+    bearing = solution.case.bearing
+    factor, supply = bearing.film_factor, bearing.supply
+    name = factor if isinstance(factor, str) else f"{factor:g}"
+    if solution.conditions.film_factor == 1.0:
+        return ResultWarning(
+            "isothermal-film",
+            f"bearing.film_factor is {name}: the films are isothermal, fully flooded, smooth, so "
+            'breakdown voltages are upper bounds; "inlet-shear", "solved" or a number below 1 gives thinner '
+            "films",
+        )
+    left, found = "any starvation and heat beyond this factor", f"{solution.conditions.film_factor:.3g}"
+    if supply != "flooded":
+        given = isinstance(factor, float) and factor != 1.0
+        other = f"a given factor of {factor:.3g}" if given else _HEAT.get(factor)
+        found += f", of {other} and the supply of oil" if other else ", of the supply of oil"
+    elif factor in _HEAT:
+        left, found = "starvation and grease", f"{found}, of {_HEAT[factor]}"
+    if factor == "solved":
+        left = f"{left}, spin and sliding"
+    return ResultWarning(
+        "smooth-film",
+        f"the film factor is {found}: the films are smooth, and {left} are neglected as well as roughness, "
+        "so breakdown voltages are upper bounds",
+    )
+
+
+def supply_words(solution: BearingSolution) -> str:
+    """Parts of the film factor with a supply, as "0.939 of the flooded thickness by grease"."""
+    supply, found = solution.case.bearing.supply, solution.conditions.supply_factor
+    by = f" by {supply}" if solution.case.bearing.by_supply_rule else ""
+    heat = solution.case.bearing.film_factor
+    more = f" and a given factor of {heat:.3g}" if isinstance(heat, float) else ""
+    more = {"inlet-shear": " and inlet shear heating", "solved": " and solved heat"}.get(str(heat), more)
+    return f"{found:.3g} of the flooded thickness{by}{more}"
+
+
+def supply_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
+    """Warnings of a film factor by rule, of a starved film, and of a film that supply has to maintain."""
+    total = solution.conditions.film_factor
+    if total < _FAR:
+        yield ResultWarning(
+            "film-factor-low",
+            f"the film factor of {total:.3g} acts by a lower entrainment speed, with one exponent for all "
+            "contacts: films may come out thinner than this share, by up to 5 % at 0.5 and 16 % at 0.1",
+        )
+    supply, found = solution.case.bearing.supply, solution.conditions.supply_factor
+    if supply == "flooded" or found is None:
+        return
+    if solution.case.bearing.by_supply_rule:
+        yield ResultWarning(
+            "supply-rule",
+            f"supply {supply!r} leaves {found:.3g} of the flooded film by SKF's replenishment factor, "
+            "published for the rolling friction at steady speed, load and temperature, and not for films; "
+            "give a measured share as bearing.supply",
+        )
+    if found < _LOW:
+        yield ResultWarning(
+            "supply-low",
+            f"the supply leaves {found:.3g} of the flooded film: such a film is about as thick as the layer "
+            "of oil on the tracks, and hardly follows speed and viscosity; measure the film",
+        )
+    time = half_time(solution)
+    if supply in _SPARSE and time is not None and time < _SOON:
+        yield ResultWarning(
+            "film-decays",
+            f"without oil that returns to the track, the film of the most loaded contact halves within "
+            f"{time:.2g} s: the film of supply {supply!r} is set by what returns, and no formula predicts "
+            "it over time",
+        )

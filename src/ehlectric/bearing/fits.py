@@ -1,0 +1,268 @@
+"""Elastic rings under pressure, and the radial clearance of a bearing from fits and temperatures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class ThickRing:
+    """Plain ring, shaft or housing of one material, in plane stress.
+
+    Attributes
+    ----------
+    inner_diameter : float
+        Diameter of the bore [m]; 0 for a solid shaft.
+    outer_diameter : float
+        Outer diameter [m]; infinite for a housing without an end.
+    youngs_modulus : float
+        Young's modulus E [Pa].
+    poissons_ratio : float
+        Poisson's ratio, dimensionless.
+    expansion : float
+        Coefficient of thermal expansion [1/K].
+
+    Notes
+    -----
+    With the pressures p_i in the bore d and p_o on the outside D, Lame's solution for a ring whose faces are
+    free (plane stress) has the circumferential strain
+
+        E e(r) = (1 - nu) (p_i d^2 - p_o D^2)/(D^2 - d^2)
+                 + (1 + nu) (p_i - p_o) d^2 D^2/(D^2 - d^2)/(2 r)^2,
+
+    and a diameter 2 r grows by 2 r e(r). R. Beardmore, Roymech, "Cylinders",
+    http://www.roymech.co.uk/Useful_Tables/Mechanics/Cylinders.html, derives the same equations.
+    """
+
+    inner_diameter: float
+    outer_diameter: float
+    youngs_modulus: float
+    poissons_ratio: float
+    expansion: float
+
+    def growth(self, diameter: float, *, bore_pressure: float = 0.0, outside_pressure: float = 0.0) -> float:
+        """Growth of a diameter of the ring under pressure from inside and from outside.
+
+        Parameters
+        ----------
+        diameter : float
+            Diameter in the ring [m], from the bore to the outer diameter.
+        bore_pressure, outside_pressure : float
+            Pressures in the bore and on the outside [Pa].
+
+        Returns
+        -------
+        float
+            Change of the diameter [m], negative where it shrinks.
+
+        Examples
+        --------
+        A thin ring of 1 m and 10 mm grows by p d^2/(2 t E), here 1 MPa (1 m)^2/(20 mm 200 GPa):
+
+        >>> thin = ThickRing(1.0, 1.02, 200e9, 0.3, 12e-6)
+        >>> round(1e6 * thin.growth(1.0, bore_pressure=1e6))
+        254
+        """
+        square = self.inner_diameter**2
+        ratio = (self.inner_diameter / self.outer_diameter) ** 2
+        mean = (bore_pressure * ratio - outside_pressure) / (1.0 - ratio)
+        # A solid shaft has no second term, and its centre a diameter of 0.
+        other = (bore_pressure - outside_pressure) * square / (1.0 - ratio) / diameter if square else 0.0
+        nu = self.poissons_ratio
+        return ((1.0 - nu) * mean * diameter + (1.0 + nu) * other) / self.youngs_modulus
+
+    def warmed(self, diameter: float, rise: float) -> float:
+        """Growth of a diameter [m] of the free ring under a rise of its temperature [K]."""
+        return self.expansion * rise * diameter
+
+
+def fit_pressure(within: ThickRing, around: ThickRing, interference: float) -> float:
+    """Pressure in an interference fit of two rings.
+
+    Parameters
+    ----------
+    within : ThickRing
+        Inner one of both, such as a shaft.
+    around : ThickRing
+        Outer one of both, such as the inner ring of a bearing.
+    interference : float
+        Diameter of the inner one less the bore of the outer one, both free [m]; negative for a loose fit.
+
+    Returns
+    -------
+    float
+        Pressure [Pa]; 0 for a loose fit.
+
+    Notes
+    -----
+    The pressure at which the bore of the outer one grows, and the outside of the inner one shrinks, by the
+    interference together.
+
+    Examples
+    --------
+    For a solid shaft and a ring of the same material, p = E delta (1 - d^2/D^2)/(2 d):
+
+    >>> shaft = ThickRing(0.0, 40e-3, 208e9, 0.3, 12.5e-6)
+    >>> ring = ThickRing(40e-3, 48e-3, 208e9, 0.3, 12.5e-6)
+    >>> pressure = fit_pressure(shaft, ring, 10e-6)
+    >>> round(pressure / (208e9 * 10e-6 * (1 - (40 / 48) ** 2) / (2 * 40e-3)), 12)
+    1.0
+    """
+    if interference <= 0.0:
+        return 0.0
+    diameter = around.inner_diameter
+    compliance = around.growth(diameter, bore_pressure=1.0) - within.growth(
+        within.outer_diameter, outside_pressure=1.0
+    )
+    return interference / compliance
+
+
+@dataclass(frozen=True)
+class Temperatures:
+    """Temperatures of the parts of a mounted bearing, absolute.
+
+    Attributes
+    ----------
+    inner_ring, outer_ring, elements, shaft, housing : float
+        Mean temperatures of the parts [K].
+    """
+
+    inner_ring: float
+    outer_ring: float
+    elements: float
+    shaft: float
+    housing: float
+
+    @classmethod
+    def same(cls, temperature: float) -> Temperatures:
+        """One temperature [K] of all parts."""
+        return cls(temperature, temperature, temperature, temperature, temperature)
+
+
+@dataclass(frozen=True)
+class Mounting:
+    """Bearing between its shaft and its housing, with all dimensions at the reference temperature.
+
+    Attributes
+    ----------
+    shaft, inner_ring, outer_ring, housing : ThickRing
+        Parts, each of its own diameters when free. A ring ends at its raceway: shoulders and the depth of the
+        groove are left out.
+    element_diameter : float
+        Diameter of the rolling elements [m].
+    element_expansion : float
+        Coefficient of thermal expansion of the rolling elements [1/K].
+    shaft_interference : float
+        Effective interference of inner ring and shaft on the diameter [m]; negative for a loose fit.
+    housing_interference : float
+        Effective interference of outer ring and housing on the diameter [m]; negative for a loose fit.
+    reference_temperature : float
+        Temperature of the dimensions and interferences [K].
+    """
+
+    shaft: ThickRing
+    inner_ring: ThickRing
+    outer_ring: ThickRing
+    housing: ThickRing
+    element_diameter: float
+    element_expansion: float
+    shaft_interference: float
+    housing_interference: float
+    reference_temperature: float
+
+    @property
+    def unmounted_clearance(self) -> float:
+        """Clearance before mounting at the reference temperature: the room beside two elements [m]."""
+        return self.outer_ring.inner_diameter - self.inner_ring.outer_diameter - 2.0 * self.element_diameter
+
+    def interferences(self, temperatures: Temperatures) -> tuple[float, float]:
+        """Interferences of inner ring and shaft, and of outer ring and housing [m], at temperatures."""
+        zero, bore, outside = (
+            self.reference_temperature,
+            self.inner_ring.inner_diameter,
+            self.outer_ring.outer_diameter,
+        )
+        on_shaft = self.shaft.warmed(bore, temperatures.shaft - zero)
+        on_shaft -= self.inner_ring.warmed(bore, temperatures.inner_ring - zero)
+        in_housing = self.outer_ring.warmed(outside, temperatures.outer_ring - zero)
+        in_housing -= self.housing.warmed(outside, temperatures.housing - zero)
+        return self.shaft_interference + on_shaft, self.housing_interference + in_housing
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """Radial clearance of a mounted bearing at some temperatures.
+
+    Attributes
+    ----------
+    clearance : float
+        Full diametral play [m]; negative with a preload.
+    shaft_interference, housing_interference : float
+        Interferences at the temperatures [m]; negative where the fit is loose.
+    shaft_pressure, housing_pressure : float
+        Pressures between inner ring and shaft, and between outer ring and housing [Pa].
+    """
+
+    clearance: float
+    shaft_interference: float
+    housing_interference: float
+    shaft_pressure: float
+    housing_pressure: float
+
+
+def clearance_at(mounting: Mounting, temperatures: Temperatures) -> Clearance:
+    """Radial clearance of a mounted bearing at the temperatures of its parts.
+
+    Parameters
+    ----------
+    mounting : Mounting
+        Bearing, shaft and housing at the reference temperature.
+    temperatures : Temperatures
+        Temperatures of all parts.
+
+    Returns
+    -------
+    Clearance
+        Clearance, and interferences and pressures of both fits.
+
+    Notes
+    -----
+    Every part expands freely with its own temperature, which changes both interferences. The pressures of the
+    fits widen the inner raceway and narrow the outer one. Stresses and expansions are small, so both add up.
+
+    Examples
+    --------
+    A steel bearing whose inner ring is 10 K warmer loses 10 K 12.5e-6/K 48 mm = 6 um of its clearance, and
+    1.5 um by its elements, which are 5 K warmer:
+
+    >>> steel = 208e9, 0.3, 12.5e-6
+    >>> mounting = Mounting(
+    ...     shaft=ThickRing(0.0, 40e-3, *steel),
+    ...     inner_ring=ThickRing(40e-3, 48e-3, *steel),
+    ...     outer_ring=ThickRing(72.02e-3, 80e-3, *steel),
+    ...     housing=ThickRing(80e-3, 120e-3, *steel),
+    ...     element_diameter=12e-3,
+    ...     element_expansion=12.5e-6,
+    ...     shaft_interference=0.0,
+    ...     housing_interference=0.0,
+    ...     reference_temperature=293.15,
+    ... )
+    >>> warm = Temperatures(303.15, 293.15, 298.15, 303.15, 293.15)
+    >>> round(1e6 * clearance_at(mounting, warm).clearance, 3)
+    12.5
+    """
+    inner, outer, zero = mounting.inner_ring, mounting.outer_ring, mounting.reference_temperature
+    inner_rise, outer_rise = temperatures.inner_ring - zero, temperatures.outer_ring - zero
+    on_shaft, in_housing = mounting.interferences(temperatures)
+    shaft_pressure = fit_pressure(mounting.shaft, inner, on_shaft)
+    housing_pressure = fit_pressure(outer, mounting.housing, in_housing)
+    element = mounting.element_expansion * (temperatures.elements - zero) * mounting.element_diameter
+    clearance = (
+        mounting.unmounted_clearance
+        + outer.warmed(outer.inner_diameter, outer_rise)
+        + outer.growth(outer.inner_diameter, outside_pressure=housing_pressure)
+        - inner.warmed(inner.outer_diameter, inner_rise)
+        - inner.growth(inner.outer_diameter, bore_pressure=shaft_pressure)
+        - 2.0 * element
+    )
+    return Clearance(clearance, on_shaft, in_housing, shaft_pressure, housing_pressure)

@@ -1,1 +1,0 @@
-"""Fits of a bearing on its shaft and in its housing, thick rings under pressure, and running clearance."""

@@ -1,1 +1,0 @@
-"""Friction of the contacts of a bearing: the hydrodynamic resistance to rolling of all elements."""

@@ -1,1 +1,0 @@
-"""Asperities that touch in a bearing: load shares, share of time in which it conducts, and its regime."""

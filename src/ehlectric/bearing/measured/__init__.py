@@ -1,1 +1,0 @@
-"""Film factors of a bearing from its measured capacitance: the model over film factor, and its inverse."""

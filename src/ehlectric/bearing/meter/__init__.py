@@ -1,1 +1,0 @@
-"""Capacitance and voltages between shaft and housing: films, coating, parallel capacitance, and roughness."""

@@ -1,0 +1,159 @@
+"""Clearance of the bearing of a bearing file: before mounting, mounted, in operation, and its warnings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ehlectric.bearing.fits import Clearance, Mounting, Temperatures, ThickRing, clearance_at
+from ehlectric.cases import library
+from ehlectric.cases.bearing_inputs import PLAY, Bearing, Fits
+from ehlectric.cases.library.bearing_catalogue import clearance_range
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.units import to_si
+
+
+@dataclass(frozen=True)
+class MountedClearance:
+    """Radial clearance of a bearing before mounting, mounted, and in operation.
+
+    Attributes
+    ----------
+    unmounted : float
+        Clearance before mounting [m].
+    mounted : Clearance
+        Clearance with its fits at the reference temperature.
+    running : Clearance
+        Clearance at the temperatures of operation.
+    """
+
+    unmounted: float
+    mounted: Clearance
+    running: Clearance
+
+
+def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
+    """Clearances of a bearing with fits; None for a bearing whose clearance in operation is given.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Table ``[bearing]``.
+
+    Raises
+    ------
+    InputError
+        Where a housing that presses on the outer ring has no diameter, or the clearance in operation is
+        beyond the model.
+    """
+    fits, unmounted = bearing.fits, bearing.unmounted_clearance
+    if fits is None or unmounted is None:
+        return None
+    mounting, running = _mounting(bearing, fits, unmounted), _temperatures(bearing, fits)
+    states = Temperatures.same(fits.reference_temperature), running
+    pressing = max(mounting.interferences(at)[1] for at in states)
+    if fits.housing_diameter is None and pressing > 0.0:
+        overlap = f"whose interference with the outer ring is {1e6 * pressing:.3g} um"
+        raise InputError.missing("fits.housing_diameter", f"the outer diameter of the housing, {overlap}")
+    found = MountedClearance(unmounted, *(clearance_at(mounting, at) for at in states))
+    if not PLAY.least <= found.running.clearance <= PLAY.most:
+        got = f"a clearance in operation of {1e6 * found.running.clearance:.4g} um"
+        takes = f"fits and temperatures for {1e6 * PLAY.least:g} to {1e6 * PLAY.most:g} um"
+        raise InputError("fits", got=got, takes=takes)
+    return found
+
+
+def _mounting(bearing: Bearing, fits: Fits, unmounted: float) -> Mounting:
+    """Bearing between shaft and housing; half of the clearance belongs to either raceway."""
+    assert bearing.bore is not None and bearing.outer_diameter is not None
+    across = bearing.element_diameter + 0.5 * unmounted
+    inner, outer = bearing.pitch_diameter - across, bearing.pitch_diameter + across
+    around = math.inf if fits.housing_diameter is None else fits.housing_diameter
+    return Mounting(
+        shaft=_ring(fits.shaft_material, fits.shaft_bore, bearing.bore),
+        inner_ring=_ring(bearing.ring_material, bearing.bore, inner),
+        outer_ring=_ring(bearing.ring_material, outer, bearing.outer_diameter),
+        housing=_ring(fits.housing_material, bearing.outer_diameter, around),
+        element_diameter=bearing.element_diameter,
+        element_expansion=_expansion(bearing.element_material),
+        shaft_interference=fits.shaft_interference,
+        housing_interference=fits.housing_interference,
+        reference_temperature=fits.reference_temperature,
+    )
+
+
+def _ring(material: str, inner: float, outer: float) -> ThickRing:
+    """Ring of a material of the library between two diameters [m]."""
+    solid = library.solid(material)
+    modulus = to_si(solid["youngs_modulus"], "Pa")
+    return ThickRing(inner, outer, modulus, solid["poissons_ratio"], _expansion(material))
+
+
+def _expansion(material: str) -> float:
+    return to_si(library.solid(material)["thermal_expansion"], "1/K")
+
+
+def _temperatures(bearing: Bearing, fits: Fits) -> Temperatures:
+    """Temperatures of operation: without their own, shaft and housing have that of their ring."""
+    inner, outer = (bearing.ring_temperature(inner=side) for side in (True, False))
+    shaft, housing = fits.shaft_temperature, fits.housing_temperature
+    return Temperatures(
+        inner_ring=inner,
+        outer_ring=outer,
+        elements=bearing.element_temperature,
+        shaft=inner if shaft is None else shaft,
+        housing=outer if housing is None else housing,
+    )
+
+
+def class_warnings(bearing: Bearing) -> Iterator[ResultWarning]:
+    """Warning of a clearance that is the middle of a class.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Table ``[bearing]``.
+    """
+    if bearing.clearance_class is None or bearing.bore is None:
+        return
+    allowed = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
+    low, high, middle = (1e6 * value for value in (allowed.least, allowed.most, allowed.middle))
+    after = "which fits and a warm inner ring make smaller"
+    if bearing.fits is not None:
+        after = f"so that the clearance in operation may be {0.5 * (high - low):.3g} µm smaller or larger"
+    yield ResultWarning(
+        "clearance-class",
+        f"clearance class {bearing.clearance_class} is {low:.3g} to {high:.3g} µm before mounting; "
+        f"computed with {middle:.3g} µm, {after}",
+    )
+
+
+def fit_warnings(clearance: MountedClearance | None) -> Iterator[ResultWarning]:
+    """Warnings of fits and temperatures that preload a bearing, or loosen one of its rings.
+
+    Parameters
+    ----------
+    clearance : MountedClearance or None
+        Clearances of the bearing; None without fits.
+    """
+    if clearance is None:
+        return
+    mounted, running = clearance.mounted, clearance.running
+    if running.clearance < 0.0:
+        yield ResultWarning(
+            "clearance-negative",
+            f"the clearance in operation is {1e6 * running.clearance:.3g} µm: fits and temperatures preload "
+            f"the bearing, from {1e6 * clearance.unmounted:.3g} µm before mounting; a larger clearance "
+            "class, looser fits or a cooler inner ring prevent it",
+        )
+    for name, before, after in (
+        ("inner ring is loose on its shaft", mounted.shaft_interference, running.shaft_interference),
+        ("outer ring is loose in its housing", mounted.housing_interference, running.housing_interference),
+    ):
+        if after <= 0.0 < before:
+            yield ResultWarning(
+                "fit-loose",
+                f"the {name} in operation: the interference of {1e6 * before:.3g} µm becomes "
+                f"{1e6 * after:.3g} µm at these temperatures, and the ring may creep",
+            )

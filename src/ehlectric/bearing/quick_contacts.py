@@ -1,0 +1,795 @@
+"""Contacts of a bearing at once: from the atlas of films or by film formulas, without solving them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import astuple, dataclass, replace
+from functools import lru_cache, partial
+from typing import TypeAlias, TypeVar
+
+import numpy as np
+from scipy.constants import epsilon_0
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.conditions import gap_breakdown
+from ehlectric.bearing.ring_contacts import (
+    BallContact,
+    Contact,
+    ContactSolution,
+    ContactValues,
+    RollerContact,
+    around_balls,
+    around_roller,
+    ball_grid,
+    check_contact,
+    roller_grid,
+    without_regime,
+)
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.defaults import OF_CONTACTS, QUICK, quick_way
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.grid_inputs import DEFAULT_ENDS, Grid
+from ehlectric.contact.conditions import default_side
+from ehlectric.contact.problems import Setup
+from ehlectric.contact.warnings import line_case_warnings, point_case_warnings
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.field.zones import areas
+from ehlectric.film.atlas.atlas_films import ContactFilm, contact_film
+from ehlectric.formulas.film_line import BothThicknesses, pan_hamrock
+from ehlectric.formulas.film_point import chittenden
+from ehlectric.formulas.hertz import (
+    DryContact,
+    axis_ratio,
+    dry_contact,
+    line_gap,
+    line_pressure,
+    point_deflection,
+    point_pressure,
+)
+from ehlectric.lubricant.oil import Oil
+
+# Factors by which films from formulas, and margins with them, may be off either way. Balls have the formula
+# of Chittenden, Dowson, Dunn and Taylor: solved films of bearings are within 30 % of it. Rollers have that
+# of Pan and Hamrock: formulas for line contacts differ from solved films by up to 40 %.
+FORMULA_OF_BALLS, FORMULA_OF_ROLLERS = 1.3, 1.4
+
+
+def formula_factor(kind: str) -> float:
+    """Factor by which films from formulas may be off either way, by the kind of the bearing.
+
+    Examples
+    --------
+    >>> formula_factor("deep-groove ball"), formula_factor("cylindrical roller")
+    (1.3, 1.4)
+    """
+    return FORMULA_OF_ROLLERS if kind == "cylindrical roller" else FORMULA_OF_BALLS
+
+
+def is_quick(case: object) -> bool:
+    """Whether a case is a bearing whose contacts are not solved."""
+    return isinstance(case, BearingCase) and case.contacts in QUICK
+
+
+def check_quick(contacts: str, discharge: Discharge, oil: Oil) -> None:
+    """Refuse an oil or a dielectric strength for which contacts that are not solved have no result.
+
+    Parameters
+    ----------
+    contacts : str
+        "atlas" or "formula".
+    discharge : Discharge
+        Dielectric strength at the temperature of the bearing.
+    oil : Oil
+        Oil at this temperature.
+
+    Raises
+    ------
+    InputError
+        For a Weibull law and for a strength over pressure, which need the field in the whole film; for a
+        viscosity that does not grow with pressure.
+    """
+    name = OF_CONTACTS[contacts]
+    if oil.alpha == 0.0:
+        raise InputError(
+            "lubricant.viscosity_law",
+            got=f"{oil.laws['viscosity']!r} with {name}, which are for piezoviscous oils;",
+            takes="another law, or solved contacts",
+        )
+    table = discharge.strength_table
+    if discharge.weibull is not None or (table is not None and table.over == "pressure"):
+        key = "weibull" if discharge.weibull is not None else "strength_table"
+        raise InputError(
+            f"discharge.{key}",
+            got=f"a strength that needs the field, with {name}, which have none",
+            takes="dielectric_strength, a table over temperature, or solved contacts",
+        )
+
+
+def heat_by_formula(case: BearingCase) -> BearingCase:
+    """Case whose heat in the films is that of "inlet-shear" where it would be solved, which takes seconds."""
+    solved = case.bearing.film_factor == "solved"
+    return case.replace({"bearing.film_factor": "inlet-shear"}) if solved else case
+
+
+def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCase | None, InputError | None]:
+    """Case of a bearing with contacts that are not solved, and what cannot be computed without that.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing. With contacts by formula it keeps them; others are from the atlas.
+    constant : bool
+        Whether a constant strength takes the place of one that needs the field: the scale of a Weibull law,
+        or the first strength of a table over pressure. It cancels in ratios of voltages.
+
+    Returns
+    -------
+    case : BearingCase or None
+        Case with contacts from the atlas or by formula, and with the heat of its films by formula where it
+        is solved; without a dielectric strength where it needs the field, unless ``constant``. None for an
+        oil that neither describes.
+    refused : InputError or None
+        Key that cannot be used, and why.
+    """
+    contacts = quick_way(case.contacts)
+    changed = heat_by_formula(case).replace({"contacts": contacts})
+    discharge, bearing = case.discharge, case.bearing
+    try:
+        oil = case.lubricant.at(bearing.oil_temperature, bearing.temperature_key())
+        check_quick(contacts, discharge, oil)
+    except InputError as error:
+        if not (error.key or "").startswith("discharge"):
+            return None, error
+        strength = None
+        if constant and discharge.weibull is not None:
+            strength = discharge.weibull.scale
+        elif constant and discharge.strength_table is not None:
+            strength = discharge.strength_table.strength[0]
+        update = {"weibull": None, "strength_table": None, "dielectric_strength": strength}
+        return changed.model_copy(update={"discharge": discharge.model_copy(update=update)}), error
+    return changed, None
+
+
+# Domain along entrainment, in semi-axes of a ball's contact or half-widths of a roller's: the default domain
+# of solved contacts, and that of the atlas.
+LINE, POINT = DEFAULT_ENDS[False], DEFAULT_ENDS[True]
+
+# Nodes along and across entrainment of a ball's contact, and along entrainment of a roller's.
+_NODES = 97, 65
+_LINE_NODES = 1601
+
+# Nodes and weights on 0 to 1 with which the gap further away is integrated.
+_AT, _PART = (0.5 * values for values in np.polynomial.legendre.leggauss(12))
+_AT = _AT + 0.5
+
+# Pressures of a dry contact over its maximum, and the parts of its area that have them. Over an ellipse the
+# part with ratios up to t is t^2; over a strip the ratio is the cosine of an angle whose sine is the place.
+_RATIO, _WEIGHT = np.polynomial.legendre.leggauss(24)
+_ELLIPSE = 0.5 * (_RATIO + 1.0), 0.5 * (_RATIO + 1.0) * _WEIGHT
+_STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
+
+
+def ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, Array], Array]:
+    """Gap of a ball's dry contact, widened by its central film.
+
+    Parameters
+    ----------
+    contact : BallContact
+        Contact and load.
+    central : float
+        Central film thickness [m].
+
+    Returns
+    -------
+    nodes : tuple of ndarray, shapes (nx,), (ny,)
+        Nodes along and across entrainment [m].
+    gap : ndarray, shape (nx, ny)
+        Gap [m].
+    """
+    conditions, dry = contact.conditions, contact.dry
+    b, side = dry.semi_axis_x, dry.semi_axis_y * conditions.side
+    x, y = b * np.linspace(*POINT, _NODES[0]), np.linspace(-side, side, _NODES[1])
+    rigid = x[:, np.newaxis] ** 2 / (2.0 * conditions.radius_x) + y**2 / (2.0 * conditions.radius_y)
+    ratio = axis_ratio(conditions.radius_x, conditions.radius_y)
+    opened = dry.max_pressure * b / conditions.reduced_modulus * _unit_opening(ratio, conditions.side)
+    return (x, y), central + np.maximum(0.0, rigid + opened - dry.approach)
+
+
+def roller_gap(contact: RollerContact, central: float) -> tuple[Array, Array]:
+    """Gap of a roller's dry contact, widened by its central film [m].
+
+    Returns
+    -------
+    x, gap : ndarray, shape (n,)
+        Nodes along entrainment, and the gap [m].
+    """
+    conditions = contact.conditions
+    x, b = np.linspace(*LINE, _LINE_NODES), conditions.half_width
+    return b * x, central + b**2 / conditions.reduced_radius * line_gap(x)
+
+
+@lru_cache(maxsize=32)
+def _unit_opening(ratio: float, side: float) -> Array:
+    """Deflection over p_h b/E' at the nodes of a ball's contact, shape ``_NODES``, dimensionless.
+
+    In semi-axes it depends on their ratio alone, so all loads of a ring have the same one.
+    """
+    x, y = np.linspace(*POINT, _NODES[0]), ratio * np.linspace(-side, side, _NODES[1])
+    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
+    opened = point_deflection(x[:, np.newaxis], y, unit, 1.0)
+    opened.flags.writeable = False
+    return opened
+
+
+def permittivity(oil: Oil, pressure: Array) -> Array:
+    """Relative permittivity of the oil under pressure [Pa], dimensionless."""
+    return oil.permittivity(pressure, oil.density_ratio(pressure)[0])
+
+
+def hertz_mean(contact: Contact, law: Callable[[Array], Array]) -> float:
+    """Mean over the Hertz area of a number that depends on the Hertz pressure [Pa]."""
+    ratio, weights = _ELLIPSE if isinstance(contact, BallContact) else _STRIP
+    return float(np.vdot(weights, law(contact.conditions.max_pressure * ratio)))
+
+
+def hertz_area(contact: Contact) -> float:
+    """Area of the dry contact [m^2]."""
+    along, across = _axes(contact)
+    return float(np.pi * along * across if isinstance(contact, BallContact) else 4.0 * along * across)
+
+
+def _axes(contact: Contact) -> tuple[float, float]:
+    """Semi-axes of the dry contact along and across entrainment [m]; half of a roller's length across."""
+    if isinstance(contact, BallContact):
+        return contact.dry.semi_axis_x, contact.dry.semi_axis_y
+    return contact.conditions.half_width, 0.5 * contact.length
+
+
+@dataclass(frozen=True)
+class QuickContact:
+    """Contact without a solved film, before the capacitance around its domain is computed.
+
+    Attributes
+    ----------
+    contact : BallContact or RollerContact
+        Contact and load.
+    films : tuple of float
+        Minimum and central film thickness [m].
+    inside, hertz : float
+        Integral of eps_r dA/h over the domain, and over the Hertz area [m].
+    grid : Grid
+        Grid on which the contact would be solved.
+    domain : tuple of float
+        Ends along entrainment and side of the domain in semi-axes.
+    error : float or None
+        Relative error of the films; None where it is unknown.
+    warnings : tuple of ResultWarning
+        Warnings on the way to the films.
+    """
+
+    contact: Contact
+    films: tuple[float, float]
+    inside: float
+    hertz: float
+    grid: Grid
+    domain: tuple[float, float, float]
+    error: float | None = None
+    warnings: tuple[ResultWarning, ...] = ()
+
+    @property
+    def load(self) -> float:
+        """Load of the contact [N]."""
+        return self.contact.load
+
+
+def quick_contact(
+    contact: Contact,
+    films: tuple[float, float],
+    *,
+    inside: float,
+    hertz: float,
+    error: float | None = None,
+    wide: bool = False,
+) -> QuickContact:
+    """Contact without a solved film.
+
+    Parameters
+    ----------
+    contact : BallContact or RollerContact
+        Contact and load.
+    films : tuple of float
+        Minimum and central film thickness [m].
+    inside, hertz : float
+        Integral of eps_r dA/h over the default domain of solved contacts, and over the Hertz area [m].
+    error : float or None
+        Relative error of the films; None where it is unknown.
+    wide : bool
+        Whether the domain is that on which the contact would be solved, which is wider for light loads. The
+        dry gap is integrated in the part that is added.
+
+    Returns
+    -------
+    QuickContact
+        Contact with its domain.
+    """
+    grid = ball_grid(contact) if isinstance(contact, BallContact) else roller_grid(contact)
+    domain = _domain(contact, grid if wide else None)
+    if wide:
+        inside += contact.ring.oil.relative_permittivity * _further(contact, domain, films[1])
+    return QuickContact(contact, films, inside, hertz, grid, domain, error)
+
+
+def quick_solutions(contacts: Sequence[QuickContact]) -> list[ContactSolution]:
+    """Numbers of contacts with one ring without solved films.
+
+    Parameters
+    ----------
+    contacts : sequence of QuickContact
+        Contacts with the same ring. The capacitance around their domains is computed for all at once.
+
+    Returns
+    -------
+    list of ContactSolution
+        Their largest field strength is the voltage over the minimum film thickness.
+    """
+    around = _around(contacts)
+    return [_solution(contact, *found) for contact, found in zip(contacts, around, strict=True)]
+
+
+def _solution(quick: QuickContact, outside: float, mismatch: float) -> ContactSolution:
+    """Numbers of a contact with the capacitance in vacuum around its domain [F]."""
+    contact, (least, central) = quick.contact, quick.films
+    groups, ring, oil = contact.conditions.contact, contact.ring, contact.ring.oil
+    axes = _axes(contact)
+    values = ContactValues(
+        max_pressure=contact.conditions.max_pressure,
+        semi_axis_x=axes[0],
+        semi_axis_y=axes[1],
+        minimum_thickness=least,
+        central_thickness=central,
+        inside=epsilon_0 * quick.inside,
+        outside_oil=outside * ring.conditions.oil.relative_permittivity,
+        outside_air=outside,
+        plate=epsilon_0 * oil.relative_permittivity * hertz_area(contact) / central,
+        strength_per_volt=1.0 / least,
+        breakdown_voltage=gap_breakdown(ring.discharge, least),
+        hertz=epsilon_0 * quick.hertz,
+    )
+    setup = Setup(oil=oil, grid=quick.grid)
+    if isinstance(contact, BallContact):
+        warnings = point_case_warnings(setup, contact.conditions)
+    else:
+        warnings = line_case_warnings(setup, contact.conditions)
+    return ContactSolution(
+        load=contact.load,
+        values=values,
+        error=quick.error,
+        moes_m=groups.moes_m,
+        moes_l=groups.moes_l,
+        mismatch=mismatch,
+        converged=True,
+        warnings=(*quick.warnings, *without_regime(warnings)),
+    )
+
+
+def _domain(contact: Contact, grid: Grid | None) -> tuple[float, float, float]:
+    """Ends along entrainment and side of the domain in semi-axes: of a grid, or the default ones."""
+    if isinstance(contact, RollerContact):
+        return (*LINE, 1.0) if grid is None else (*grid.ends, 1.0)
+    if grid is None:
+        return (*POINT, contact.conditions.side)
+    assert grid.side is not None
+    return *grid.ends, grid.side
+
+
+def _around(contacts: Sequence[QuickContact]) -> Iterator[tuple[float, float]]:
+    """Capacitances in vacuum [F] around domains, and how far their gaps are off at the edge, relative."""
+    balls = [(quick, quick.contact) for quick in contacts if isinstance(quick.contact, BallContact)]
+    if balls:
+        yield from _around_balls(balls)
+        return
+    for quick in contacts:
+        contact = quick.contact
+        assert isinstance(contact, RollerContact)
+        b, x = contact.conditions.half_width, np.array(quick.domain[:2])
+        gap = quick.films[1] + b**2 / contact.conditions.reduced_radius * line_gap(x)
+        yield around_roller(contact.ring, b, b * x, gap), 0.0
+
+
+def _around_balls(balls: Sequence[tuple[QuickContact, BallContact]]) -> Iterator[tuple[float, float]]:
+    """Capacitances in vacuum [F] around the domains of balls, and how far their gaps are off, relative."""
+    ring, conditions = balls[0][1].ring, balls[0][1].conditions
+    rx, ry, modulus = conditions.radius_x, conditions.radius_y, conditions.reduced_modulus
+    dry = DryContact(*np.array([astuple(contact.dry) for _, contact in balls]).T)
+    domains = np.array([quick.domain for quick, _ in balls]).T
+    films = np.array([quick.films[1] for quick, _ in balls])[:, np.newaxis]
+    rims = np.stack([_unit_rim(axis_ratio(rx, ry), *quick.domain) for quick, _ in balls], axis=1)
+    b, a, pressure, approach = (values[:, np.newaxis] for values in vars(dry).values())
+    x, y, opened = b * rims[0], a * rims[1], pressure * b / modulus * rims[2]
+    gap = np.maximum(0.0, x**2 / (2.0 * rx) + y**2 / (2.0 * ry) + opened - approach)
+    domain = dry.semi_axis_x * domains[0], dry.semi_axis_x * domains[1], dry.semi_axis_y * domains[2]
+    found = around_balls(ring, dry, domain, (x, y), films + gap, opened)
+    yield from ((float(outside), float(mismatch)) for outside, mismatch in zip(*found, strict=True))
+
+
+@lru_cache(maxsize=128)
+def _unit_rim(ratio: float, inlet: float, outlet: float, side: float) -> Array:
+    """Nodes on the edge of a ball's domain in semi-axes, and deflection over p_h b/E', shape (3, n).
+
+    The deflection is the same on both sides across entrainment.
+    """
+    along, across = np.linspace(inlet, outlet, _NODES[0]), np.linspace(0.0, side, _NODES[1] // 2 + 1)
+    # Both ends from the middle to the side, and the side without its ends.
+    x = np.concatenate([np.full(across.shape, inlet), np.full(across.shape, outlet), along[1:-1]])
+    y = np.concatenate([across, across, np.full(along.size - 2, side)])
+    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
+    half = np.stack([x, y, point_deflection(x, ratio * y, unit, 1.0)])
+    other = half[:, y > 0.0] * np.array([[1.0], [-1.0], [1.0]])
+    rim = np.concatenate([half, other], axis=1)
+    rim.flags.writeable = False
+    return rim
+
+
+def _further(contact: Contact, domain: tuple[float, float, float], central: float) -> float:
+    """Integral of dA/h [m] between the default domain and a wider one."""
+    total = 0.0
+    if isinstance(contact, RollerContact):
+        b = contact.conditions.half_width
+        scale = b**2 / contact.conditions.reduced_radius
+        for near, far in zip(LINE, domain[:2], strict=True):
+            x, weights = _geometric(abs(near), abs(far))
+            total += contact.length * b * float(np.sum(weights / (central + scale * line_gap(x))))
+        return total
+    dry, conditions = contact.dry, contact.conditions
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    for x, y, weights, opened in _unit_beyond(a / b, conditions.side, domain):
+        rigid = (b * x) ** 2 / (2.0 * conditions.radius_x) + (a * y) ** 2 / (2.0 * conditions.radius_y)
+        bent = dry.max_pressure * b / conditions.reduced_modulus * opened
+        gap = central + np.maximum(0.0, rigid + bent - dry.approach)
+        total += 2.0 * b * a * float(np.sum(weights / gap))
+    return total
+
+
+def _geometric(near: float, far: float) -> tuple[Array, Array]:
+    """Nodes and weights from ``near`` to ``far``, denser at the near end."""
+    ratio = np.log(far / near)
+    nodes = near * np.exp(ratio * _AT)
+    return nodes, ratio * nodes * _PART
+
+
+@lru_cache(maxsize=128)
+def _unit_beyond(
+    ratio: float, side: float, domain: tuple[float, float, float]
+) -> list[tuple[Array, Array, Array, Array]]:
+    """Nodes in semi-axes, weights, deflection over p_h b/E' between the default domain and a wider one."""
+    far = domain[2]
+    across = far * _AT**2, far * 2.0 * _AT * _PART
+    strips = [
+        (_geometric(abs(near), abs(end)), across)
+        for near, end in zip(POINT, domain[:2], strict=True)
+        if end != near
+    ]
+    if far > side:
+        strips += [((end * _AT, abs(end) * _PART), _geometric(side, far)) for end in POINT]
+    unit = DryContact(semi_axis_x=1.0, semi_axis_y=ratio, max_pressure=1.0, approach=0.0)
+    return [
+        (
+            x[:, np.newaxis],
+            y,
+            np.outer(along, beside),
+            point_deflection(x[:, np.newaxis], ratio * y, unit, 1.0),
+        )
+        for (x, along), (y, beside) in strips
+    ]
+
+
+def ball_by_formula(
+    contact: BallContact, films: tuple[float, float] | None = None, *, wide: bool = False
+) -> QuickContact:
+    """Film, capacitances and voltages of a ball's contact by film formulas.
+
+    Parameters
+    ----------
+    contact : BallContact
+        Contact and load.
+    films : tuple of float, optional
+        Minimum and central film thickness [m] in place of those of the formula.
+    wide : bool
+        Whether the domain is that on which the contact would be solved, instead of the default one.
+
+    Returns
+    -------
+    QuickContact
+        Numbers without an error estimate: the formulas may be 30 % off, and more for light loads.
+
+    Raises
+    ------
+    InputError
+        As ``check_contact`` does.
+
+    Notes
+    -----
+    Film thickness by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014. The gap is
+    the gap of the dry contact plus the central film thickness. The capacitance is computed with the
+    permittivity under the Hertz pressure; the maximum field strength is the voltage divided by the
+    minimum film thickness.
+    """
+    check_contact(contact)
+    dry, oil = contact.dry, contact.ring.oil
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    least, central = films or _films(chittenden(contact.conditions.contact))
+    (x, y), gap = ball_gap(contact, central)
+    pressure = dry.max_pressure * point_pressure(x[:, np.newaxis] / b, y / b, a / b)
+    mean = hertz_mean(contact, lambda p: permittivity(oil, p))
+    return quick_contact(
+        contact,
+        (least, central),
+        inside=float(np.vdot(areas((x, y)), permittivity(oil, pressure) / gap)),
+        hertz=mean * hertz_area(contact) / central,
+        wide=wide,
+    )
+
+
+def roller_by_formula(
+    contact: RollerContact, films: tuple[float, float] | None = None, *, wide: bool = False
+) -> QuickContact:
+    """Film, capacitances and voltages of a roller's contact by film formulas.
+
+    Parameters
+    ----------
+    contact : RollerContact
+        Contact and load.
+    films : tuple of float, optional
+        Minimum and central film thickness [m] in place of those of the formula.
+    wide : bool
+        Whether the domain is that on which the contact would be solved, instead of the default one.
+
+    Returns
+    -------
+    QuickContact
+        Numbers without an error estimate: the formulas may be 40 % off, and more for light loads.
+
+    Raises
+    ------
+    InputError
+        As ``check_contact`` does.
+
+    Notes
+    -----
+    Film thickness by Pan and Hamrock (1989), doi:10.1115/1.3261900. The gap is the gap of the dry contact
+    plus the central film thickness. The capacitance is computed with the permittivity under the Hertz
+    pressure; the largest field strength is the voltage over the minimum film thickness.
+    """
+    check_contact(contact)
+    conditions, length, oil = contact.conditions, contact.length, contact.ring.oil
+    least, central = films or _films(pan_hamrock(conditions.contact))
+    x, gap = roller_gap(contact, central)
+    pressure = conditions.max_pressure * line_pressure(x / conditions.half_width)
+    mean = hertz_mean(contact, lambda p: permittivity(oil, p))
+    return quick_contact(
+        contact,
+        (least, central),
+        inside=length * float(np.vdot(areas((x,)), permittivity(oil, pressure) / gap)),
+        hertz=mean * hertz_area(contact) / central,
+        wide=wide,
+    )
+
+
+def _films(film: BothThicknesses) -> tuple[float, float]:
+    """Minimum and central film thickness of a formula [m]."""
+    return film.minimum_thickness, film.central_thickness
+
+
+# Keys of the errors with which the atlas says that it has no film of a contact.
+_LEFT = ("moes_m", "moes_n", "moes_y", "ratio", "atlas")
+
+# Loads at which the atlas is asked for the nearest film that it has: their ratio, how many there are either
+# way, and how often the last ratio is halved.
+_STEP, _STEPS, _HALVINGS = 1.3, 15, 6
+
+# Nodes and weights on 0 to 1 with which the gap outside the Hertz area is integrated. The integrals are
+# within 1e-4 of those with three times as many nodes.
+_ATLAS_NODES, _WEIGHTS = (0.5 * values for values in np.polynomial.legendre.leggauss(32))
+_ATLAS_NODES = _ATLAS_NODES + 0.5
+
+# Kind of a contact, and functions that compute one: from the atlas, and by formula with further options.
+C = TypeVar("C", BallContact, RollerContact)
+Way: TypeAlias = Callable[[C], QuickContact]
+FormulaWay: TypeAlias = Callable[..., QuickContact]
+
+# Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
+_Part = tuple[Array, Array]
+
+
+def ball_by_atlas(contact: BallContact) -> QuickContact:
+    """Film, capacitances and voltages of a ball's contact from the atlas of films.
+
+    Parameters
+    ----------
+    contact : BallContact
+        Contact and load.
+
+    Returns
+    -------
+    QuickContact
+        Numbers with the error that the atlas states for the films. Outside the atlas the films at the nearest
+        load that it has change with the load as in the formula of Nijenbanning, Venner and Moes (rollers: of
+        Moes). Without such a load they are those of ``ball_by_formula``. Both have the error of a formula,
+        and a warning.
+
+    Raises
+    ------
+    InputError
+        As ``check_contact`` does.
+
+    Notes
+    -----
+    Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
+    pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside the
+    domain of the atlas, it is that of the dry gap plus the central film, times the ratio that the atlas has
+    for inlet or outlet, with the permittivity at ambient pressure. The largest field strength is the voltage
+    over the minimum film thickness.
+    """
+    check_contact(contact)
+    film = _film(contact)
+    if film is None:
+        return _left(contact, (ball_by_atlas, ball_by_formula), FORMULA_OF_BALLS - 1.0)
+    conditions = contact.conditions
+    radius = conditions.radius_x
+    # The gap over b^2/Rx depends on the ratio of the radii alone, and dA/h has the unit Rx.
+    middle = film.central_thickness * radius / conditions.semi_axis_x**2
+    parts = _around_ball(conditions.radius_y / radius)
+    return _atlas_solution(contact, film, [radius * _integral(part, middle) for part in parts])
+
+
+def roller_by_atlas(contact: RollerContact) -> QuickContact:
+    """Film, capacitances and voltages of a roller's contact from the atlas of films.
+
+    Parameters, returned values, errors and notes are those of ``ball_by_atlas``, with the formula of
+    ``roller_by_formula`` outside the atlas.
+    """
+    check_contact(contact)
+    film = _film(contact)
+    if film is None:
+        return _left(contact, (roller_by_atlas, roller_by_formula), FORMULA_OF_ROLLERS - 1.0)
+    conditions = contact.conditions
+    radius, b = conditions.reduced_radius, conditions.half_width
+    middle = film.central_thickness * radius / b**2
+    unit = contact.length * radius / b
+    return _atlas_solution(contact, film, [unit * _integral(part, middle) for part in _around_roller()])
+
+
+def _film(contact: Contact) -> ContactFilm | None:
+    """Film of a contact; None outside the atlas."""
+    try:
+        return contact_film(contact.conditions.contact, contact.ring.oil)
+    except InputError as error:
+        if error.key not in _LEFT:
+            raise
+        return None
+
+
+def _left(contact: C, ways: tuple[Way[C], FormulaWay], error: float) -> QuickContact:
+    """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has.
+
+    Parameters
+    ----------
+    contact : BallContact or RollerContact
+        Contact that the atlas does not have.
+    ways : tuple of callable
+        Contact from the atlas, and by formula or with the gap of given films.
+    error : float
+        Relative error of the formula.
+    """
+    by_atlas, by_formula = ways[0], partial(ways[1], wide=True)
+    text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
+    edge = _edge(contact)
+    if edge is None:
+        solution: QuickContact = by_formula(contact)
+    else:
+        # Without a step at the edge of the atlas, all quantities can be interpolated over the load. From
+        # there the films change as those of a formula that holds for light contacts, too.
+        own, trend = by_atlas(edge), contact.film / edge.film
+        least, central = own.films
+        joined = by_formula(edge, own.films)
+        solution = by_formula(contact, (trend * least, trend * central))
+        inside, hertz = own.inside / joined.inside, own.hertz / joined.hertz
+        solution = replace(solution, inside=inside * solution.inside, hertz=hertz * solution.hertz)
+    return replace(solution, error=error, warnings=(ResultWarning("atlas-left", text),))
+
+
+def _edge(contact: C) -> C | None:
+    """Same contact under the load nearest to its own that the atlas has; None where it has none near."""
+    for number in range(1, _STEPS + 1):
+        for step in (_STEP, 1.0 / _STEP):
+            inside = replace(contact, load=contact.load * step**number)
+            if _film(inside) is None:
+                continue
+            outside, ratio = contact.load * step ** (number - 1), step
+            for _ in range(_HALVINGS):
+                ratio = math.sqrt(ratio)
+                between = replace(contact, load=outside * ratio)
+                if _film(between) is None:
+                    outside = between.load
+                else:
+                    inside = between
+            return inside
+    return None
+
+
+def _atlas_solution(contact: Contact, film: ContactFilm, around: list[float]) -> QuickContact:
+    """Numbers of a contact; ``around`` are the integrals of dA/h of the dry gap before and behind [m]."""
+    oil, numbers = contact.ring.oil, film.film
+    # The atlas has the mean of 1/(rho h) over that in the middle, where the mass is most alike for all oils.
+    mass = film.central_thickness * numbers.mass / numbers.central
+    # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
+    # the middle, its pressure is not that of the zone.
+    share = min(1.0, numbers.central_pressure)
+    law = _permittivity_of_mass(oil)
+    mean = hertz_mean(contact, lambda pressure: law(share * pressure))
+    hertz = numbers.zone * mean * hertz_area(contact) / mass
+    outside = oil.relative_permittivity * (numbers.inlet * around[0] + numbers.outlet * around[1])
+    return quick_contact(
+        contact,
+        (film.minimum_thickness, film.central_thickness),
+        inside=hertz + outside,
+        hertz=hertz,
+        error=max(film.errors["central"], film.errors["minimum"]),
+        wide=True,
+    )
+
+
+def _permittivity_of_mass(oil: Oil) -> Callable[[Array], Array]:
+    """Relative permittivity times density ratio of an oil over the pressure [Pa]."""
+    return lambda pressure: permittivity(oil, pressure) * oil.density_ratio(pressure)[0]
+
+
+def _integral(part: _Part, middle: float) -> float:
+    """Integral of dA/h over a part of the gap, widened by the film in the middle; dimensionless."""
+    weights, gap = part
+    return float(np.sum(weights / (middle + gap)))
+
+
+@lru_cache(maxsize=1)
+def _around_roller() -> tuple[_Part, _Part]:
+    """Gap before and behind the Hertz zone of a roller, with lengths in b and gaps in b^2/R.
+
+    Nodes are dense at the edge of the zone, where the gap begins with a power of 1.5.
+    """
+    parts = []
+    for end in LINE:
+        length = abs(end) - 1.0
+        x = 1.0 + length * _ATLAS_NODES**3
+        parts.append((length * 3.0 * _ATLAS_NODES**2 * _WEIGHTS, line_gap(x)))
+    return parts[0], parts[1]
+
+
+@lru_cache(maxsize=32)
+def _around_ball(radius_ratio: float) -> tuple[_Part, _Part]:
+    """Gap before and behind the middle of a ball's contact, outside the Hertz ellipse.
+
+    Lengths are in b and gaps in b^2/Rx. Beside the ellipse, x is the cosine of an angle, so that its edge is
+    smooth in this angle; away from it nodes are dense at the edge.
+    """
+    dry = dry_contact(1.0, 1.0, radius_ratio, 1.0)
+    b, a = dry.semi_axis_x, dry.semi_axis_y
+    side = default_side(a / b)
+    # Beside the ellipse: angle and distance from its edge.
+    angle, far = 0.5 * np.pi * _ATLAS_NODES[:, np.newaxis], _ATLAS_NODES**3
+    edge = np.sin(angle)
+    beside = np.cos(angle), edge + (side - edge) * far
+    weights = 0.5 * np.pi * edge * _WEIGHTS[:, np.newaxis] * (side - edge) * 3.0 * _ATLAS_NODES**2 * _WEIGHTS
+    parts = []
+    for end in POINT:
+        length = abs(end) - 1.0
+        ahead = 1.0 + length * _ATLAS_NODES[:, np.newaxis] ** 3, side * _ATLAS_NODES
+        more = length * 3.0 * (_ATLAS_NODES**2 * _WEIGHTS)[:, np.newaxis] * side * _WEIGHTS
+        # Both halves across entrainment.
+        both = 2.0 * a / b * np.stack([weights, more])
+        x, y = (np.stack(np.broadcast_arrays(*pair)) for pair in zip(beside, ahead, strict=True))
+        x, y = b * x, a * y
+        rigid = 0.5 * (x**2 + y**2 / radius_ratio)
+        gap = np.maximum(0.0, rigid + point_deflection(x, y, dry, 1.0) - dry.approach) / b**2
+        parts.append((both, gap))
+    return parts[0], parts[1]

@@ -1,0 +1,200 @@
+"""Solution of a prepared bearing: its contacts over their load, all elements, and quick solutions that are
+kept.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache, partial
+from typing import Any
+
+from ehlectric.bearing.bearing_kinds import kind_of
+from ehlectric.bearing.loads.totals import Equilibrium
+from ehlectric.bearing.preparation import PreparedBearing, loads_to_solve, prepare_bearing
+from ehlectric.bearing.quick_contacts import is_quick, quick_solutions
+from ehlectric.bearing.ring_contacts import ContactCurve, RingContacts
+from ehlectric.bearing.solution import BearingSolution, Position, ring_state
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.changes import flattened
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.runtime.tasks import run_all
+from ehlectric.runtime.worker_processes import cores
+
+# Number of positions of the cage over one pitch of the elements.
+POSITIONS = 8
+
+
+def solution_of(
+    case: BearingCase,
+    *,
+    positions: int = POSITIONS,
+    progress: Progress | None = None,
+    workers: int | None = None,
+) -> BearingSolution:
+    """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file.
+    positions : int
+        Number of positions of the cage over one pitch of the elements.
+    progress : callable, optional
+        Called with the number of solved contacts, the number of all contacts, and a text.
+    workers : int, optional
+        Number of processes; the number of cores if not given.
+
+    Returns
+    -------
+    BearingSolution
+        Solution from which results, warnings and summaries are made.
+
+    Raises
+    ------
+    InputError
+        Where the bearing cannot carry its load, or a contact cannot be solved.
+    LostError
+        Where the process of a contact was killed four times, as by a system out of memory.
+    """
+    started = time.perf_counter()
+    prepared = prepare_bearing(case, positions)
+    solution = solution_of_prepared(case, prepared, progress=progress, workers=workers)
+    # Films whose heat is solved take seconds before the first contact.
+    return replace(solution, seconds=time.perf_counter() - started)
+
+
+def solution_of_prepared(
+    case: BearingCase,
+    prepared: PreparedBearing,
+    *,
+    progress: Progress | None = None,
+    workers: int | None = None,
+) -> BearingSolution:
+    """Solve the contacts of a prepared bearing, and join them to its circuit.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Bearing file; its ``contacts`` says how they are solved.
+    prepared : PreparedBearing
+        Conditions, equilibria and contacts of the case.
+    progress, workers : optional
+        As for ``solution_of``.
+
+    Returns
+    -------
+    BearingSolution
+        Solution at the positions of the prepared bearing.
+
+    Raises
+    ------
+    InputError, LostError
+        As ``solution_of`` raises them.
+    """
+    started = time.perf_counter()
+    tasks = [_tasks(case, prepared, ring) for ring in prepared.rings]
+    processes = 1 if is_quick(case) else workers or cores()
+    found = _solved([*tasks[0], *tasks[1]], progress or silent, processes)
+    rings = found[: len(tasks[0])], found[len(tasks[0]) :]
+    if is_quick(case):
+        rings = quick_solutions(rings[0]), quick_solutions(rings[1])
+    curves = ContactCurve(tuple(rings[0])), ContactCurve(tuple(rings[1]))
+    return BearingSolution(
+        case=case,
+        conditions=prepared.conditions,
+        inner=prepared.inner,
+        outer=prepared.outer,
+        inner_curve=curves[0],
+        outer_curve=curves[1],
+        positions=tuple(_position(prepared, curves, at) for at in prepared.equilibria),
+        seconds=time.perf_counter() - started,
+    )
+
+
+def _tasks(case: BearingCase, prepared: PreparedBearing, ring: RingContacts[Any]) -> list[Callable[[], Any]]:
+    """Functions that solve the contacts with one ring, or compute them quickly, by increasing load."""
+    kind = kind_of(ring)
+    quick = is_quick(case)
+    contacts = [kind.contact(ring, load) for load in loads_to_solve(prepared, ring, quick=quick)]
+    if quick:
+        return [partial(kind.quick[case.contacts], contact) for contact in contacts]
+    return [partial(kind.solve, contact, case.solver) for contact in contacts]
+
+
+def _position(
+    prepared: PreparedBearing, curves: tuple[ContactCurve, ContactCurve], at: Equilibrium
+) -> Position:
+    """Contacts of all elements at an equilibrium."""
+    weibull = prepared.conditions.discharge.weibull
+    inner, outer = (
+        ring_state(ring, curve, load=loads.load, gap=loads.gap)
+        for ring, curve in zip(prepared.rings, curves, strict=True)
+        for loads in (at.ring(inner=ring.inner),)
+    )
+    return Position(at, inner, outer, None if weibull is None else weibull.shape)
+
+
+def _solved(tasks: Sequence[Callable[[], Any]], progress: Progress, workers: int) -> list[Any]:
+    """Contacts in the order of their tasks; the heaviest, which take longest, are solved first."""
+    solutions: dict[int, Any] = {}
+
+    def done(number: int, solution: Any) -> None:
+        solutions[len(tasks) - 1 - number] = solution
+        progress(len(solutions), len(tasks), f"contact with {solution.load:.4g} N")
+
+    progress(0, len(tasks), "contacts")
+    if workers == 1 or len(tasks) == 1:
+        for number, task in enumerate(reversed(tasks)):
+            done(number, task())
+    else:
+        run_all(list(reversed(tasks)), done, limit=workers, what="contact")
+    return [solutions[k] for k in range(len(tasks))]
+
+
+# Positions of the cage: fewer than in a solution, because only ratios to a quick solution are used.
+REMEMBERED_POSITIONS = 2
+
+# Solutions that are kept: those of the analyses of three or four bearings. Each takes some 0.1 MB.
+_KEPT = 100
+
+
+@dataclass(frozen=True)
+class _Key:
+    """Case that is found again by all of its values."""
+
+    text: str
+    case: BearingCase = field(compare=False)
+
+
+def quick_solution(case: BearingCase, *, beside: tuple[str, ...] = ()) -> BearingSolution:
+    """Solution of a bearing with contacts that are not solved, at two positions of the cage.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing, with ``contacts`` "atlas" or "formula".
+    beside : tuple of str
+        Beginnings of the dotted keys on which no contact depends. Cases that differ in them alone share their
+        contacts; the conditions of the solution may have other values of these keys.
+
+    Returns
+    -------
+    BearingSolution
+        Solution of the case, whose contacts are computed once for equal cases.
+
+    Raises
+    ------
+    InputError
+        As ``solution_of`` does.
+    """
+    inputs = flattened(case.to_dict())
+    text = repr({key: value for key, value in inputs.items() if not key.startswith(beside)})
+    return replace(_once(_Key(text, case)), case=case)
+
+
+@lru_cache(maxsize=_KEPT)
+def _once(key: _Key) -> BearingSolution:
+    """Solution of the case of a key."""
+    return solution_of(key.case, positions=REMEMBERED_POSITIONS)

@@ -1,1 +1,0 @@
-"""Solution of all contacts of a bearing, and of the circuit that they form."""

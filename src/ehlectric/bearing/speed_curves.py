@@ -1,0 +1,303 @@
+"""Bearing at several shaft speeds, and curves over the speed: interpolated, scaled to the bearing itself,
+crossing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.margin import LEAST, MOST
+from ehlectric.bearing.quick_contacts import quick_case
+from ehlectric.bearing.solution import CONDUCTING
+from ehlectric.bearing.solving import solution_of
+from ehlectric.bearing.summary import summary_of
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.quantities.units import rpm
+
+# Number of speeds in a geometric series.
+COUNT = 9
+
+# Logarithm of the lambda ratio that is looked for where surfaces part, and how often it is.
+_ABOVE, _TRIES = 1e-3, 4
+
+
+def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list[ResultWarning]]:
+    """Summaries of a bearing at speeds around that of its case, with contacts from the atlas.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing, whose contacts stay by formula where they are. The temperature is the same at
+        all speeds.
+    count : int
+        Number of speeds, from a tenth of the case's speed to four times this speed.
+
+    Returns
+    -------
+    points : list of (float, dict)
+        Speeds of the inner ring [rad/s] with their summaries, in increasing order. Where the lambda ratio
+        rises through 1 between two of them, one more lies there: the lowest speed that has voltages.
+    left_out : list of ResultWarning
+        Warnings of what could not be computed, and why: single speeds, breakdown voltages, or everything.
+
+    Examples
+    --------
+    The capacitance falls with the speed, because the films become thicker:
+
+    >>> case = BearingCase.from_dict(
+    ...     {
+    ...         "bearing": {
+    ...             "base": "6208", "radial_clearance": "10 um", "element_material": "steel",
+    ...             "ring_material": "steel", "radial_load": "1 kN", "inner_speed": "1000 rpm",
+    ...             "temperature": "70 degC", "composite_rq": "0.03 um", "fill": "oil", "film_factor": "none",
+    ...         },
+    ...         "lubricant": {"base": "paper", "viscosity": "20 mPa s"},
+    ...     }
+    ... )
+    >>> points, left_out = over_speed(case, count=2)
+    >>> slow, fast = points[0][1]["bearing"], points[-1][1]["bearing"]
+    >>> slow["capacitance"] > fast["capacitance"], left_out
+    (True, [])
+    """
+    changed, refused = quick_case(case)
+    left_out = []
+    if refused is not None:
+        text = f"figures over speed are incomplete: {refused}"
+        left_out.append(ResultWarning("speed-left-out", text))
+    if changed is None:
+        return [], left_out
+    points = []
+    for part in np.geomspace(LEAST, MOST, count):
+        speed = case.bearing.inner_speed * float(part)
+        try:
+            points.append(_point(changed, speed))
+        except InputError as error:
+            text = f"figures over speed leave out {rpm(speed):.4g} rpm: {error}"
+            left_out.append(ResultWarning("speed-left-out", text))
+    touch = [k for k, (_, summary) in enumerate(points) if _is_conducting(summary)]
+    if touch and touch[-1] + 1 < len(points):
+        low, high = points[touch[-1] : touch[-1] + 2]
+        parted = _parted(changed, low, high)
+        points[touch[-1] + 1 : touch[-1] + 1] = [] if parted is None else [parted]
+    return points, left_out
+
+
+def _point(case: BearingCase, speed: float) -> Speed:
+    """Speed [rad/s] with the summary of a bearing at it."""
+    return speed, summary_of(solution_of(case.replace({"bearing.inner_speed": speed})))
+
+
+def _is_conducting(summary: dict[str, Any]) -> bool:
+    """Whether the surfaces touch, so that no voltage is computed."""
+    return bool(summary["bearing"]["lubrication"] == "conducting")
+
+
+def _parted(case: BearingCase, low: Speed, high: Speed) -> Speed | None:
+    """Point just above a lambda ratio of 1 between two speeds on either side of it; None where not found.
+
+    Between two speeds the lambda ratio is nearly a power of the speed.
+    """
+    for _ in range(_TRIES):
+        ratios = [math.log(summary["bearing"]["lambda_ratio"] / CONDUCTING) for _, summary in (low, high)]
+        part = (_ABOVE - ratios[0]) / (ratios[1] - ratios[0])
+        found = _point(case, low[0] * (high[0] / low[0]) ** part)
+        if not _is_conducting(found[1]):
+            return found
+        low = found
+    return None
+
+
+# Speed of the inner ring [rad/s] with the summary of the bearing at this speed.
+Speed = tuple[float, dict[str, Any]]
+Speeds = Sequence[Speed]
+
+# Keys that are drawn in place of others, where a summary has them: voltages on the shaft, with a coating.
+_ON_SHAFT = {"first_break": "shaft_first_break", "through_breakdown": "shaft_through_breakdown"}
+
+# Number of nodes of a curve between two speeds.
+_PARTS = 32
+
+_KEYS = (
+    "capacitance",
+    "capacitance_oil",
+    "capacitance_air",
+    "first_break",
+    "through_breakdown",
+    "shaft_voltage",
+    "lambda_ratio",
+)
+
+
+@dataclass(frozen=True)
+class Curves:
+    """Values of a bearing over its speed.
+
+    Attributes
+    ----------
+    speed : ndarray, shape (n,)
+        Speeds of the inner ring in ascending order [rad/s].
+    values : mapping of str to ndarray
+        Values at the speeds by their keys of the table "bearing", SI units, shape (n,); NaN where there is
+        none.
+    scaled : mapping of str to float
+        Factors by which the values were multiplied to agree with the bearing itself; 1 where none is known.
+    critical : float, optional
+        Speed of the summary of the bearing itself below which breakdown is expected [rad/s].
+    touching : float, optional
+        Speed of this summary below which the surfaces touch [rad/s].
+    """
+
+    speed: Array
+    values: Mapping[str, Array]
+    scaled: Mapping[str, float]
+    critical: float | None = None
+    touching: float | None = None
+
+    def __getitem__(self, key: str) -> Array:
+        return self.values[key]
+
+    def at(self, key: str, speed: float | Array) -> Any:
+        """Value at a speed [rad/s]: a power of the speed between two speeds; NaN beside a missing value."""
+        known = self.values[key]
+        return np.exp(np.interp(np.log(speed), np.log(self.speed), np.log(known)))
+
+    def between(self, key: str) -> tuple[Array, Array]:
+        """Speeds [rad/s] and values at nodes between them; NaN between two speeds that lack one value."""
+        log = np.log(self.speed)
+        cells = [np.linspace(a, b, _PARTS, endpoint=False) for a, b in pairwise(log)]
+        nodes = np.exp(np.append(np.concatenate([np.empty(0), *cells]), log[-1]))
+        nodes[::_PARTS] = self.speed
+        return nodes, np.asarray(self.at(key, nodes))
+
+
+def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
+    """Curves through the values at several speeds, scaled to the values of the bearing itself.
+
+    Films that are not solved may be some per cent off. Their change with speed is more accurate, so each
+    curve is multiplied by the ratio of the value of the bearing itself to the curve at its speed.
+
+    Parameters
+    ----------
+    points : sequence of (float, dict)
+        Speeds of the inner ring [rad/s] with their summaries.
+    own : (float, dict), optional
+        Speed and summary of the bearing itself.
+
+    Returns
+    -------
+    Curves
+        Curves of capacitances and voltages.
+    """
+    ordered = sorted(points, key=lambda point: point[0])
+    speed = np.array([at for at, _ in ordered])
+    plain = Curves(speed, {key: _column(ordered, key) for key in _KEYS}, dict.fromkeys(_KEYS, 1.0))
+    if own is None:
+        return plain
+    factors = {key: _factor(plain, key, own) for key in _KEYS}
+    analysis = own[1].get("margin") or {}
+    ends = (analysis.get(key) for key in ("critical_speed", "touching_speed"))
+    return Curves(speed, {key: factors[key] * plain[key] for key in _KEYS}, factors, *ends)
+
+
+def value_of(summary: Mapping[str, Any], key: str) -> Any:
+    """Value of a key of the table "bearing"; of a breakdown that on the shaft, with its coating."""
+    totals = summary["bearing"]
+    return totals.get(_ON_SHAFT.get(key, key), totals.get(key))
+
+
+def is_coated(points: Speeds) -> bool:
+    """Whether a bearing has a coating on a ring."""
+    return any(summary["bearing"].get("coating_capacitance") is not None for _, summary in points)
+
+
+def _column(ordered: Speeds, key: str) -> Array:
+    """Values of a key of the table "bearing" at the speeds, NaN in place of None."""
+    values = [value_of(summary, key) for _, summary in ordered]
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+def _factor(curves: Curves, key: str, own: Speed) -> float:
+    """Ratio of a value of the bearing itself to the curve at its speed; 1 where one of them is missing."""
+    value = value_of(own[1], key)
+    inside = curves.speed[0] <= own[0] <= curves.speed[-1]
+    ratio = value / float(curves.at(key, own[0])) if value is not None and inside else 1.0
+    return ratio if np.isfinite(ratio) else 1.0
+
+
+def critical_speed_of(curves: Curves) -> float | None:
+    """Speed below which the shaft voltage is above the first breakdown [rad/s].
+
+    It is that of the summary of the bearing itself or, where this has none, the highest speed at which the
+    curves cross, by interpolation of their logarithms over the logarithm of the speed.
+
+    Parameters
+    ----------
+    curves : Curves
+        Curves of a bearing over its speed.
+
+    Returns
+    -------
+    float or None
+        None where the first breakdown is on one side of the shaft voltage at all speeds.
+
+    Examples
+    --------
+    A margin of 0.5 at 10 rad/s and of 2 at 40 rad/s, which grows with the speed to the power of 1:
+
+    >>> shaft, first = np.array([1.0, 1.0]), np.array([0.5, 2.0])
+    >>> values = {"first_break": first, "shaft_voltage": shaft}
+    >>> round(critical_speed_of(Curves(np.array([10.0, 40.0]), values, {})), 6)
+    20.0
+    """
+    if curves.critical is not None:
+        return curves.critical
+    return _last_rise(curves.speed, np.log(curves["first_break"] / curves["shaft_voltage"]))
+
+
+def _last_rise(speed: Array, value: Array) -> float | None:
+    """Highest speed at which a value rises through 0, interpolated over the logarithm of the speed."""
+    below = np.flatnonzero((value[:-1] < 0.0) & (value[1:] >= 0.0))
+    if not below.size:
+        return None
+    k = below[-1]
+    part = -value[k] / (value[k + 1] - value[k])
+    low, high = np.log(speed[k : k + 2])
+    return float(np.exp(low + part * (high - low)))
+
+
+def opening_speed_of(curves: Curves) -> float | None:
+    """Speed below which the lambda ratio is below 1, so that contacts open and close [rad/s], or None.
+
+    It is that of the summary of the bearing itself or, where this has none, that of the curves.
+
+    Examples
+    --------
+    A lambda ratio of 0.5 at 10 rad/s and of 2 at 40 rad/s:
+
+    >>> values = {"lambda_ratio": np.array([0.5, 2.0])}
+    >>> round(opening_speed_of(Curves(np.array([10.0, 40.0]), values, {})), 6)
+    20.0
+    """
+    if curves.touching is not None:
+        return curves.touching
+    ratio = np.log(curves["lambda_ratio"] / CONDUCTING)
+    return float(curves.speed[-1]) if ratio[-1] < 0.0 else _last_rise(curves.speed, ratio)
+
+
+def nearly_equal(one: Array, other: Array) -> bool:
+    """Whether two curves differ by less than a per cent wherever both are known."""
+    known = np.isfinite(one) & np.isfinite(other)
+    return bool(np.all(np.abs(other[known] - one[known]) < 0.01 * one[known]))
+
+
+def breaks_anywhere(points: Speeds) -> bool:
+    """Whether there is a breakdown voltage at any speed."""
+    return any(summary["bearing"]["first_break"] is not None for _, summary in points)

@@ -1,0 +1,454 @@
+"""Case of a rolling bearing, read from TOML, written back, and changed, with the ranges of its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, Unpack
+
+from pydantic import (
+    ModelWrapValidatorHandler,
+    ValidationError,
+    create_model,
+    field_serializer,
+    field_validator,
+    model_validator,
+)
+from pydantic.fields import FieldInfo
+
+from ehlectric.cases import library
+from ehlectric.cases.bearing_inputs import Bearing, BearingKeys, Motor, check_heat, missing_conductivity
+from ehlectric.cases.case_oil import Lubricant
+from ehlectric.cases.changes import displace, flattened, nested, set_keys
+from ehlectric.cases.contact_inputs import Contact
+from ehlectric.cases.defaults import Contacts
+from ehlectric.cases.discharge_inputs import BearingDischarge
+from ehlectric.cases.grid_inputs import Solver
+from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.keywords import Keys, tables, takes
+from ehlectric.cases.library.bearing_catalogue import with_class
+from ehlectric.cases.oil_inputs import displace_oil
+from ehlectric.cases.table import Table, Title, nearest_key, read_toml, table_of, with_further
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.rows import value_at
+from ehlectric.quantities.units import ROTATION, rpm
+from ehlectric.runtime.values import Tabled, headline, is_number
+
+# Tables and keys of a bearing file that a case of a contact does not have.
+_TABLES = ("motor", "contacts", "ranges")
+
+
+def bearing_key(table: Mapping[str, Any]) -> str | None:
+    """Key at the top of a file that only a bearing file has, or only its table ``bearing``; None without one.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a file that has no table ``bearing``.
+
+    Examples
+    --------
+    >>> bearing_key({"lubricant": {}, "motor": {}}), bearing_key({"radial_load": "1 kN"})
+    ('motor', 'radial_load')
+    >>> bearing_key({"contact": {}, "motor": {}})
+    """
+    if "contact" in table:
+        return None
+    own = Bearing.known_keys().keys() - Contact.known_keys().keys()
+    return next((key for key in table if key in _TABLES or key in own), None)
+
+
+@dataclass(frozen=True)
+class InputRange:
+    """Range of an input, within which its true value is taken to lie.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key of the case.
+    low, high : float
+        Ends of the range, in SI units; ``low`` is below ``high``.
+    """
+
+    key: str
+    low: float
+    high: float
+
+
+def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
+    """Ranges of inputs, from dotted keys or nested tables with lists of two values.
+
+    Parameters
+    ----------
+    tables : mapping
+        Two values by key of the case: numbers in SI units, or texts with a unit.
+    model : type of Table
+        Class of the case that has the keys.
+
+    Returns
+    -------
+    tuple of InputRange
+        Ranges in the order of the tables, SI units.
+
+    Raises
+    ------
+    InputError
+        Where a key is unknown or is not a number, or its values are not two that increase.
+
+    Examples
+    --------
+    >>> from ehlectric.cases.bearing_case import BearingCase
+    >>> ranges_of({"bearing.radial_load": ["1 kN", "2 kN"]}, BearingCase)
+    (InputRange(key='bearing.radial_load', low=1000.0, high=2000.0),)
+    """
+    if not isinstance(tables, Mapping):
+        raise InputError(got=shown(tables), takes="a table of keys, each with a list of two values")
+    found: dict[str, InputRange] = {}
+    for key, value in _flat(tables):
+        if key in found:
+            raise InputError(key, got="it twice", takes="it once")
+        found[key] = _range(key, value, model)
+    return tuple(found.values())
+
+
+def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Dotted keys with their values, from dotted keys and nested tables in any mixture."""
+    for name, value in tables.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{prefix}{name}.")
+        else:
+            yield prefix + name, value
+
+
+def _range(key: str, value: Any, model: type[Table]) -> InputRange:
+    field, (table, _, leaf) = _field(key, model), key.rpartition(".")
+    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
+        raise InputError(key, got=shown(value), takes="a list of two values, the smaller one first")
+    annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    keys: Any = {leaf: (annotation, ...)}
+    one: type[Table] = create_model("Value", __base__=Table, **keys)
+    ends = []
+    for end in value:
+        try:
+            parsed = getattr(one.from_dict({leaf: end}), leaf)
+        except InputError as error:
+            raise error.under(table) if table else error from None
+        if not is_number(parsed):
+            raise InputError(key, got=shown(end), takes="numbers: only they have a range")
+        # A whole number stays one: no other is allowed where it counts something.
+        ends.append(parsed)
+    low, high = ends
+    if not low < high:
+        raise InputError(key, got=f"{shown(value[0])} and {shown(value[1])}", takes="the smaller one first")
+    return InputRange(key, low, high)
+
+
+def _field(key: str, model: type[Table]) -> FieldInfo:
+    """Field of a dotted key."""
+    field: FieldInfo | None = None
+    inner: type[Table] | None = model
+    for name in key.split("."):
+        field = None if inner is None else inner.known_keys().get(name)
+        if field is None or key == "ranges":
+            raise InputError.unknown(key, nearest_key(key, model))
+        inner = table_of(field.annotation)
+    if field is None or inner is not None:
+        raise InputError(key, "is a table", takes="one of its keys with a list of two values")
+    return field
+
+
+# Tables in which a key that changes replaces its alternatives.
+_ALTERNATIVES = {table: ALTERNATIVES[table] for table in ("bearing", "lubricant", "discharge")}
+
+# Relative error by which a value that is rounded may lie outside of its range.
+_ROUNDING = 1e-9
+
+# Keys of [discharge] that a bearing file may not have.
+_NOT_OF_BEARINGS = ("length",)
+
+# Advice for an insulated ring.
+_COATED = (
+    "give coating = 'alumina', a coating of the library, or the table [bearing.coating] with base or with "
+    "ring, thickness and relative_permittivity"
+)
+
+# Advice for unknown keys that belong to another table, or have another name.
+_ADVICE = {
+    "lubricant.iso_vg": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_index": "it belongs to the table [lubricant.temperature]",
+    "lubricant.density_15": "it belongs to the table [lubricant.temperature]",
+    "lubricant.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "lubricant.temperature.viscosity_grade": "the viscosity grade is lubricant.temperature.iso_vg",
+    "bearing.coating_thickness": _COATED,
+    "bearing.coating_material": _COATED,
+    "bearing.insulation": _COATED,
+    "bearing.insulated": _COATED,
+    "bearing.coated": _COATED,
+    "bearing.clearance": "give radial_clearance, or clearance_class such as 'C3' with bore",
+}
+
+
+class BearingCase(Tabled, Table):
+    """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
+
+    A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
+    the keys of its bearing by ``BearingCase.of``. Wrong inputs raise an ``InputError`` that names their keys.
+    A case is frozen; ``replace`` returns a changed copy. Numbers are in SI units.
+
+    Parameters
+    ----------
+    bearing : Bearing or mapping
+        Geometry, load, speed, temperature and roughness.
+    lubricant : Lubricant or mapping
+        Laws of the oil, or ``base``, the name of a lubricant of the library.
+    title : str, optional
+        Title of tables and figures.
+    contacts : str, optional
+        "solved", "atlas" for contacts from the atlas of films, or "formula" for film-thickness formulas.
+    discharge, motor, solver, ranges : mapping, optional
+        Further tables, as in a bearing file.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            bearing: Bearing | Keys,
+            lubricant: Lubricant | Keys,
+            title: str = ...,
+            contacts: str = ...,
+            discharge: BearingDischarge | Keys = ...,
+            motor: Motor | Keys | None = ...,
+            solver: Solver | Keys = ...,
+            ranges: Keys | None = ...,
+        ) -> None: ...
+
+    ADVICE: ClassVar = _ADVICE
+
+    title: Title = ""
+    contacts: Contacts = "solved"
+    bearing: Bearing
+    lubricant: Lubricant
+    discharge: BearingDischarge = BearingDischarge()
+    motor: Motor | None = None
+    solver: Solver = Solver()
+    ranges: tuple[InputRange, ...] | None = None
+
+    @classmethod
+    def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:
+        """Text that tells by which key a file without the table of its bearing is that of a bearing."""
+        sign = bearing_key(given) if key == "bearing" else None
+        return "" if sign is None else f", [bearing], as the file looks like that of a bearing: it has {sign}"
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _with_heat(cls, tables: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Name what the film factor needs of the oil together with what else the oil lacks."""
+        try:
+            return handler(tables)
+        except ValidationError as error:
+            lacks = any(detail["loc"][:1] == ("lubricant",) for detail in error.errors())
+            further = missing_conductivity(tables) if lacks else None
+            if further is None:
+                raise
+            raise with_further(error, ("lubricant",), further) from None
+
+    @field_validator("ranges", mode="plain")
+    @classmethod
+    def _parsed(cls, tables: Any) -> tuple[InputRange, ...] | None:
+        """Ranges of inputs in SI units."""
+        return None if tables is None else ranges_of(tables, cls) or None
+
+    @field_serializer("ranges")
+    def _as_table(self, ranges: tuple[InputRange, ...] | None) -> dict[str, list[int | float]] | None:
+        return None if ranges is None else {one.key: [one.low, one.high] for one in ranges}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in _NOT_OF_BEARINGS:
+            if getattr(self.discharge, key) is not None:
+                raise InputError.worded(f"discharge.{key}", "is not used by a bearing")
+        self._check_connected()
+        check_heat(self.bearing, self.lubricant)
+        if (
+            self.bearing.by_supply_rule
+            and self.lubricant.temperature is None
+            and self.lubricant.density is None
+        ):
+            raise InputError.worded(
+                "lubricant.density",
+                f"missing; supply {self.bearing.supply!r} needs it for the kinematic viscosity",
+            )
+        self._check_ranges()
+        return self
+
+    def _check_ranges(self) -> None:
+        """Check that each range is one of a number of the file, and contains it."""
+        table = self.to_dict() if self.ranges else {}
+        for one in self.ranges or ():
+            value, key = value_at(table, one.key), f"ranges.{one.key}"
+            if not is_number(value):
+                raise InputError(key, got="a range", takes=f"a number for {one.key} in the file too")
+            if not one.low - _ROUNDING * abs(one.low) <= value <= one.high + _ROUNDING * abs(one.high):
+                raise InputError(
+                    key,
+                    got=f"{one.low:.6g} to {one.high:.6g}",
+                    takes=f"a range that contains the value of the file, {value:.6g} (in SI units)",
+                )
+
+    def _check_connected(self) -> None:
+        """Check that one table says what is connected to the shaft, where a pit needs it."""
+        external = self.discharge.external_capacitance
+        if external is not None and self.motor is not None:
+            raise InputError(
+                "discharge.external_capacitance",
+                got=f"{external:g} F beside [motor]",
+                takes="one of the two: the capacitances of a motor are discharged, too",
+            )
+        if self.discharge.pit is not None and external is None and self.motor is None:
+            raise InputError.worded(
+                "discharge.external_capacitance",
+                "missing; pit needs it or [motor]: a discharge also drains what is connected to the shaft; 0 "
+                "where nothing is",
+            )
+
+    def _headline(self) -> str:
+        """Title, bearing, loads and speed on one line."""
+        bearing = self.bearing
+        loads = [("radial", bearing.radial_load), ("axial", bearing.axial_load)]
+        return headline(
+            self.title,
+            bearing.base or bearing.kind,
+            *(f"{way} load {amount(load, 'N')}" for way, load in loads if load),
+            f"{rpm(bearing.inner_speed):.4g} rpm",
+            f"{bearing.oil_temperature - 273.15:.4g} degC",
+        )
+
+    @classmethod
+    @takes(BearingKeys)
+    def of(
+        cls,
+        *,
+        lubricant: Lubricant | Keys | str,
+        title: str = "",
+        contacts: Contacts = "solved",
+        discharge: BearingDischarge | Keys | None = None,
+        motor: Motor | Keys | None = None,
+        solver: Solver | Keys | None = None,
+        ranges: Keys | None = None,
+        **bearing: Unpack[BearingKeys],
+    ) -> BearingCase:
+        """Make a bearing case from the keys of its table ``bearing``.
+
+        ``lubricant`` is the name of one of the library or its table. The keys of ``bearing`` are floats in SI
+        units, texts with units, or quantities of pint (``ehlectric.cases.bearing_inputs.BearingKeys``); all
+        others are keys and tables of a bearing file.
+
+        >>> BearingCase.of(
+        ...     base="6208",
+        ...     radial_clearance="10 um",
+        ...     radial_load="1 kN",
+        ...     inner_speed="3000 rpm",
+        ...     temperature="70 degC",
+        ...     composite_rq="0.03 um",
+        ...     lubricant={"base": "paper", "viscosity": "20 mPa s"},
+        ... )
+        <BearingCase 6208, radial load 1 kN, 3000 rpm, 70 degC>
+        """
+        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver, ranges=ranges)
+        return BearingCase.from_dict({"title": title, "contacts": contacts, "bearing": bearing, **given})
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a bearing case from a TOML file."""
+        table = read_toml(path)
+        if "contact" in table and "bearing" not in table:
+            raise InputError(
+                path, "is the file of a contact", takes="that of a bearing; ehlectric run solves it"
+            )
+        return cls.from_written(table)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all values that are set as nested tables, in SI units."""
+        return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        table = self.to_dict()
+        # A rotational speed without a unit is refused in a file.
+        table["bearing"]["inner_speed"] = f"{self.bearing.inner_speed!r} {ROTATION}"
+        return tomli_w.dumps(table)
+
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """Return a changed copy of the case; the title stays unless a new one is given.
+
+        A new key replaces its alternative. A new ``lubricant.base`` replaces all values of the lubricant, and
+        a new ``bearing.base`` all dimensions of the bearing. A range of a replaced value is left out.
+
+        Parameters
+        ----------
+        changes : mapping, optional
+            New values by dotted key, as in ``{"bearing.radial_load": "1 kN"}``.
+        **tables
+            New values by table, as in ``bearing={"radial_load": "1 kN"}``, or by key of the case, as in
+            ``title="A"``. Other keys of a table stay; ``ranges`` is replaced as a whole.
+        """
+        refuse_deep({**tables, "changes": changes})
+        changes = _with_class(_flat_changes(tables) | dict(changes or {}))
+        table = self.to_dict()
+        if "lubricant.base" in changes:
+            table["lubricant"] = {}
+        if changes.get("bearing.base") is not None:
+            _drop_dimensions(table["bearing"])
+        if changes.get("bearing.coating.base") is not None:
+            _drop_coating(table["bearing"])
+        displace_oil(table["lubricant"], nested(changes, "lubricant"))
+        displace(table, changes, _ALTERNATIVES)
+        set_keys(table, changes)
+        if "ranges" in table and "ranges" not in changes:
+            table["ranges"] = {
+                key: ends
+                for key, ends in table["ranges"].items()
+                if key not in changes and is_number(value_at(table, key))
+            }
+        if table["bearing"].get("clearance_class") is not None and "bearing.radial_clearance" not in changes:
+            # It follows from the class, and anew where the class or the bore changes.
+            table["bearing"].pop("radial_clearance", None)
+        return self.from_dict(table)
+
+
+def _flat_changes(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """New values by dotted key; ``ranges``, whose own keys are dotted, stays a table."""
+    ranges = {"ranges": tables["ranges"]} if "ranges" in tables else {}
+    return flattened({name: table for name, table in tables.items() if name != "ranges"}) | ranges
+
+
+def _with_class(changes: dict[str, Any]) -> dict[str, Any]:
+    """Changes with a clearance class that is given as ``radial_clearance`` in its own key, beside fits."""
+    key = "bearing.radial_clearance"
+    named = with_class({"radial_clearance": changes.get(key)}).get("clearance_class")
+    if named is None:
+        return changes
+    rest = {name: value for name, value in changes.items() if name != key}
+    return rest | {"bearing.clearance_class": named}
+
+
+def _drop_dimensions(bearing: dict[str, Any]) -> None:
+    """Remove the dimensions of a bearing, and all else that its base in the library gives."""
+    own = library.bearing(bearing["base"]) if bearing.get("base") else {}
+    for key in {*DIMENSIONS, *own}:
+        bearing.pop(key, None)
+
+
+def _drop_coating(bearing: dict[str, Any]) -> None:
+    """Remove the values of a coating that are those of its base in the library."""
+    coating = bearing.get("coating", {})
+    if coating.get("base"):
+        for key in library.coating(coating["base"]):
+            coating.pop(key, None)

@@ -1,0 +1,560 @@
+"""Tables of a bearing file: bearing with fits, load and speed, lubricant over temperature, motor, heat and
+summits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from difflib import get_close_matches
+from typing import Annotated, Any, Literal, Self, TypedDict
+
+from pydantic import AfterValidator, BeforeValidator, model_validator
+
+from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.case_oil import Lubricant, viscosity_over_temperature
+from ehlectric.cases.coating_inputs import Coating
+from ehlectric.cases.defaults import FILM_FACTORS
+from ehlectric.cases.film_inputs import check_thermal_oil
+from ehlectric.cases.keywords import Keys, Value
+from ehlectric.cases.library.bearing_catalogue import (
+    BORE,
+    ClearanceClass,
+    clearance_range,
+    with_class,
+    with_clearance,
+)
+from ehlectric.cases.oil_inputs import Properties, library_name
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, shown
+from ehlectric.formulas.inlet_supply import SUPPLY_CONSTANTS
+from ehlectric.quantities.units import to_fraction
+from ehlectric.runtime.values import is_number
+
+TEMPERATURE = Amount("K", least=200.0, most=600.0, reason="absolute")
+PLAY = Amount("m", least=-1e-3, most=1e-2, reason="full diametral play")
+_Interference = Annotated[
+    float, Amount("m", least=-1e-2, most=1e-2, reason="on the diameter, negative for a loose fit")
+]
+
+
+def _solid(name: str) -> str:
+    names = library.solid_names()
+    if name not in names:
+        raise InputError(got=shown(name), takes=f"one of the library: {', '.join(names)}")
+    return name
+
+
+_Solid = Annotated[str, AfterValidator(_solid)]
+
+
+class Fits(Table):
+    """Clearance before mounting, fits on shaft and in housing, and their temperatures.
+
+    The clearance in operation follows from them. All dimensions are those at ``reference_temperature``.
+    """
+
+    unmounted_clearance: Annotated[float, PLAY] | None = None
+    shaft_interference: _Interference
+    housing_interference: _Interference
+    shaft_bore: Annotated[float, Amount("m", least=0.0, most=10.0, reason="of a hollow shaft")] = 0.0
+    housing_diameter: Annotated[float, BORE] | None = None
+    shaft_material: _Solid = "steel"
+    housing_material: _Solid
+    element_temperature: Annotated[float, TEMPERATURE] | None = None
+    shaft_temperature: Annotated[float, TEMPERATURE] | None = None
+    housing_temperature: Annotated[float, TEMPERATURE] | None = None
+    # Standard reference temperature of dimensions, ISO 1.
+    reference_temperature: Annotated[float, TEMPERATURE] = 293.15
+
+
+_Capacitance = Annotated[float, Amount("F", above=0.0, most=1e-3, reason="of an electric machine")]
+
+
+class Motor(Table):
+    """Common-mode voltage and capacitances of the motor around the bearing."""
+
+    common_mode_voltage: Annotated[float, Amount("V", above=0.0, most=1e6, reason="peak")]
+    winding_rotor_capacitance: _Capacitance
+    rotor_frame_capacitance: _Capacitance
+    second_bearing_capacitance: _Capacitance | None = None
+    switching_frequency: (
+        Annotated[float, Amount("Hz", least=1.0, most=1e8, reason="of the inverter")] | None
+    ) = None
+    rise_time: (
+        Annotated[float, Amount("s", least=1e-11, most=1.0, reason="of an edge of the inverter")] | None
+    ) = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.switching_frequency is not None and self.rise_time is not None:
+            period = 1.0 / self.switching_frequency
+            if self.rise_time >= period:
+                raise InputError(
+                    "rise_time",
+                    got=f"{self.rise_time:g} s",
+                    takes=f"less than {period:.3g} s, a period of motor.switching_frequency",
+                )
+        return self
+
+
+_Density = Annotated[
+    float, Amount("1/m**2", least=1e6, most=1e16, reason="of the sum of both surfaces' heights")
+]
+_Radius = Annotated[float, Amount("m", least=1e-9, most=1.0, reason="of the caps")]
+_Height = Annotated[float, Amount("m", above=0.0, most=1e-4, reason="of the summit heights")]
+_Highest = Annotated[float, Amount("", above=0.0, most=100.0, reason="in deviations of the heights")]
+_Bandwidth = Annotated[float, Amount("", least=1.5, most=1e6, reason="Nayak's, of a Gaussian surface")]
+
+
+class Summits(Table):
+    """Density, radius and heights of the summits of both surfaces together, at one sampling interval."""
+
+    density: _Density
+    radius: _Radius
+    height_deviation: _Height | None = None
+    bandwidth: _Bandwidth | None = None
+    highest: _Highest | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.height_deviation is not None and self.bandwidth is not None:
+            raise InputError(
+                "height_deviation",
+                got="height_deviation and bandwidth together",
+                takes="one of the two, as it follows from bandwidth",
+            )
+        return self
+
+
+ROLLERS = "cylindrical roller"
+ANGULAR = "angular-contact ball"
+
+_WORDS = ", ".join(repr(word) for word in FILM_FACTORS)
+_Length = Annotated[float, BORE]
+_Groove = Annotated[float, Amount("", above=0.5, most=1.0, reason="groove radius over ball diameter")]
+_Parallel = Annotated[float, Amount("F", least=0.0, most=1e-3, reason="of cage, shields and wiring")]
+_Ohm = Annotated[float, Amount("ohm", above=0.0, most=1e9, reason="of one contact with metallic spots")]
+_Load = Annotated[float, Amount("N", least=0.0, most=1e8, reason="on the inner ring")]
+
+# Keys that only ball bearings have, and keys that only roller bearings have.
+_OF_BALLS = ("inner_groove", "outer_groove", "shoulder_height", "contact_angle")
+_OF_ROLLERS = ("roller_length", "profile")
+
+# Keys that each kind of bearing needs.
+_NEEDED = {
+    "deep-groove ball": ("inner_groove", "outer_groove", "shoulder_height", "radial_clearance"),
+    ANGULAR: ("inner_groove", "outer_groove", "shoulder_height", "contact_angle"),
+    ROLLERS: ("roller_length", "profile", "radial_clearance"),
+}
+
+# Keys from which the radial clearance follows.
+_OF_CLEARANCE = ("clearance_class", "fits")
+
+# Key of the temperature of a ring, by whether it is the inner one.
+_RING_TEMPERATURE = {True: "inner_ring_temperature", False: "outer_ring_temperature"}
+
+# What a message says of a needed key that is missing, where a few words help.
+_CHOICES = {
+    "profile": "'none' or 'logarithmic'",
+    "radial_clearance": "the clearance in operation, clearance_class with bore, or [bearing.fits]",
+}
+
+
+def _material(name: str) -> str:
+    names = library.solid_names(rolling=True)
+    if name not in names:
+        raise InputError(got=shown(name), takes=f"one of the library: {', '.join(names)}")
+    return name
+
+
+def _film_factor(value: Any) -> float | str:
+    if value in FILM_FACTORS:
+        return str(value)
+    if not is_number(value) or not 0.0 < value <= 1.0:
+        raise InputError(got=shown(value), takes=f"{_WORDS}, or a number above 0 and at most 1")
+    return float(value)
+
+
+def _supply(value: Any) -> float | str:
+    """Supply of oil: the name of a way, or the film over the fully flooded one."""
+    if isinstance(value, str) and value in SUPPLY_CONSTANTS:
+        return str(value)
+    if not is_number(value) or not 0.0 < value <= 1.0:
+        names = ", ".join(repr(name) for name in SUPPLY_CONSTANTS)
+        raise InputError(got=shown(value), takes=f"{names}, or a number above 0 and at most 1")
+    return float(value)
+
+
+def _fill(value: Any) -> float | str:
+    """Filling of the gap around the films: "oil", "air", or the part of it that oil fills."""
+    if value in ("oil", "air"):
+        return str(value)
+    part = value
+    if isinstance(value, str):
+        try:
+            part = to_fraction(value)
+        except ValueError:
+            part = None
+    if not is_number(part) or not 0.0 <= part <= 1.0:
+        raise InputError(got=shown(value), takes="'oil' or 'air', or the part filled with oil, from 0 to 1")
+    return float(part)
+
+
+_Material = Annotated[str, AfterValidator(_material)]
+
+
+def _bearing_name(base: Any) -> str:
+    """Name of a bearing of the library; the error for another name tells how to do without the library."""
+    names = library.bearing_names()
+    try:
+        return library_name(base, names)
+    except InputError as error:
+        near = get_close_matches(str(base), names, n=3, cutoff=0.4) or names[:3]
+        keys = "kind, elements, element_diameter, pitch_diameter and the other keys of the bearing"
+        takes = (
+            f"a name of the library, as a string, such as {', '.join(repr(name) for name in near)} "
+            f"(list: ehlectric bearings); or leave base out and give {keys}"
+        )
+        raise InputError(error.key, got=shown(base), takes=takes) from None
+
+
+class Bearing(Table):
+    """Internal geometry, materials, load, speed and temperature of a rolling bearing."""
+
+    base: str | None = None
+    kind: Literal["deep-groove ball", "angular-contact ball", "cylindrical roller"]
+    elements: Annotated[int, Count(3, 1000, "rolling elements of one row")]
+    bore: _Length | None = None
+    outer_diameter: _Length | None = None
+    width: _Length | None = None
+    element_diameter: _Length
+    pitch_diameter: _Length
+    inner_groove: _Groove | None = None
+    outer_groove: _Groove | None = None
+    roller_length: _Length | None = None
+    profile: Literal["none", "logarithmic"] | None = None
+    shoulder_height: (
+        Annotated[float, Amount("", above=0.0, most=0.5, reason="of the element diameter")] | None
+    ) = None
+    radial_clearance: Annotated[float, PLAY] | None = None
+    clearance_class: ClearanceClass | None = None
+    contact_angle: (
+        Annotated[float, Amount("rad", above=0.0, below=0.5 * math.pi, reason="free of load")] | None
+    ) = None
+    element_material: _Material = "steel"
+    ring_material: _Material = "steel"
+    element_capacitance: _Capacitance | None = None
+    radial_load: _Load = 0.0
+    axial_load: _Load = 0.0
+    inner_speed: Annotated[float, Amount("rad/s", above=0.0, most=1e5, reason="of the inner ring")]
+    temperature: (
+        Annotated[float, Amount("K", least=200.0, most=600.0, reason="absolute, of the oil")] | None
+    ) = None
+    inner_ring_temperature: Annotated[float, TEMPERATURE] | None = None
+    outer_ring_temperature: Annotated[float, TEMPERATURE] | None = None
+    composite_rq: Annotated[float, Amount("m", above=0.0, most=1e-4, reason="of both surfaces together")]
+    summits: Summits | None = None
+    contact_resistance: _Ohm | None = None
+    fill: Annotated[float | str, BeforeValidator(_fill)] = "oil"
+    parallel_capacitance: _Parallel | None = None
+    coating: Coating | None = None
+    film_factor: Annotated[float | str, BeforeValidator(_film_factor)] = "none"
+    supply: Annotated[float | str, BeforeValidator(_supply)] = "flooded"
+    fits: Fits | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_base(cls, table: Any) -> Any:
+        """Values of the bearing that ``base`` names in the library, replaced by those of the file."""
+        if not isinstance(table, Mapping):
+            return table
+        table = with_class(table)
+        if table.get("base") is None:
+            return with_clearance(table)
+        name = _bearing_name(table["base"])
+        base = library.bearing(name)
+        if table.get("clearance_class") is not None or table.get("fits") is not None:
+            base.pop("radial_clearance", None)
+        return with_clearance({**base, **table})
+
+    @property
+    def oil_temperature(self) -> float:
+        """Temperature of the oil outside the films [K]: the given one, or the only one of the rings."""
+        return next(iter(self.temperatures().values()))
+
+    def ring_temperature(self, *, inner: bool) -> float:
+        """Temperature of a ring and of the oil in its contacts [K]: the given one, or that of the oil."""
+        return self.temperatures().get(_RING_TEMPERATURE[inner], self.oil_temperature)
+
+    def temperature_key(self, *, inner: bool | None = None) -> str:
+        """Dotted key of the temperature of a ring, or of the oil outside the films."""
+        given = list(self.temperatures())
+        own = None if inner is None else _RING_TEMPERATURE[inner]
+        return f"bearing.{own if own in given else given[0]}"
+
+    def temperatures(self) -> dict[str, float]:
+        """Temperatures of oil and rings that are given [K], by key; that of the oil comes first."""
+        keys = ("temperature", "inner_ring_temperature", "outer_ring_temperature")
+        return {key: value for key in keys if (value := getattr(self, key)) is not None}
+
+    def all_temperatures(self) -> dict[str, float]:
+        """Temperatures that are given [K], also those of elements, shaft and housing, by key."""
+        parts = {f"fits.{part}_temperature": part for part in ("element", "shaft", "housing")}
+        own = {key: getattr(self.fits, f"{part}_temperature", None) for key, part in parts.items()}
+        return self.temperatures() | {key: value for key, value in own.items() if value is not None}
+
+    @property
+    def element_temperature(self) -> float:
+        """Temperature of the elements [K]: the given one, or the mean of both rings."""
+        given = None if self.fits is None else self.fits.element_temperature
+        rings = [self.ring_temperature(inner=inner) for inner in (True, False)]
+        return 0.5 * sum(rings) if given is None else given
+
+    @property
+    def heated(self) -> bool:
+        """Whether the heat in the films is computed, by a formula or solved."""
+        return self.film_factor in FILM_FACTORS[1:]
+
+    @property
+    def by_supply_rule(self) -> bool:
+        """Whether a rule for the way of supply reduces the films."""
+        return isinstance(self.supply, str) and SUPPLY_CONSTANTS[self.supply] > 0.0
+
+    @property
+    def unmounted_clearance(self) -> float | None:
+        """Clearance before mounting [m], given or the middle of the class; None without ``fits``."""
+        if self.fits is None or self.fits.unmounted_clearance is not None:
+            return None if self.fits is None else self.fits.unmounted_clearance
+        assert self.clearance_class is not None and self.bore is not None
+        return clearance_range(self.kind, self.clearance_class, self.bore).middle
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self._check_kind()
+        self._check_temperatures()
+        if self.fits is not None:
+            self._check_fits(self.fits)
+        if self.radial_load == 0.0 and self.axial_load == 0.0:
+            raise InputError.missing("radial_load", "a load, radial or axial")
+        if self.by_supply_rule:
+            for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
+                if getattr(self, key) is None:
+                    takes = f"the {name} of the bearing, which supply {self.supply!r} needs"
+                    raise InputError.missing(key, takes)
+        ceramic = not library.solid(self.element_material)["conducting"]
+        if self.element_capacitance is not None and not ceramic:
+            raise InputError.worded(
+                "element_capacitance", "is only for ceramic elements; that of conducting ones is computed"
+            )
+        if not library.solid(self.ring_material)["conducting"]:
+            raise InputError("ring_material", got=shown(self.ring_material), takes="one that conducts")
+        self.coating_capacitance()
+        return self
+
+    def coating_capacitance(self) -> float:
+        """Capacitance of the coating [F]; infinite without a coating.
+
+        Raises
+        ------
+        InputError
+            Where a coating is given, and neither its area nor the dimensions of its ring.
+        """
+        if self.coating is None:
+            return math.inf
+        diameters = {"inner": self.bore, "outer": self.outer_diameter}
+        return self.coating.capacitance(self.coating.area_on(diameters, self.width))
+
+    def _check_kind(self) -> None:
+        rollers = self.kind == ROLLERS
+        needed = _NEEDED[self.kind]
+        for key in needed:
+            if getattr(self, key) is None and not (key == "radial_clearance" and self.fits is not None):
+                choices = f": {_CHOICES[key]}" if key in _CHOICES else ""
+                text = f"missing; a bearing of kind {self.kind!r} needs it{choices}"
+                raise InputError.worded(key, text, takes=_CHOICES.get(key))
+        for key in (*_OF_BALLS, *_OF_ROLLERS, "radial_clearance", *_OF_CLEARANCE):
+            of_kind = "radial_clearance" if key in _OF_CLEARANCE else key
+            if of_kind not in needed and getattr(self, key) is not None:
+                raise InputError.worded(key, f"is not used by a bearing of kind {self.kind!r}")
+        self._check_boundary()
+        if rollers and self.axial_load:
+            raise InputError(
+                "axial_load",
+                got=f"{self.axial_load:g} N",
+                takes="0 in a cylindrical roller bearing, whose rollers carry none",
+            )
+
+    def _check_temperatures(self) -> None:
+        """A temperature is given, and that of the oil where both rings have their own."""
+        given = len(self.temperatures())
+        if self.temperature is None and given != 1:
+            other = "; those of both rings do not tell it" if given else ""
+            raise InputError.missing("temperature", f"the temperature of the oil{other}")
+
+    def _check_fits(self, fits: Fits) -> None:
+        """The clearance before mounting is told once, and shaft and housing fit the bearing."""
+        if self.radial_clearance is not None:
+            raise InputError(
+                "radial_clearance",
+                got=f"{self.radial_clearance:g} m with [bearing.fits]",
+                takes="fits.unmounted_clearance or clearance_class, the clearance before mounting",
+            )
+        if (fits.unmounted_clearance is None) == (self.clearance_class is None):
+            both = None if self.clearance_class is None else "it and clearance_class together"
+            raise InputError("fits.unmounted_clearance", got=both, takes="either it or clearance_class")
+        for key, name in (("bore", "bore"), ("outer_diameter", "outside diameter")):
+            if getattr(self, key) is None:
+                raise InputError.missing(key, f"the {name} of the bearing, which [bearing.fits] needs")
+        assert self.bore is not None and self.outer_diameter is not None
+        if fits.shaft_bore >= self.bore:
+            takes = f"less than the bore of the bearing, {self.bore:g} m"
+            raise InputError("fits.shaft_bore", got=f"{fits.shaft_bore:g} m", takes=takes)
+        if fits.housing_diameter is not None and fits.housing_diameter <= self.outer_diameter:
+            takes = f"more than the outside diameter of the bearing, {self.outer_diameter:g} m"
+            raise InputError("fits.housing_diameter", got=f"{fits.housing_diameter:g} m", takes=takes)
+        if self.clearance_class is not None:
+            clearance_range(self.kind, self.clearance_class, self.bore)
+
+    def _check_boundary(self) -> None:
+        """Both rings have a thickness, and the element is not wider than the bearing."""
+        inner = self.pitch_diameter - self.element_diameter
+        outer = self.pitch_diameter + self.element_diameter
+        if self.bore is not None and self.bore >= inner:
+            raise InputError(
+                "bore", got=f"{self.bore:g} m", takes=f"less than the inner raceway, {inner:g} m"
+            )
+        if self.outer_diameter is not None and self.outer_diameter <= outer:
+            raise InputError(
+                "outer_diameter",
+                got=f"{self.outer_diameter:g} m",
+                takes=f"more than the outer raceway, {outer:g} m",
+            )
+        across = self.element_diameter if self.roller_length is None else self.roller_length
+        if self.width is not None and self.width < across:
+            raise InputError(
+                "width", got=f"{self.width:g} m", takes=f"at least the width of an element, {across:g} m"
+            )
+
+
+class BearingKeys(TypedDict, total=False):
+    """Keys of the table ``bearing``, as ``BearingCase.of`` takes them."""
+
+    base: str
+    kind: str
+    elements: int
+    bore: Value
+    outer_diameter: Value
+    width: Value
+    element_diameter: Value
+    pitch_diameter: Value
+    inner_groove: Value
+    outer_groove: Value
+    roller_length: Value
+    profile: str
+    shoulder_height: Value
+    radial_clearance: Value
+    clearance_class: str
+    contact_angle: Value
+    element_material: str
+    ring_material: str
+    element_capacitance: Value
+    radial_load: Value
+    axial_load: Value
+    inner_speed: Value
+    temperature: Value
+    inner_ring_temperature: Value
+    outer_ring_temperature: Value
+    composite_rq: Value
+    summits: Keys
+    contact_resistance: Value
+    fill: float | str
+    film_factor: float | str
+    supply: float | str
+    fits: Keys
+    parallel_capacitance: Value
+    coating: Keys
+
+
+def check_heat(bearing: Bearing, oil: Lubricant) -> None:
+    """Check that a bearing file has all that its film factor needs.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Table of the bearing.
+    oil : Lubricant
+        Table of its oil.
+
+    Raises
+    ------
+    InputError
+        Where a property of the oil or of a material is missing.
+    """
+    if bearing.film_factor == "inlet-shear":
+        _check_inlet(oil)
+    elif bearing.film_factor == "solved":
+        _check_solved(bearing, oil)
+
+
+def missing_conductivity(tables: Any) -> InputError | None:
+    """Error of a thermal conductivity that is missing in a bearing file whose oil lacks other values, too.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables of the file.
+
+    Returns
+    -------
+    InputError or None
+        Error with its key in the table of the oil; None if nothing is missing for the film factor.
+    """
+    if not isinstance(tables, Mapping):
+        return None
+    bearing, oil = tables.get("bearing"), tables.get("lubricant")
+    if not (isinstance(bearing, Mapping) and isinstance(oil, Mapping)):
+        return None
+    if bearing.get("film_factor") != "inlet-shear":
+        return None
+    try:
+        _check_conductivity(Properties.from_dict(oil))
+    except InputError as error:
+        key = str(error.key).removeprefix("lubricant.")
+        return error.retold(key, error.text) if "thermal_conductivity" in key else None
+    return None
+
+
+def _check_inlet(oil: Lubricant) -> None:
+    """Check that the heating by shear in the inlet is known: viscosity over temperature, conductivity."""
+    if viscosity_over_temperature(oil) is None:
+        needs = "film_factor 'inlet-shear' needs a viscosity that follows the temperature"
+        raise InputError.worded(
+            "lubricant.viscosity", f"is one for all temperatures; {needs}", takes="a data sheet or a law"
+        )
+    _check_conductivity(oil)
+
+
+def _check_conductivity(oil: Properties) -> None:
+    """Check that an oil has a thermal conductivity, of its data sheet or by a law."""
+    sheet = oil.temperature
+    if oil.law("thermal_conductivity_law") is None and (sheet is None or sheet.thermal_conductivity is None):
+        key = "thermal_conductivity" if sheet is None else "temperature.thermal_conductivity"
+        raise InputError.worded(f"lubricant.{key}", "missing; film_factor 'inlet-shear' needs it")
+
+
+def _check_solved(bearing: Bearing, oil: Lubricant) -> None:
+    """Check that the thermal properties of elements, rings and oil are known."""
+    what, known = "film_factor 'solved'", library.solid_names(rolling=True, thermal=True)
+    for key in ("element_material", "ring_material"):
+        name = getattr(bearing, key)
+        if name not in known:
+            raise InputError.worded(
+                f"bearing.{key}",
+                f"{name!r} has no thermal properties in the library, and {what} needs them; use "
+                f"{' or '.join(map(repr, known))} or another film_factor",
+                takes=" or ".join(map(repr, known)),
+            )
+    for inner in (True, False):
+        check_thermal_oil(oil, bearing.ring_temperature(inner=inner), what)

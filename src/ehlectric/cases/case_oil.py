@@ -1,0 +1,809 @@
+"""Oil of a case: the table `lubricant`, the oil at a temperature that follows from its keys, and oils by
+their names.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any, Self, TypeVar
+
+import numpy as np
+from pydantic import model_validator
+from scipy.optimize import bisect
+
+from ehlectric.arrays import Array
+from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
+from ehlectric.cases.library.library_oils import LibraryOil, Source, library_oil, values_of
+from ehlectric.cases.oil_inputs import (
+    LAWS,
+    TEMPERATURE,
+    Properties,
+    base_oil_values,
+    check_parameters,
+    check_viscosity,
+    estimated_alpha,
+    of_base_oil,
+    quantity_of,
+    refuse_missing,
+)
+from ehlectric.cases.table import nearest, read_toml
+from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.lubricant.density import DENSITY_LAWS
+from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
+from ehlectric.lubricant.heat_laws import constant_thermal_conductivity
+from ehlectric.lubricant.law import Law
+from ehlectric.lubricant.oil import BoundLaw, OfDensity, Oil, RangeCheck
+from ehlectric.lubricant.over_temperature import Walther, density, interpolated
+from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, initial_alpha, reciprocal_asymptotic_alpha
+
+# Difference of temperatures over which the slope of the viscosity is taken [K].
+_STEP = 1e-3
+
+CELSIUS = 273.15
+
+
+@contextmanager
+def of_table(temperature: str) -> Iterator[None]:
+    """Context in which errors about the temperature get its key, and others the table ``lubricant``."""
+    try:
+        yield
+    except InputError as error:
+        if error.key == "temperature":
+            raise error.retold(temperature, error.text) from None
+        raise error.under("lubricant") from None
+
+
+def oil_at(oil: Properties, temperature: float | None, key: str) -> Oil:
+    """Oil at a temperature [K], or at that of its contact if none is given; see ``Lubricant.at``."""
+    with of_table(key):
+        check_range(oil, temperature)
+        viscosity, density_of = viscosity_at(oil, temperature), density_at(oil, temperature)
+        permittivity = permittivity_at(oil, temperature)
+        known = {"relative_permittivity": permittivity}
+        if density_of is not None:
+            known["density"] = density_of
+        names = law_names(oil)
+        laws = {name: bound(oil, name, temperature, viscosity, known) for name in names}
+        for name in ("viscosity_law", "density_law"):
+            # A law that has no value at the temperature says so here, with the key of the temperature.
+            laws[name](np.zeros(1))
+        return Oil(
+            viscosity=viscosity,
+            relative_permittivity=permittivity,
+            ambient_pressure=oil.ambient_pressure,
+            log_viscosity=laws["viscosity_law"],
+            density_ratio=laws["density_law"],
+            permittivity=OfDensity(laws["permittivity_law"]),
+            thermal_conductivity_law=laws.get("thermal_conductivity_law") or sheet_conductivity(oil),
+            heat_capacity_law=laws.get("heat_capacity_law"),
+            laws={name.removesuffix("_law"): law for name, law in names.items()},
+            checks=tuple(_checks(oil, names, viscosity, temperature)),
+            inputs=oil.model_dump(mode="json", exclude_none=True),
+            name=oil.base or "",
+            temperature=temperature,
+            density=density_of,
+            conductivity=conductivity_at(oil, temperature, laws.get("conductivity_law")),
+            conductivity_over=conductivity_over(oil, laws.get("conductivity_law")),
+        )
+
+
+def law_names(oil: Properties) -> dict[str, str]:
+    """Names of the laws of an oil, by the keys of ``LAWS``."""
+    names = {key: oil.law(key) for key in LAWS}
+    return {key: name for key, name in names.items() if name is not None}
+
+
+def bound(
+    oil: Properties, key: str, temperature: float | None, viscosity: float, known: Mapping[str, float]
+) -> BoundLaw:
+    """Law of an oil for a key of ``LAWS``, with its parameters at a temperature [K].
+
+    Parameters
+    ----------
+    oil : Properties
+        Table of the oil, with all parameters of this law.
+    key : str
+        Key of ``LAWS`` for which the oil has a law.
+    temperature : float or None
+        Temperature [K]; None if there is none.
+    viscosity : float
+        Viscosity of the oil at zero pressure and this temperature [Pa s].
+    known : mapping
+        Parameters that are known at the temperature, SI units, which replace those of the table.
+
+    Raises
+    ------
+    InputError
+        If the law needs a temperature and gets none.
+    """
+    name = oil.law(key)
+    assert name is not None
+    law = LAWS[key][name]
+    if law.needs_temperature:
+        _needs(temperature, f"{key} {name!r}")
+    values = _parameters(oil, law, viscosity, temperature)
+    own = {parameter.name for parameter in law.parameters}
+    values |= {name: value for name, value in known.items() if name in own}
+    return BoundLaw(law.function, values, temperature)
+
+
+def sheet_conductivity(oil: Properties) -> BoundLaw | None:
+    """Thermal conductivity of a data sheet, which is constant; None if there is none."""
+    value = None if oil.temperature is None else oil.temperature.thermal_conductivity
+    return None if value is None else BoundLaw(constant_thermal_conductivity, {"thermal_conductivity": value})
+
+
+def conductivity_at(oil: Properties, temperature: float | None, law: BoundLaw | None) -> float | None:
+    """Electrical conductivity at a temperature [S/m], by the table or the law of an oil; None without one."""
+    table = oil.conductivity_table
+    if table is not None:
+        at = _needs(temperature, "lubricant.conductivity_table")
+        name = "lubricant.conductivity_table"
+        return float(interpolated(at, table.temperature, table.conductivity, table=name, arrhenius=True))
+    return None if law is None else float(law.function(temperature, **law.parameters))
+
+
+def conductivity_over(oil: Properties, law: BoundLaw | None) -> Callable[[Array], Array] | None:
+    """Electrical conductivity over temperature; None without one.
+
+    In a film that heats itself the end values of a table hold beyond its ends.
+    """
+    table = oil.conductivity_table
+    if table is not None:
+        return partial(_held, temperatures=table.temperature, conductivities=table.conductivity)
+    return None if law is None else partial(law.function, **law.parameters)
+
+
+def _held(temperature: Array, *, temperatures: Sequence[float], conductivities: Sequence[float]) -> Array:
+    """Conductivity of a table at temperatures [K], with its end values beyond its ends."""
+    within = np.clip(temperature, temperatures[0], temperatures[-1])
+    name = "lubricant.conductivity_table"
+    return interpolated(within, temperatures, conductivities, table=name, arrhenius=True)
+
+
+def _needs(temperature: float | None, what: str) -> float:
+    """Temperature, which is needed for something.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    if temperature is None:
+        raise InputError.worded("temperature", f"missing; {what} needs it", takes="a temperature")
+    return temperature
+
+
+def check_range(oil: Properties, temperature: float | None) -> None:
+    """Refuse a temperature outside the range for which the data of the oil hold."""
+    if temperature is None or oil.temperature_range is None:
+        return
+    low, high = oil.temperature_range
+    if not low <= temperature <= high:
+        whose = f"{oil.base!r}" if oil.base else "the oil"
+        raise InputError(
+            "temperature",
+            got=f"{temperature - CELSIUS:.4g} degC",
+            takes=f"{low - CELSIUS:.4g} to {high - CELSIUS:.4g} degC, for which the laws of {whose} hold "
+            "(lubricant.temperature_range)",
+        )
+
+
+def viscosity_at(oil: Properties, temperature: float | None) -> float:
+    """Viscosity of an oil at zero pressure and a temperature [K], in Pa s.
+
+    Raises
+    ------
+    InputError
+        If the viscosity depends on a temperature that is not given, or has no value at it.
+    """
+    law = viscosity_over_temperature(oil)
+    if law is None:
+        assert oil.viscosity is not None
+        return oil.viscosity
+    return law(_needs(temperature, "the viscosity of the oil"))
+
+
+def viscosity_over_temperature(oil: Properties) -> Callable[[float], float] | None:
+    """Viscosity at zero pressure [Pa s] as a function of temperature [K]; None for a given viscosity."""
+    own = VISCOSITY_LAWS[oil.viscosity_law]
+    if own.atmospheric is not None:
+        return lambda at: float(own.atmospheric(at, **_given(oil, own)))  # type: ignore[misc]
+    if oil.atmospheric_law is not None:
+        law = LAWS["atmospheric_law"][oil.atmospheric_law]
+        return lambda at: float(law.function(at, **_given(oil, law)))
+    sheet = oil.temperature
+    if sheet is not None:
+        walther = Walther.of(sheet.at_40(), sheet.at_100())
+        return lambda at: walther.viscosity(at) * density(sheet.density_15, sheet.expansion, at)
+    return None
+
+
+def depends_on_temperature(oil: Properties) -> bool:
+    """Whether viscosity, density or permittivity of an oil change with its temperature.
+
+    Each may do so by a law that needs the temperature, by a table, or by thermal expansion.
+    """
+    if viscosity_over_temperature(oil) is not None or oil.permittivity_table is not None:
+        return True
+    of_films = ("viscosity_law", "density_law", "permittivity_law")
+    if any(LAWS[key][getattr(oil, key)].needs_temperature for key in of_films):
+        return True
+    return density_over_reference(oil, oil.reference_temperature) is not None
+
+
+def temperature_coefficient(oil: Properties, temperature: float) -> float | None:
+    """Temperature coefficient of the viscosity, -d ln(eta)/dT [1/K]; None for a given viscosity."""
+    law = viscosity_over_temperature(oil)
+    if law is None:
+        return None
+    return math.log(law(temperature - _STEP) / law(temperature + _STEP)) / (2.0 * _STEP)
+
+
+def density_at(oil: Properties, temperature: float | None) -> float | None:
+    """Density of an oil at zero pressure and a temperature [K], in kg/m^3; None if it is not known.
+
+    A density without a reference temperature or without an expansion is that at the temperature.
+    """
+    if oil.temperature is not None and temperature is not None:
+        return density(oil.temperature.density_15, oil.temperature.expansion, temperature)
+    ratio = density_over_reference(oil, temperature)
+    return None if oil.density is None else oil.density * (1.0 if ratio is None else ratio)
+
+
+def density_over_reference(oil: Properties, temperature: float | None) -> float | None:
+    """Density at zero pressure over that at the reference temperature; None if it is not known."""
+    if temperature is None or oil.reference_temperature is None:
+        return None
+    difference = temperature - oil.reference_temperature
+    by_law = DENSITY_LAWS[oil.density_law].thermal_expansion
+    if by_law is not None:
+        return 1.0 / (1.0 + (oil.parameter(by_law) or 0.0) * difference)
+    return None if oil.thermal_expansion is None else 1.0 - oil.thermal_expansion * difference
+
+
+def _given(oil: Properties, law: Law) -> dict[str, float]:
+    """Values of those parameters of a law that the table gives, by name, SI units."""
+    values = {parameter.name: oil.parameter(parameter.name) for parameter in law.parameters}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _parameters(oil: Properties, law: Law, viscosity: float, temperature: float | None) -> dict[str, float]:
+    """Parameters of a law at a temperature [K] at which the oil has this viscosity [Pa s].
+
+    Those that the table lacks follow from the viscosity, or from the type of base oil. Those that it gives
+    for the reference temperature change with the viscosity as the relation between them says.
+    """
+    own = {parameter.name for parameter in law.parameters}
+    follows = own & of_base_oil(oil)
+    estimated = base_oil_values(oil, viscosity, temperature) if follows else {}
+    values = {name: value for name, value in estimated.items() if name in own} | _given(oil, law)
+    for parameter in law.parameters:
+        rule = parameter.derivation
+        if rule is None:
+            continue
+        of = [oil.parameter(name) for name in rule.parameters]
+        if parameter.name not in values:
+            values[parameter.name] = rule.function(viscosity, *of)
+        elif oil.atmospheric_law is not None and oil.viscosity is not None:
+            # Parameters that a law such as Barus' does not have are factors, which cancel in the ratio.
+            of = [1.0 if value is None else value for value in of]
+            values[parameter.name] *= rule.function(viscosity, *of) / rule.function(oil.viscosity, *of)
+    return values
+
+
+def permittivity_at(oil: Properties, temperature: float | None) -> float:
+    """Relative permittivity at zero pressure and a temperature [K]."""
+    table = oil.permittivity_table
+    if table is not None:
+        at = _needs(temperature, "lubricant.permittivity_table")
+        name = "lubricant.permittivity_table"
+        return float(interpolated(at, table.temperature, table.relative_permittivity, table=name))
+    assert oil.relative_permittivity is not None
+    ratio = density_over_reference(oil, temperature)
+    if ratio is None:
+        return oil.relative_permittivity
+    law = PERMITTIVITY_LAWS[oil.permittivity_law]
+    return float(law.function(ratio, temperature, **_given(oil, law)))
+
+
+def _checks(
+    oil: Properties, names: Iterable[str], viscosity: float, temperature: float | None
+) -> Iterator[Callable[[float], Iterator[ResultWarning]]]:
+    """Checks of the ranges of those laws that have one, and the estimate of a coefficient."""
+    estimate = estimated_alpha(oil, temperature)
+    if estimate is not None:
+        yield estimate
+    for key in names:
+        check = range_check(oil, key, temperature, viscosity)
+        if check is not None:
+            yield check
+
+
+def range_check(oil: Properties, key: str, temperature: float | None, viscosity: float) -> RangeCheck | None:
+    """Check of the range of a law, for a key of ``LAWS``; None if the law has no range."""
+    name = oil.law(key)
+    assert name is not None
+    law = LAWS[key][name]
+    if law.warnings is None:
+        return None
+    parameters = _parameters(oil, law, viscosity, temperature)
+    return RangeCheck(law.warnings, viscosity, parameters, temperature, key.removesuffix("_law"))
+
+
+class Lubricant(Properties):
+    """Properties of a lubricant, and its laws over pressure and temperature.
+
+    Examples
+    --------
+    >>> oil = Lubricant.from_dict({"base": "paper", "viscosity_law": "barus"})
+    >>> oil.parameter("pressure_viscosity_coefficient")
+    2.2e-08
+    """
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        """Check that values are given in one way, and that no parameter of a law is missing."""
+        refuse_missing(self)
+        if self.relative_permittivity is not None and self.permittivity_table is not None:
+            raise InputError(
+                "relative_permittivity",
+                got="it and permittivity_table together",
+                takes="either relative_permittivity or permittivity_table",
+            )
+        ends = self.temperature_range
+        if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):
+            raise InputError(
+                "temperature_range", got=list(ends), takes="the lowest and the highest temperature"
+            )
+        return self
+
+    def at(self, temperature: float | None, key: str = "contact.temperature") -> Oil:
+        """Return the oil at a temperature.
+
+        Parameters
+        ----------
+        temperature : float or None
+            Absolute temperature [K]. Without one, the values of the table are those at the temperature of
+            the contact.
+        key : str, optional
+            Key of the temperature, for messages.
+
+        Returns
+        -------
+        Oil
+            Numbers and laws of the oil at this temperature.
+
+        Raises
+        ------
+        InputError
+            If the oil needs a temperature and gets none, or has no value at this temperature.
+
+        Examples
+        --------
+        >>> table = {"kinematic_viscosity_40": "46 mm^2/s", "kinematic_viscosity_100": "6.8 mm^2/s"}
+        >>> table |= {"density_15": "870 kg/m^3"}
+        >>> oil = Lubricant.from_dict({"base": "paper", "temperature": table}).at(343.15)
+        >>> round(oil.viscosity * 1e3, 2), round(oil.alpha * 1e9, 1)
+        (12.46, 17.9)
+        """
+        latest = _latest[-1] if _latest else None
+        if latest is None or latest[0] is not self or latest[1] != temperature:
+            # Tables are frozen, so that the oil of the same table at the same temperature is the same.
+            latest = (self, temperature, oil_at(self, temperature, key))
+            _latest[:] = [latest]
+        return latest[2]
+
+
+# Oil that was made last, with its table and its temperature; a solution asks for its oil many times.
+_latest: list[tuple[Lubricant, float | None, Oil]] = []
+
+
+T = TypeVar("T")
+
+# Largest pressure at which the end of a law's range is sought [Pa], and the error of the answer [Pa].
+_HIGHEST, _CLOSE = 1e11, 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class KnownOil:
+    """Oil at one temperature as far as its table goes.
+
+    An oil of which a value is missing cannot be solved with. Its other properties are computed here all the
+    same, and no value takes the place of the missing one.
+
+    Attributes
+    ----------
+    table : Properties
+        Table of the oil.
+    temperature : float or None
+        Temperature [K]; None for an oil without temperature.
+    viscosity, density, relative_permittivity, conductivity : float or None
+        Viscosity [Pa s], density [kg/m^3], relative permittivity and electrical conductivity [S/m] at zero
+        pressure; None where they are not known.
+    laws : mapping of str to BoundLaw
+        Laws of which all parameters are known, by key of ``LAWS``.
+    checks : mapping of str to RangeCheck
+        Checks of the ranges of these laws, by key of ``LAWS``.
+    missing : mapping of str to InputError
+        Errors of the values that are missing, by dotted key.
+
+    Examples
+    --------
+    >>> oil = known_oil(Properties.from_dict({"base": "n100"}), 313.15)
+    >>> round(oil.viscosity, 4), round(oil.alpha_star * 1e9, 1), oil.relative_permittivity
+    (0.0867, 27.3, None)
+    >>> print(*oil.missing.values())  # doctest: +ELLIPSIS
+    lubricant.relative_permittivity: missing; permittivity_law 'clausius-mossotti' needs it; the library ...
+    """
+
+    table: Properties
+    temperature: float | None
+    viscosity: float | None
+    density: float | None
+    relative_permittivity: float | None
+    conductivity: float | None
+    laws: Mapping[str, BoundLaw]
+    checks: Mapping[str, RangeCheck] = field(default_factory=dict)
+    missing: Mapping[str, InputError] = field(default_factory=dict)
+
+    @cached_property
+    def alpha(self) -> float | None:
+        """Slope of ln(eta) at zero pressure [1/Pa]; None where it is not known."""
+        law = self.laws.get("viscosity_law")
+        return None if law is None else initial_alpha(law)
+
+    @cached_property
+    def alpha_star(self) -> float | None:
+        """Reciprocal asymptotic pressure-viscosity coefficient [1/Pa]; None where it is not known."""
+        law = self.laws.get("viscosity_law")
+        return None if law is None else reciprocal_asymptotic_alpha(law)
+
+    def warnings(self, max_pressure: float) -> Iterator[ResultWarning]:
+        """Warnings about the laws at pressures up to a largest one [Pa], and about an estimate."""
+        estimate = estimated_alpha(self.table, self.temperature)
+        if estimate is not None and "viscosity_law" in self.laws:
+            yield from estimate(max_pressure)
+        for check in self.checks.values():
+            yield from check(max_pressure)
+
+    def range_end(self, key: str) -> float:
+        """Pressure at which the range of a law ends [Pa], by key of ``LAWS``; infinite if it has no end.
+
+        It is the lowest Hertz pressure at which the law has the warning "law-range".
+
+        Examples
+        --------
+        >>> oil = known_oil(Properties.from_dict({"base": "shell-t9"}), 313.15)
+        >>> round(oil.range_end("viscosity_law") / 1e9, 2), oil.range_end("permittivity_law")
+        (1.28, inf)
+        """
+        check = self.checks.get(key)
+        if check is None or not _beyond(check, _HIGHEST):
+            return math.inf
+        return float(bisect(lambda pressure: _beyond(check, pressure) - 0.5, 0.0, _HIGHEST, xtol=_CLOSE))
+
+
+def _beyond(check: RangeCheck, pressure: float) -> bool:
+    return any(warning.code == "law-range" for warning in check(pressure))
+
+
+def known_oil(table: Properties, temperature: float | None, key: str = "temperature") -> KnownOil:
+    """Oil at a temperature as far as its table goes.
+
+    Parameters
+    ----------
+    table : Properties
+        Table of the oil. Values may be missing.
+    temperature : float or None
+        Absolute temperature [K]; None for an oil whose values hold at the temperature of its contact.
+    key : str, optional
+        Key of the temperature, for messages.
+
+    Returns
+    -------
+    KnownOil
+        Properties that are known, and errors of the values that are missing.
+
+    Raises
+    ------
+    InputError
+        If a temperature is needed and missing, or outside the range of the oil or of a law, or if the table
+        contradicts itself.
+    """
+    with of_table(key):
+        check_range(table, temperature)
+        found = _Found(table, temperature)
+        viscosity = found.value(found.viscosity)
+        density, permittivity = density_at(table, temperature), found.value(found.permittivity)
+        known = {"density": density, "relative_permittivity": permittivity}
+        values = {name: value for name, value in known.items() if value is not None}
+        laws = dict(found.laws(viscosity, values))
+        # Only laws of viscosity depend on the viscosity.
+        at = math.nan if viscosity is None else viscosity
+        checks = {name: range_check(table, name, temperature, at) for name in laws}
+        sheet = sheet_conductivity(table)
+        if sheet is not None:
+            laws.setdefault("thermal_conductivity_law", sheet)
+        conductivity = conductivity_at(table, temperature, laws.get("conductivity_law"))
+    return KnownOil(
+        table,
+        temperature,
+        viscosity,
+        density,
+        permittivity,
+        conductivity,
+        laws,
+        {name: check for name, check in checks.items() if check is not None},
+        found.missing,
+    )
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Values and laws of an oil that are complete, and errors of those that are not."""
+
+    table: Properties
+    temperature: float | None
+    missing: dict[str, InputError] = field(default_factory=dict)
+
+    def value(self, function: Callable[[], T]) -> T | None:
+        """Value of a function; None where a key of the table is missing for it."""
+        try:
+            return function()
+        except InputError as error:
+            if error.key == "temperature" or not error.is_missing:
+                raise
+            self.missing[f"lubricant.{error.key}"] = error.under("lubricant")
+            return None
+
+    def complete(self, choice: str) -> str:
+        """Name of the law for a key of ``LAWS``, whose parameters are all known."""
+        name = law_names(self.table)[choice]
+        check_parameters(self.table, choice, LAWS[choice][name])
+        return name
+
+    def viscosity(self) -> float:
+        """Viscosity at zero pressure [Pa s]."""
+        check_viscosity(self.table)
+        if LAWS["viscosity_law"][self.table.viscosity_law].atmospheric is not None:
+            self.complete("viscosity_law")
+        elif self.table.atmospheric_law is not None:
+            self.complete("atmospheric_law")
+        return viscosity_at(self.table, self.temperature)
+
+    def permittivity(self) -> float:
+        """Relative permittivity at zero pressure."""
+        self.complete("permittivity_law")
+        return permittivity_at(self.table, self.temperature)
+
+    def laws(self, viscosity: float | None, values: Mapping[str, float]) -> Iterator[tuple[str, BoundLaw]]:
+        """Laws of which all parameters are known, at the temperature."""
+        for choice in law_names(self.table):
+            without = choice == "viscosity_law" and viscosity is None
+            if choice == "atmospheric_law" or without or not self.value(partial(self.complete, choice)):
+                continue
+            law = bound(
+                self.table, choice, self.temperature, math.nan if viscosity is None else viscosity, values
+            )
+            if choice not in ("permittivity_law", "conductivity_law"):
+                # A law that has no value at the temperature says so here.
+                law(np.zeros(1))
+            yield choice, law
+
+
+# Tables of a file that may give temperatures of its oil, with their keys.
+_TEMPERATURES = {
+    "contact": ("temperature",),
+    "bearing": ("temperature", "inner_ring_temperature", "outer_ring_temperature"),
+}
+
+# Keys of an oil that say how it conducts.
+_CONDUCTION = ("conductivity", "conductivity_law", "conductivity_table")
+
+
+@dataclass(frozen=True)
+class NamedOil:
+    """Oil of the library or of a user, before a temperature is chosen.
+
+    Attributes
+    ----------
+    name : str
+        Name in the library, or of the file.
+    title : str
+        What the oil is, in one line; empty if nothing says it.
+    given : mapping
+        Table ``[lubricant]`` as it is written.
+    table : Properties
+        Parsed table, in which values may be missing.
+    base : LibraryOil or None
+        Oil of the library that the table names as its base; None without one.
+    temperatures : tuple of float
+        Temperatures of the contact, or of the bearing and its rings, in the file [K].
+
+    Examples
+    --------
+    >>> oil = named_oil("n100")
+    >>> oil.title, oil.needs
+    ('N100, naphthenic mineral base oil without additives, ISO VG 100', ('relative_permittivity',))
+    """
+
+    name: str
+    title: str
+    given: Mapping[str, Any]
+    table: Properties
+    base: LibraryOil | None = None
+    temperatures: tuple[float, ...] = ()
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """Keys of the base of which no source was found, and which the table does not give."""
+        needs = () if self.base is None else self.base.needs
+        return tuple(key for key in needs if self.given.get(key) is None)
+
+    def source(self, key: str) -> Source | None:
+        """Source of the value of a dotted key; None for a value that the table itself gives."""
+        if key in values_of(self.given):
+            return None
+        known = {} if self.base is None else self.base.values()
+        # A value of the data sheet of the base may stand beside another way to give the viscosity.
+        for name in (key, f"temperature.{key}"):
+            if self.base is not None and name in known:
+                return self.base.source(name)
+        table, _, name = key.rpartition(".")
+        value = getattr(getattr(self.table, table) if table else self.table, name)
+        return Source((key,), "assumed", "default of ehlectric", note=f"{key} = {value}, which is not given")
+
+
+def named_oil(source: str | Path | Mapping[str, Any]) -> NamedOil:
+    """Oil of the library by its name, or of a file or table of a user.
+
+    Parameters
+    ----------
+    source : str, Path or mapping
+        Name of the library; path of a case or bearing file, as a ``Path`` or as a string that ends in
+        ``.toml``; or table ``[lubricant]`` of a case.
+
+    Returns
+    -------
+    NamedOil
+        Oil with its table, in which values may be missing.
+
+    Raises
+    ------
+    InputError
+        If there is no oil of this name, the file cannot be read or has no table ``lubricant``, or a value of
+        the table is wrong.
+    """
+    if isinstance(source, Mapping):
+        return _of_table("", "", source)
+    if isinstance(source, Path) or source.endswith(".toml"):
+        return _of_file(Path(source))
+    names = library.lubricant_names()
+    if source not in names:
+        raise InputError(
+            "oil",
+            got=shown(source),
+            takes=f"a .toml file, or a name of the library: {', '.join(names)}; nearest is "
+            f"{nearest(source, names)!r}",
+        )
+    return _of_table(source, library_oil(source).title, {"base": source})
+
+
+def _of_file(path: Path) -> NamedOil:
+    """Oil of a file, at its temperatures and with the conductivity of its discharge."""
+    tables = read_toml(path)
+    table = tables.get("lubricant")
+    if not isinstance(table, Mapping):
+        raise InputError(path, "has no table [lubricant]", takes="a case, a bearing file or a file of an oil")
+    kelvins = [
+        _parsed(TEMPERATURE, tables, name, key) for name, keys in _TEMPERATURES.items() for key in keys
+    ]
+    conductivity = _parsed(quantity_of(CONDUCTIVITY), tables, "discharge", "conductivity")
+    if conductivity is not None:
+        # It holds in place of that of the oil, as in a solution.
+        others = {key: value for key, value in table.items() if key not in _CONDUCTION}
+        table = others | {"conductivity": conductivity}
+    title = tables.get("title")
+    return _of_table(
+        path.name,
+        title if isinstance(title, str) else "",
+        table,
+        tuple(sorted({kelvin for kelvin in kelvins if kelvin is not None})),
+    )
+
+
+def _parsed(quantity: Amount, tables: Mapping[str, Any], name: str, key: str) -> float | None:
+    """Value of a key of a table of a file in SI units; None if the file does not give it."""
+    table = tables.get(name)
+    value = table.get(key) if isinstance(table, Mapping) else None
+    if value is None:
+        return None
+    try:
+        return quantity.parse(value, written=True)
+    except InputError as error:
+        raise error.retold(f"{name}.{key}", error.text) from None
+
+
+def _of_table(
+    name: str, title: str, given: Mapping[str, Any], temperatures: tuple[float, ...] = ()
+) -> NamedOil:
+    """Oil of a table; a table that contradicts itself is refused, and one that lacks values is not."""
+    try:
+        try:
+            table: Properties = Lubricant.from_written(given)
+        except InputError as error:
+            if not error.is_missing:
+                raise
+            table = Properties.from_written(given)
+    except InputError as error:
+        raise error.under("lubricant") from None
+    base = None if table.base is None else library_oil(table.base)
+    return NamedOil(name, title, given, table, base, temperatures)
+
+
+def oil(source: str | Path | Mapping[str, Any], temperature: str | float | None = None) -> Oil:
+    """Oil at a temperature: its numbers, and its laws as functions of pressure.
+
+    Parameters
+    ----------
+    source : str, Path or mapping
+        Name of an oil of the library; path of a case or bearing file, as a ``Path`` or as a string that ends
+        in ``.toml``; or table ``[lubricant]`` of a case, as a dictionary.
+    temperature : str or float, optional
+        Temperature with its unit, or in kelvin; by default that of the contact or the bearing in the file,
+        if it has one alone. An oil whose viscosity does not depend on temperature needs none.
+
+    Returns
+    -------
+    ehlectric.lubricant.oil.Oil
+        Viscosity, coefficients, density and permittivity at zero pressure, and laws over pressure.
+
+    Raises
+    ------
+    InputError
+        If there is no oil of this name, a value of the oil is missing, or the temperature is missing or
+        outside the range of the oil.
+
+    Examples
+    --------
+    >>> fva = oil("fva-3", "90 degC")
+    >>> round(fva.viscosity * 1e3, 2), round(fva.alpha_star * 1e9, 1)
+    (12.85, 15.7)
+    >>> permittivity = fva.permittivity(1e9, fva.density_ratio(1e9)[0])
+    >>> round(float(permittivity), 3)
+    2.331
+    """
+    found = named_oil(source)
+    own = found.temperatures[0] if len(found.temperatures) == 1 else None
+    kelvin = own if temperature is None else kelvin_of(temperature)
+    try:
+        lubricant = Lubricant.from_dict(found.given)
+    except InputError as error:
+        raise error.under("lubricant") from None
+    return lubricant.at(kelvin, "temperature")
+
+
+def kelvin_of(temperature: str | float, key: str = "temperature") -> float:
+    """Temperature [K] from a string with its unit, or a number in kelvin.
+
+    Raises
+    ------
+    InputError
+        If it is no temperature of an oil.
+
+    Examples
+    --------
+    >>> kelvin_of("40 degC")
+    313.15
+    """
+    try:
+        return TEMPERATURE.parse(temperature, written=isinstance(temperature, str))
+    except InputError as error:
+        raise error.retold(key, error.text) from None

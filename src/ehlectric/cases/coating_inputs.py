@@ -1,0 +1,131 @@
+"""Table `bearing.coating` of a bearing file: an insulating coating on a ring, in series with the films."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import model_validator
+from scipy.constants import epsilon_0
+
+from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
+from ehlectric.cases.oil_inputs import library_name
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, shown
+
+_Thickness = Annotated[float, Amount("m", above=0.0, most=1e-2, reason="of the coating")]
+_Permittivity = Annotated[float, Amount("", least=1.0, most=1e3, reason="of the coating")]
+_Area = Annotated[float, Amount("m**2", above=0.0, most=1e2, reason="of the coated surface on its seat")]
+_Strength = Annotated[float, Amount("V/m", least=1e4, most=1e10, reason="of the coating")]
+_Voltage = Annotated[float, Amount("V", above=0.0, most=1e7, reason="of the whole coating")]
+_Resistance = Annotated[float, Amount("ohm", above=0.0, most=1e18, reason="through the coating")]
+
+
+def _named(name: str) -> str:
+    """Name of a coating of the library that stands in place of its table."""
+    names = library.coating_names()
+    if name not in names:
+        raise InputError(
+            got=shown(name),
+            takes=f"a name of the library: {', '.join(map(repr, names))}; or the table [bearing.coating] "
+            "with ring, thickness and relative_permittivity",
+        )
+    return name
+
+
+class Coating(Table):
+    """Insulating coating between a ring and its seat; no property of it has a default."""
+
+    base: str | None = None
+    ring: Literal["inner", "outer"]
+    thickness: _Thickness
+    relative_permittivity: _Permittivity
+    area: _Area | None = None
+    strength: _Strength | None = None
+    breakdown_voltage: _Voltage | None = None
+    resistance: _Resistance | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_base(cls, table: Any) -> Any:
+        """Values of the coating that ``base`` names in the library, replaced by those of the file.
+
+        A text in place of the table is such a name.
+        """
+        if isinstance(table, str):
+            table = {"base": _named(table)}
+        if not isinstance(table, Mapping) or table.get("base") is None:
+            return table
+        base = library.coating(library_name(table["base"], library.coating_names()))
+        if table.get("strength") is not None:
+            base.pop("breakdown_voltage", None)
+        return {**base, **table}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.strength is not None and self.breakdown_voltage is not None:
+            raise InputError(
+                "strength", got="strength and breakdown_voltage together", takes="one of the two"
+            )
+        return self
+
+    @property
+    def assumed(self) -> dict[str, float]:
+        """Values by key, SI units, that the base in the library assumes and the file does not replace."""
+        if self.base is None:
+            return {}
+        names = library.tables("coating", self.base)["source"].get("assumed", ())
+        base = type(self).from_dict({"base": self.base}) if names else self
+        return {name: getattr(self, name) for name in names if getattr(self, name) == getattr(base, name)}
+
+    @property
+    def voltage(self) -> float | None:
+        """Breakdown voltage of the coating alone [V]; None where the case does not give it."""
+        if self.strength is not None:
+            return self.strength * self.thickness
+        return self.breakdown_voltage
+
+    def capacitance(self, area: float) -> float:
+        """Capacitance of the coating between ring and seat, eps0 eps_r A/d [F].
+
+        The coating is thin compared with the diameter of the ring, so that it is a plate capacitor.
+
+        Parameters
+        ----------
+        area : float
+            Area A over which the coating lies between ring and seat [m^2].
+
+        Examples
+        --------
+        The outer ring of a 6208, 80 mm in diameter and 18 mm wide, with 200 um of a permittivity of 9:
+
+        >>> table = {"ring": "outer", "thickness": "200 um", "relative_permittivity": 9.0}
+        >>> round(1e9 * Coating.from_dict(table).capacitance(4.524e-3), 2)
+        1.8
+        """
+        return epsilon_0 * self.relative_permittivity * area / self.thickness
+
+    def area_on(self, diameters: Mapping[str, float | None], width: float | None) -> float:
+        """Area of the coating on its seat [m^2]: ``area``, or that of the cylinder of the ring.
+
+        Parameters
+        ----------
+        diameters : mapping of str to float or None
+            Bore of the bearing under "inner", and its outside diameter under "outer" [m].
+        width : float or None
+            Width of the bearing [m].
+
+        Raises
+        ------
+        InputError
+            Where neither the area nor diameter and width are known.
+        """
+        if self.area is not None:
+            return self.area
+        diameter = diameters[self.ring]
+        if diameter is None or width is None:
+            of_ring = {"inner": "bore", "outer": "outer_diameter"}[self.ring]
+            raise InputError.missing("coating.area", f"it, or bearing.{of_ring} and bearing.width")
+        return math.pi * diameter * width

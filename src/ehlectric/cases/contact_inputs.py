@@ -1,0 +1,277 @@
+"""Table `contact` of a case: geometry, elasticity, load and speed, and values that no machine has."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal, Self, TypedDict
+
+from pydantic import AfterValidator, model_validator
+
+from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount
+from ehlectric.cases.defaults import BOUNDARY_FILM
+from ehlectric.cases.keywords import Keys, Value
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES, ONLY
+
+# Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
+_LARGEST = 1.0
+
+# Reduced modulus below which a unit is probably wrong [Pa]: plastics have 1 to 20 GPa, and rubber, which is
+# softer, does not carry a bearing or a gear.
+_SOFTEST = 1e9
+
+
+def radius_doubt(key: str, radius: float) -> Iterator[str]:
+    """Doubt about a reduced radius [m], with its key, that no machine part has.
+
+    Examples
+    --------
+    >>> print(*radius_doubt("reduced_radius", 14.1))
+    reduced_radius is 14.1 m, more than machine parts have: is the unit of the radii right?
+    """
+    if radius > _LARGEST:
+        yield f"{key} is {radius:.4g} m, more than machine parts have: is the unit of the radii right?"
+
+
+def modulus_doubt(modulus: float) -> Iterator[str]:
+    """Doubt about a reduced modulus [Pa] of rubber.
+
+    Examples
+    --------
+    >>> print(*modulus_doubt(226e6))
+    the reduced modulus is 226 MPa, that of rubber; steel has 226 GPa: is the unit of the moduli right?
+    """
+    if modulus < _SOFTEST:
+        yield (
+            f"the reduced modulus is {modulus / 1e6:.4g} MPa, that of rubber; steel has 226 GPa: is the unit "
+            "of the moduli right?"
+        )
+
+
+def warn_of(contact: Contact, *, level: int) -> None:
+    """Warn in Python of doubtful radii and moduli of a contact; ``level`` counts calls up to the user's."""
+    found: list[str] = []
+    for key in ("reduced_radius", "radius_x"):
+        radius = contact.value(key)
+        found += [] if radius is None else radius_doubt(f"contact.{key}", radius)
+    if contact.reduced_modulus is not None:
+        found += modulus_doubt(contact.reduced_modulus)
+    for text in found:
+        warnings.warn(text, stacklevel=level + 1)
+
+
+_Radius = Annotated[float, Amount("m", least=1e-6, most=1e3, reason="larger bodies are planes to a film")]
+_SignedRadius = Annotated[float, Amount("m", least=-1e3, most=1e3, reason="negative for a concave body")]
+_Modulus = Annotated[float, Amount("Pa", least=1e5, most=2e12, reason="from soft rubber to diamond")]
+_Speed = Annotated[float, Amount("m/s", least=-1e4, most=1e4, reason="surface speeds of machines")]
+_Surface = Annotated[float, Amount("K", least=200.0, most=700.0, reason="absolute, of a body far below")]
+
+
+def _material(name: str) -> str:
+    names = library.solid_names(thermal=True)
+    if name not in names:
+        raise InputError(
+            got=shown(name), takes=f"a solid with thermal properties in the library: {', '.join(names)}"
+        )
+    return name
+
+
+class Body(Table):
+    """Elastic and thermal properties of one body and, for a point contact, its radii in both planes."""
+
+    youngs_modulus: _Modulus | None = None
+    poissons_ratio: (
+        Annotated[float, Amount("", above=-1.0, most=0.5, reason="0.5 is an incompressible body")] | None
+    ) = None
+    radius_x: _SignedRadius | None = None
+    radius_y: _SignedRadius | None = None
+    material: Annotated[str, AfterValidator(_material)] | None = None
+    thermal_conductivity: (
+        Annotated[float, Amount("W/m/K", least=0.05, most=3000.0, reason="from polymers to diamond")] | None
+    ) = None
+    heat_capacity: (
+        Annotated[float, Amount("J/kg/K", least=100.0, most=5000.0, reason="of a solid, per mass")] | None
+    ) = None
+    density: (
+        Annotated[float, Amount("kg/m**3", least=500.0, most=23e3, reason="from polymers to osmium")] | None
+    ) = None
+
+
+# Gap at which surfaces without a boundary film touch [m]. The oil needs some gap for its flow.
+_ATOM = 5e-11
+
+OTHER = {"line": "point", "point": "line"}
+
+
+class Contact(Table):
+    """Geometry, elasticity, load and speed of a contact."""
+
+    geometry: Literal["line", "point"] = "line"
+    radius_x: _Radius | None = None
+    radius_y: _Radius | None = None
+    reduced_radius: _Radius | None = None
+    radius_1: _SignedRadius | None = None
+    radius_2: _SignedRadius | None = None
+    reduced_modulus: _Modulus | None = None
+    body_1: Body | None = None
+    body_2: Body | None = None
+    load: Annotated[float, Amount("N", least=1e-6, most=1e9, reason="a contact carries some load")] | None = (
+        None
+    )
+    load_per_length: (
+        Annotated[float, Amount("N/m", least=1e-2, most=1e9, reason="a contact carries some load")] | None
+    ) = None
+    max_hertz_pressure: (
+        Annotated[float, Amount("Pa", least=1e4, most=2e10, reason="twice what any solid carries")] | None
+    ) = None
+    entrainment_speed: (
+        Annotated[
+            float,
+            Amount("m/s", least=1e-9, most=1e4, reason="(u1 + u2)/2, positive along x"),
+        ]
+        | None
+    ) = None
+    temperature: (
+        Annotated[float, Amount("K", least=200.0, most=700.0, reason="absolute, of the oil in the inlet")]
+        | None
+    ) = None
+    temperature_1: _Surface | None = None
+    temperature_2: _Surface | None = None
+    slide_to_roll_ratio: (
+        Annotated[float, Amount("", least=-1e3, most=1e3, reason="(u1 - u2)/entrainment_speed")] | None
+    ) = None
+    speed_1: _Speed | None = None
+    speed_2: _Speed | None = None
+    boundary_film: (
+        Annotated[float, Amount("m", least=0.0, most=20e-9, reason="a film that adheres to the surfaces")]
+        | None
+    ) = None
+    boundary_friction: (
+        Annotated[float, Amount("", least=0.0, most=2.0, reason="of sliding boundary films")] | None
+    ) = None
+
+    hardness: (
+        Annotated[float, Amount("Pa", least=1e7, most=1e11, reason="that of metals is a few GPa")] | None
+    ) = None
+
+    @property
+    def touching_gap(self) -> float:
+        """Gap [m] at which the surfaces touch: the boundary film, or a thinner one than an atom for none."""
+        return max(BOUNDARY_FILM if self.boundary_film is None else self.boundary_film, _ATOM)
+
+    @property
+    def opposed(self) -> bool:
+        """Whether the surfaces move in opposite directions."""
+        if self.speed_1 is not None and self.speed_2 is not None:
+            return self.speed_1 * self.speed_2 < 0.0
+        return abs(self.slide_to_roll_ratio or 0.0) > 2.0
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        self._check_geometry()
+        for group in CONTACT_ALTERNATIVES[self.geometry]:
+            self._check_alternatives(group)
+        self._check_radii()
+        self._check_speeds()
+        return self
+
+    def value(self, key: str) -> Any:
+        """Value of a dotted key of this table; None if the case does not give it."""
+        table, _, leaf = key.rpartition(".")
+        part = getattr(self, table) if table else self
+        return None if part is None else getattr(part, leaf)
+
+    def _check_geometry(self) -> None:
+        """Raise an InputError for keys of the other geometry."""
+        for key in ONLY[OTHER[self.geometry]]:
+            if self.value(key) is not None:
+                radii, _, load, _ = CONTACT_ALTERNATIVES[self.geometry]
+                takes = " or ".join(" and ".join(row) for row in (load if "load" in key else radii))
+                raise InputError.worded(
+                    key, f"is not used by a {self.geometry} contact; expected {takes}", takes=takes
+                )
+
+    def _check_radii(self) -> None:
+        names = ("radius_1", "radius_2", *ONLY["point"][3:])
+        for name in names:
+            radius = self.value(name)
+            if radius is not None and abs(radius) < 1e-6:
+                raise InputError(
+                    name, got=f"{radius:g} m", takes="at least 1e-06 m, negative for a concave body"
+                )
+
+    def _check_speeds(self) -> None:
+        if self.speed_1 is not None and self.speed_2 is not None:
+            if self.slide_to_roll_ratio is not None:
+                raise InputError.worded(
+                    "slide_to_roll_ratio", "follows from speed_1 and speed_2; give either it or the speeds"
+                )
+            if self.speed_1 + self.speed_2 <= 0.0:
+                raise InputError(
+                    "speed_1, speed_2",
+                    got=f"{self.speed_1:g} and {self.speed_2:g} m/s",
+                    takes="speeds whose mean is positive: x runs along entrainment",
+                )
+
+    def _check_alternatives(self, group: tuple[tuple[str, ...], ...]) -> None:
+        present = [[name for name in row if self.value(name) is not None] for row in group]
+        choices = " or ".join(" and ".join(row) for row in group)
+        used = [k for k, names in enumerate(present) if names]
+        if len(used) > 1:
+            both = ", ".join(name for names in present for name in names)
+            raise InputError(present[0][0], got=f"{both} together", takes=f"either {choices}")
+        if not used:
+            raise InputError.missing(group[0][0], f"either {choices}")
+        for name in group[used[0]]:
+            if name not in present[used[0]]:
+                raise InputError.missing(name, f"either {choices}")
+
+
+class _ContactKeys(TypedDict, total=False):
+    """Keys that the constructors of line and point contacts share."""
+
+    reduced_modulus: Value
+    body_1: Keys
+    body_2: Keys
+    max_hertz_pressure: Value
+    entrainment_speed: Value
+    temperature: Value
+    temperature_1: Value
+    temperature_2: Value
+    slide_to_roll_ratio: Value
+    speed_1: Value
+    speed_2: Value
+    boundary_film: Value
+    hardness: Value
+    boundary_friction: Value
+
+
+class LineKeys(_ContactKeys, total=False):
+    """Keys of the table ``contact`` of a line contact, as ``Case.line`` takes them."""
+
+    reduced_radius: Value
+    radius_1: Value
+    radius_2: Value
+    load_per_length: Value
+
+
+class PointKeys(_ContactKeys, total=False):
+    """Keys of the table ``contact`` of a point contact, as ``Case.point`` takes them."""
+
+    radius_x: Value
+    radius_y: Value
+    load: Value
+
+
+def geometry_of(contact: Any) -> Any:
+    """Geometry of a table ``contact`` that may be a mapping; None if it says none.
+
+    Examples
+    --------
+    >>> geometry_of({"geometry": "point"}), geometry_of({})
+    ('point', None)
+    """
+    return contact.get("geometry") if isinstance(contact, Mapping) else getattr(contact, "geometry", None)

@@ -1,0 +1,223 @@
+"""Table `discharge` of a case and of a bearing file: dielectric strength, outlet, conductivity, circuit,
+pit.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases.amounts import Amount, Amounts
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ALTERNATIVES
+
+_STRENGTH = Amount("V/m", least=1e4, most=1e10, reason="of the film, not of the oil in bulk")
+_PRESSURE = Amount("Pa", least=0.0, most=2e10, reason="in the film")
+_TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the film")
+
+# Keys that need the length of a line contact.
+_OF_LENGTH = ("weibull", "external_capacitance", "peak_current", "pit")
+
+
+class StrengthTable(Table):
+    """Dielectric strength over the pressure or the temperature of the film, interpolated linearly."""
+
+    pressure: Annotated[tuple[float, ...], Amounts(_PRESSURE, least=2)] | None = None
+    temperature: Annotated[tuple[float, ...], Amounts(_TEMPERATURE, least=2)] | None = None
+    strength: Annotated[tuple[float, ...], Amounts(_STRENGTH, least=2)]
+
+    @property
+    def over(self) -> Literal["pressure", "temperature"]:
+        """Variable of the table: "pressure" or "temperature"."""
+        return "pressure" if self.temperature is None else "temperature"
+
+    @property
+    def places(self) -> tuple[float, ...]:
+        """Pressures [Pa] or temperatures [K] at which the table gives the dielectric strength."""
+        places = self.pressure if self.temperature is None else self.temperature
+        assert places is not None
+        return places
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.pressure is None) == (self.temperature is None):
+            both = None if self.pressure is None else "pressure and temperature together"
+            raise InputError("pressure", got=both, takes="either pressure or temperature")
+        if any(b <= a for a, b in zip(self.places, self.places[1:], strict=False)):
+            raise InputError(self.over, got=list(self.places), takes="increasing values")
+        if len(self.strength) != len(self.places):
+            raise InputError(
+                "strength",
+                got=f"{len(self.strength)} values over {len(self.places)} of {self.over}",
+                takes="as many",
+            )
+        return self
+
+
+class Weibull(Table):
+    """Weibull law of breakdown, probability 1 - exp(-integral of (E/scale)^shape dA/reference_area)."""
+
+    scale: Annotated[float, _STRENGTH]
+    shape: Annotated[float, Amount("", least=0.5, most=200.0, reason="the larger, the less it scatters")]
+    reference_area: Annotated[
+        float, Amount("m**2", least=1e-18, most=1.0, reason="at which the scale was measured")
+    ]
+
+
+class Pit(Table):
+    """Efficiency and melting energy, from which the volume that a discharge melts is computed."""
+
+    efficiency: Annotated[
+        float,
+        Amount("", above=0.0, most=1.0, reason="part of the energy that melts one surface", fraction=True),
+    ]
+    melting_energy: Annotated[
+        float, Amount("J/m**3", least=1e8, most=1e12, reason="to heat and melt a volume of the surface")
+    ]
+
+
+class Discharge(Table):
+    """Inputs of the assessment of a discharge; no property of a material has a default."""
+
+    dielectric_strength: Annotated[float, _STRENGTH] | None = None
+    strength_table: StrengthTable | None = None
+    weibull: Weibull | None = None
+    temperature: Annotated[float, _TEMPERATURE] | None = None
+    outlet: Literal["full", "fingers", "layers"] = "full"
+    conductivity: (
+        Annotated[float, Amount("S/m", least=1e-20, most=1e2, reason="of the lubricant, at its temperature")]
+        | None
+    ) = None
+    external_capacitance: (
+        Annotated[float, Amount("F", least=0.0, most=1.0, reason="discharged with the contact: the rotor")]
+        | None
+    ) = None
+    length: Annotated[float, Amount("m", least=1e-6, most=1e2, reason="of a line contact")] | None = None
+    peak_current: Annotated[float, Amount("A", least=0.0, most=1e6, reason="through the contact")] | None = (
+        None
+    )
+    pit: Pit | None = None
+
+    @property
+    def has_strength(self) -> bool:
+        """Whether the case gives a constant dielectric strength or a strength table."""
+        return self.dielectric_strength is not None or self.strength_table is not None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        names = [row[0] for row in ALTERNATIVES["discharge"][0]]
+        present = [name for name in names if getattr(self, name) is not None]
+        if len(present) > 1:
+            together, takes = " and ".join(present), ", ".join(names)
+            raise InputError(present[0], got=f"{together} together", takes=f"one of {takes}")
+        self._check_pit()
+        self._check_temperature()
+        return self
+
+    def _check_pit(self) -> None:
+        if self.pit is not None and self.external_capacitance is None:
+            raise InputError.worded(
+                "external_capacitance",
+                "missing; pit needs it: a discharge also drains what is connected to the contact; 0 "
+                "where nothing is",
+            )
+
+    def _check_temperature(self) -> None:
+        table = self.strength_table
+        if table is None or table.over == "pressure":
+            if self.temperature is not None:
+                raise InputError(
+                    "temperature",
+                    got=f"{self.temperature:g} K",
+                    takes="it only with a strength_table over temperature",
+                )
+            return
+        low, high = table.places[0], table.places[-1]
+        if self.temperature is None:
+            raise InputError.worded("temperature", "missing; a strength_table over temperature needs it")
+        if not low <= self.temperature <= high:
+            raise InputError(
+                "temperature",
+                got=f"{self.temperature:g} K",
+                takes=f"one within the strength_table, {low:g} to {high:g} K",
+            )
+
+    def check_geometry(self, geometry: str) -> None:
+        """Check that a point contact has no length, and that a line contact has one if a key needs it.
+
+        Parameters
+        ----------
+        geometry : str
+            Geometry of the contact, "line" or "point".
+
+        Raises
+        ------
+        InputError
+            If a point contact has a length, or a line contact lacks a length that a key needs.
+        """
+        if geometry == "point":
+            if self.length is not None:
+                raise InputError.worded("discharge.length", "is not used: a point contact has no length")
+        elif self.length is None:
+            needing = [name for name in _OF_LENGTH if getattr(self, name) is not None]
+            if needing:
+                raise InputError.worded(
+                    "discharge.length",
+                    f"missing; {needing[0]} needs it: the length of the line contact",
+                )
+
+
+# Inputs of a discharge that a bearing reads itself, and not at the temperature of its films.
+_OF_WHOLE_BEARING = {"external_capacitance", "peak_current", "pit"}
+
+
+class BearingDischarge(Discharge):
+    """Discharge of a bearing; a strength table over temperature is read at the bearing's temperature."""
+
+    def _check_pit(self) -> None:
+        """Accept a pit without an external capacitance: a motor may give what is connected to the shaft."""
+
+    def _check_temperature(self) -> None:
+        if self.temperature is not None:
+            raise InputError(
+                "temperature",
+                got=f"{self.temperature:g} K for a bearing",
+                takes="bearing.temperature in its place, at which the strength is taken",
+            )
+
+    def at(self, temperature: float, key: str = "bearing.temperature") -> Discharge:
+        """Return the inputs of the discharge at a temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Absolute temperature [K].
+        key : str, optional
+            Key of the temperature, for messages.
+
+        Returns
+        -------
+        Discharge
+            Inputs of the discharge, with this temperature for a strength table over temperature.
+
+        Raises
+        ------
+        InputError
+            If the temperature is outside a strength table over temperature.
+
+        Examples
+        --------
+        >>> table = {"temperature": ["20 degC", "120 degC"], "strength": ["20 V/um", "10 V/um"]}
+        >>> BearingDischarge.from_dict({"strength_table": table}).at(343.15).temperature
+        343.15
+        """
+        table = self.model_dump(exclude_none=True, exclude=_OF_WHOLE_BEARING)
+        if self.strength_table is not None and self.strength_table.over == "temperature":
+            table["temperature"] = temperature
+        try:
+            return Discharge.from_dict(table)
+        except InputError as error:
+            whole = key if error.key == "temperature" else f"bearing.{error.key}"
+            raise error.retold(whole, error.text) from None

@@ -1,0 +1,377 @@
+"""Case of a drive, read from TOML, written back, and changed, and the cases of every kind."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Self
+
+from pydantic import Field, model_validator
+
+from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.bearing_case import BearingCase, bearing_key
+from ehlectric.cases.case import Case
+from ehlectric.cases.changes import displace, flattened, set_keys
+from ehlectric.cases.defaults import Contacts
+from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
+from ehlectric.cases.key_names import refuse_deep
+from ehlectric.cases.roughness_inputs import find_files
+from ehlectric.cases.table import Table, Title, read_toml
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.inputs import BOTH as BOTH
+from ehlectric.quantities.inputs import ENDS as ENDS
+from ehlectric.quantities.units import ROTATION, rpm
+from ehlectric.runtime.values import Tabled, headline
+
+
+class Operation(Table):
+    """Operating point of the drive, and how long it is looked at."""
+
+    speed: Annotated[float, Amount("rad/s", above=0.0, most=1e5, reason="of the rotor")] | None = None
+    temperature: (
+        Annotated[float, Amount("K", least=150.0, most=600.0, reason="of the oil of both bearings")] | None
+    ) = None
+    contacts: Contacts | None = None
+    duration: Annotated[float, Amount("s", above=0.0, most=1e4, reason="of simulated time")] | None = None
+    seed: Annotated[int, Count(least=0, most=2**53, reason="of the random numbers")] = 0
+
+
+class Remedy(Table):
+    """Changed copy of the drive that is computed beside it."""
+
+    title: Title
+    changes: dict[str, Any]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.changes:
+            takes = 'values by dotted key, such as { "drive.speed" = "1500 rpm" }'
+            raise InputError("changes", got=f"none in the remedy {shown(self.title)}", takes=takes)
+        return self
+
+
+class DriveCase(Tabled, Table):
+    """Drive: inverter, motor and both bearings; all inputs on which discharges over time depend.
+
+    A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. Wrong inputs raise an
+    ``InputError`` that names their keys. A case is frozen; ``replace`` returns a changed copy. Numbers are in
+    SI units.
+
+    Parameters
+    ----------
+    source, circuit, breakdown : mapping
+        Common-mode voltage; circuit of the motor; arc and threshold of the films.
+    drive_end : BearingCase or mapping
+        Bearing at the drive end.
+    non_drive_end : BearingCase or mapping, optional
+        Bearing at the other end; the same as at the drive end if not given.
+    drive : mapping, optional
+        Speed and temperature of both bearings, duration and seed.
+    title : str, optional
+        Title of tables and figures.
+    remedies : sequence of mapping, optional
+        Changes that are computed beside the drive, each with its title.
+    """
+
+    if TYPE_CHECKING:
+
+        def __init__(self, **tables: Any) -> None: ...
+
+    title: Title = ""
+    drive: Operation = Operation()
+    source: Source
+    circuit: Circuit
+    breakdown: Breakdown
+    drive_end: BearingCase
+    # The bearing of the drive end is that of both, where only one is given.
+    non_drive_end: BearingCase = Field(default_factory=lambda given: given["drive_end"])
+    remedies: tuple[Remedy, ...] = ()
+
+    @property
+    def bearings(self) -> tuple[BearingCase, BearingCase]:
+        """Bearings at the drive end and the non-drive end, at the speed and temperature of the drive.
+
+        Without a table ``motor`` of their own, whose voltage is that of another estimate.
+        """
+        changes: dict[str, Any] = {}
+        if self.drive.speed is not None:
+            changes["bearing.inner_speed"] = self.drive.speed
+        if self.drive.temperature is not None:
+            changes["bearing.temperature"] = self.drive.temperature
+        if self.drive.contacts is not None:
+            changes["contacts"] = self.drive.contacts
+        first, second = (_in_drive(one, changes) for one in (self.drive_end, self.non_drive_end))
+        return first, second
+
+    @property
+    def running_source(self) -> Source:
+        """Source at the speed of the rotor, with the frequency and the modulation index that follow it."""
+        speed = self.drive.speed
+        return self.source.at_speed(self.drive_end.bearing.inner_speed if speed is None else speed)
+
+    @model_validator(mode="after")
+    def _check_source(self) -> Self:
+        try:
+            self.running_source  # noqa: B018
+        except InputError as error:
+            raise error.under("source") from None
+        return self
+
+    def variants(self) -> tuple[Self, ...]:
+        """Changed copies of the drive, one for each of its remedies."""
+        return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
+
+    def _changed(self, number: int, remedy: Remedy) -> Self:
+        try:
+            return self.replace(remedy.changes)
+        except InputError as error:
+            raise error.under(f"remedies.{number}.changes") from None
+
+    def _headline(self) -> str:
+        bearing = self.bearings[0].bearing
+        return headline(
+            self.title,
+            self.source.modulation or self.source.file or "",
+            f"{rpm(bearing.inner_speed):.4g} rpm",
+            f"{bearing.oil_temperature - 273.15:.4g} degC",
+        )
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a drive case from a TOML file; files that it names are looked for beside it."""
+        return cls.from_written(with_files(read_toml(path), Path(path).parent))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all values that are set as nested tables, in SI units."""
+        return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        table = self.to_dict()
+        # A rotational speed without a unit is refused in a file.
+        for end in ENDS:
+            bearing = table[end]["bearing"]
+            bearing["inner_speed"] = f"{bearing['inner_speed']!r} {ROTATION}"
+        if self.drive.speed is not None:
+            table["drive"]["speed"] = f"{self.drive.speed!r} {ROTATION}"
+        return tomli_w.dumps(table)
+
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
+        """Return a changed copy of the case.
+
+        Parameters
+        ----------
+        changes : mapping, optional
+            New values by dotted key, as in ``{"drive.speed": "1500 rpm"}``. Keys that begin with
+            ``drive_end`` or ``non_drive_end`` are those of a bearing file; ``bearings`` stands for both ends.
+        **tables
+            New values by table, as in ``drive={"seed": 2}``.
+        """
+        refuse_deep({**tables, "changes": changes})
+        flat = flattened(tables) | dict(changes or {})
+        ends = {end: _of_end(flat, end) for end in ENDS}
+        own = {key: value for key, value in flat.items() if key.partition(".")[0] not in (*ENDS, BOTH)}
+        table = self.to_dict()
+        displace(table, own, {name: ALTERNATIVES[name] for name in ("source", "breakdown")})
+        set_keys(table, own)
+        for end, change in ends.items():
+            try:
+                table[end] = getattr(self, end).replace(change)
+            except InputError as error:
+                raise error.under(end) from None
+        return self.from_dict(table)
+
+
+def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Tables of a drive file with the bearings of the files that it names, and the path of its waveform.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables of a file in the folder. Tables of other kinds of cases are returned unchanged.
+    folder : Path
+        Folder to which the names of files are relative.
+
+    Returns
+    -------
+    dict
+        Tables that name no bearing file; the name of the waveform is absolute.
+
+    Raises
+    ------
+    InputError
+        If a bearing file cannot be read or is not valid.
+    """
+    found, source = dict(table), table.get("source")
+    for end in ENDS:
+        if isinstance(found.get(end), Mapping) and "file" in found[end]:
+            found[end] = _bearing_of(found[end], folder, end)
+    if isinstance(source, Mapping) and isinstance(source.get("file"), str):
+        # It then stays valid where the case is written to another folder.
+        found["source"] = {**source, "file": str((folder / source["file"]).absolute())}
+    return found
+
+
+def _in_drive(bearing: BearingCase, changes: Mapping[str, Any]) -> BearingCase:
+    """Bearing with changes, without the motor of its own file and what belongs to it."""
+    if bearing.motor is not None:
+        table = {key: part for key, part in bearing.to_dict().items() if key not in ("motor", "ranges")}
+        table["discharge"].pop("pit", None)
+        bearing = BearingCase.from_dict(table)
+    return bearing.replace(changes) if changes else bearing
+
+
+def _of_end(flat: Mapping[str, Any], end: str) -> dict[str, Any]:
+    """Changes of the bearing at one end, by the keys of a bearing file."""
+    found = {}
+    for key, value in flat.items():
+        first, _, rest = key.partition(".")
+        if first in (end, BOTH):
+            if not rest:
+                raise InputError(
+                    key, got="a table", takes="dotted keys, as in 'bearings.bearing.temperature'"
+                )
+            found[rest] = value
+    return found
+
+
+def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase:
+    """Bearing of the file that a table names, with the other keys of the table in place of its own."""
+    name = table["file"]
+    if not isinstance(name, str):
+        raise InputError(f"{end}.file", got=str(name), takes="the path of a bearing file")
+    try:
+        case = BearingCase.from_toml(folder / name)
+    except InputError as error:
+        raise error.retold(f"{end}.file, {error.key}", error.text) from None
+    try:
+        changes = flattened({key: value for key, value in table.items() if key != "file"})
+        return case.replace(changes) if changes else case
+    except InputError as error:
+        raise error.under(end) from None
+
+
+AnyCase = Case | BearingCase
+
+
+def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
+    """Make a bearing case from tables with a key of bearing files, else a case of a contact.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables, as read from a TOML file.
+    written : bool
+        Whether a person wrote the tables, as ``Table.from_written`` reads them.
+
+    Returns
+    -------
+    Case or BearingCase
+        Case of the contact or of the bearing.
+
+    Raises
+    ------
+    InputError
+        If the tables are not valid; the message names the key, its value, and what is allowed.
+    """
+    model = BearingCase if "bearing" in table or bearing_key(table) is not None else Case
+    return model.from_written(table) if written else model.from_dict(table)
+
+
+def case_of_file(path: str | Path) -> AnyCase:
+    """Read a case of a contact or of a bearing from a TOML file.
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML file.
+
+    Returns
+    -------
+    Case or BearingCase
+        Case of the contact or of the bearing.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not TOML, or is not a valid case of a contact or of a bearing.
+    """
+    table = read_toml(path)
+    find_files(table, Path(path).parent)
+    return case_of_dict(table, written=True)
+
+
+SweptCase = AnyCase | DriveCase
+
+
+def swept_case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> SweptCase:
+    """Make a drive case from tables with the key of one of its bearings, else a case of a bearing or contact.
+
+    Parameters
+    ----------
+    table : mapping
+        Nested tables, as read from a TOML file.
+    written : bool
+        Whether a person wrote the tables, as ``Table.from_written`` reads them.
+
+    Returns
+    -------
+    Case, BearingCase or DriveCase
+        Case of the contact, of the bearing or of the drive.
+
+    Raises
+    ------
+    InputError
+        If the tables are not valid; the message names the key, its value, and what is allowed.
+    """
+    if not any(end in table for end in ENDS):
+        return case_of_dict(table, written=written)
+    return DriveCase.from_written(table) if written else DriveCase.from_dict(table)
+
+
+def swept_case_of_file(path: str | Path) -> SweptCase:
+    """Read a case of a contact, of a bearing or of a drive from a TOML file.
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML file.
+
+    Returns
+    -------
+    Case, BearingCase or DriveCase
+        Case of the contact, of the bearing or of the drive.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not TOML, or is not a valid case.
+    """
+    return swept_case_of_dict(with_found_files(read_toml(path), Path(path).parent), written=True)
+
+
+def with_found_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Tables of a case of any kind whose files lie relative to a folder.
+
+    Parameters
+    ----------
+    table : dict
+        Nested tables of a file in the folder.
+    folder : Path
+        Folder of the file.
+
+    Returns
+    -------
+    dict
+        Tables with absolute names of surfaces and waveforms, and with the bearings of bearing files.
+
+    Raises
+    ------
+    InputError
+        If a bearing file of a drive cannot be read or is not valid.
+    """
+    find_files(table, folder)
+    return with_files(table, folder)

@@ -1,1 +1,0 @@
-"""Inputs of a drive file: source, circuit, bearings and breakdown."""

@@ -1,0 +1,243 @@
+"""Tables of a case about its film: supply of oil at the inlet, heat and shear."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
+
+from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount, Amounts
+from ehlectric.cases.case_oil import Lubricant, density_at, viscosity_over_temperature
+from ehlectric.cases.contact_inputs import Body, Contact
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError
+from ehlectric.quantities.alternatives import ALTERNATIVES
+from ehlectric.quantities.units import to_si
+
+_THICKNESS = Amount("m", least=1e-9, most=1e-2, reason="of the oil on both surfaces together")
+_ACROSS = Amount("m", least=-1.0, most=1.0, reason="across entrainment, from the centre of the contact")
+
+
+class LayerTable(Table):
+    """Layer of oil at the inlet of a point contact over the position across entrainment, linear between."""
+
+    y: Annotated[tuple[float, ...], Amounts(_ACROSS, least=2)]
+    thickness: Annotated[tuple[float, ...], Amounts(_THICKNESS, least=2)]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if any(b <= a for a, b in zip(self.y, self.y[1:], strict=False)):
+            raise InputError("y", got=list(self.y), takes="increasing values")
+        if len(self.thickness) != len(self.y):
+            got = f"{len(self.thickness)} values over {len(self.y)} of y"
+            raise InputError("thickness", got=got, takes="as many")
+        return self
+
+
+class Inlet(Table):
+    """Oil that is supplied to a contact: a layer on its surfaces, or the film that it gives without motion.
+
+    Examples
+    --------
+    >>> Inlet.from_dict({"oil_layer": "200 nm"}).oil_layer
+    2e-07
+    """
+
+    oil_layer: Annotated[float, _THICKNESS] | None = None
+    layer_table: LayerTable | None = None
+    film_ratio: (
+        Annotated[
+            float,
+            Amount("", least=1e-3, most=1.0, reason="starved over flooded central film", fraction=True),
+        ]
+        | None
+    ) = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        names = [row[0] for row in ALTERNATIVES["inlet"][0]]
+        given = [name for name in names if getattr(self, name) is not None]
+        if len(given) != 1:
+            together = f"{' and '.join(given)} together" if given else None
+            raise InputError(names[0], got=together, takes=f"one of {', '.join(names)}")
+        return self
+
+    def check(self, contact: Contact, *, beside: Collection[str]) -> None:
+        """Check that the table fits the other tables of its case.
+
+        Parameters
+        ----------
+        contact : Contact
+            Table ``contact`` of the case.
+        beside : collection of str
+            Names of the other tables of the case.
+
+        Raises
+        ------
+        InputError
+            If a line contact has a layer over y, surfaces move in opposite directions, a contact with motion
+            has a ratio of films, or the case has the table ``meter`` or ``film``.
+        """
+        if contact.opposed:
+            raise InputError(
+                "inlet",
+                got="[inlet] with surfaces that move in opposite directions",
+                takes="a slide-to-roll ratio from -2 to 2: one of the surfaces carries its oil away",
+            )
+        if self.layer_table is not None and contact.geometry == "line":
+            raise InputError("inlet.layer_table", got="that of a line contact", takes="inlet.oil_layer")
+        if "motion" in beside and self.film_ratio is not None:
+            raise InputError(
+                "inlet.film_ratio",
+                got=f"{self.film_ratio:g} beside [motion], in which the film changes with time",
+                takes="inlet.oil_layer or inlet.layer_table; the same case without [motion] finds the layer",
+            )
+        for table in ("meter", "film"):
+            if table in beside:
+                raise InputError("inlet", got=f"[inlet] beside [{table}]", takes="a flooded contact there")
+
+
+# Constants of the lubricant that each rheology needs.
+CONSTANTS: Mapping[str, tuple[str, ...]] = {
+    "newtonian": (),
+    "eyring": ("eyring_stress",),
+    "carreau": ("carreau_stress", "carreau_exponent"),
+    "limiting": ("limiting_coefficient",),
+}
+
+# Thermal properties of a body and their units.
+_OF_BODIES = {"thermal_conductivity": "W/m/K", "heat_capacity": "J/kg/K", "density": "kg/m**3"}
+
+
+class FilmPhysics(Table):
+    """Heat and shear of the oil in the film; without the table it is isothermal and Newtonian.
+
+    Examples
+    --------
+    >>> FilmPhysics.from_dict({"rheology": "eyring"}).thermal
+    False
+    """
+
+    thermal: bool = False
+    rheology: Literal["newtonian", "eyring", "carreau", "limiting"] = "newtonian"
+
+    def check(self, contact: Contact, lubricant: Lubricant, *, moves: bool) -> None:
+        """Check that a case has all that a film with heat or shear needs.
+
+        Parameters
+        ----------
+        contact : Contact
+            Table of the contact.
+        lubricant : Lubricant
+            Table of the oil.
+        moves : bool
+            Whether the roughness moves.
+
+        Raises
+        ------
+        InputError
+            If a property of the oil, of a body or a temperature is missing, or the contact is transient.
+        """
+        if moves:
+            raise InputError.worded(
+                "film", "is not used with [motion], whose films are isothermal and Newtonian; leave it out"
+            )
+        for key in CONSTANTS[self.rheology]:
+            if getattr(lubricant, key) is None:
+                raise InputError.missing(
+                    f"lubricant.{key}", f"a value, which rheology {self.rheology!r} needs"
+                )
+        if self.thermal:
+            if contact.temperature is None:
+                raise InputError.missing(
+                    "contact.temperature", "that of the oil in the inlet; a thermal film needs it"
+                )
+            check_thermal_oil(lubricant, contact.temperature)
+            for name in ("body_1", "body_2"):
+                thermal_properties(getattr(contact, name), f"contact.{name}")
+
+    def constants(self, lubricant: Lubricant) -> dict[str, float]:
+        """Constants of the rheology of an oil by their keys, SI units."""
+        return {key: getattr(lubricant, key) for key in CONSTANTS[self.rheology]}
+
+
+def check_film(film: FilmPhysics | None, contact: Contact, oil: Lubricant, *, moves: bool) -> None:
+    """Raise an InputError if the table ``film``, or its absence, does not fit the rest of a case.
+
+    ``moves`` tells whether the case has the table ``motion``.
+    """
+    if film is None or not film.thermal:
+        _refuse_unused(contact)
+    if film is not None:
+        film.check(contact, oil, moves=moves)
+
+
+def _refuse_unused(contact: Contact) -> None:
+    """Raise an InputError for temperatures of the surfaces, which an isothermal film does not use."""
+    for key in ("temperature_1", "temperature_2"):
+        if getattr(contact, key) is not None:
+            raise InputError.worded(
+                f"contact.{key}",
+                "is used by a thermal film only; give [film] thermal = true, or contact.temperature alone",
+            )
+
+
+def check_thermal_oil(oil: Lubricant, temperature: float, what: str = "a thermal film") -> None:
+    """Raise an InputError if a property of the oil, over temperature, is missing for ``what``."""
+    if viscosity_over_temperature(oil) is None:
+        raise InputError.missing(
+            "lubricant.atmospheric_law",
+            f"it or [lubricant.temperature]: {what} needs the viscosity over temperature",
+        )
+    for key, ways in _missing(oil, temperature):
+        raise InputError.missing(f"lubricant.{key}", f"{ways}; {what} needs it")
+
+
+def _missing(oil: Lubricant, temperature: float) -> Iterator[tuple[str, str]]:
+    """Keys of thermal properties that an oil lacks, each with the ways to give it."""
+    if density_at(oil, temperature) is None:
+        yield "density", "the density of the oil"
+    sheet = oil.temperature
+    if oil.law("thermal_conductivity_law") is None and (sheet is None or sheet.thermal_conductivity is None):
+        yield "thermal_conductivity", "it or thermal_conductivity_law"
+    if oil.law("heat_capacity_law") is None:
+        yield "heat_capacity", "it or heat_capacity_law"
+
+
+def thermal_properties(body: Body | None, name: str) -> dict[str, float]:
+    """Thermal properties of a body: its own, or those of its material.
+
+    Parameters
+    ----------
+    body : Body or None
+        Table of the body.
+    name : str
+        Key of the table, for messages.
+
+    Returns
+    -------
+    dict
+        ``thermal_conductivity`` [W/(m K)], ``heat_capacity`` [J/(kg K)] and ``density`` [kg/m^3].
+
+    Raises
+    ------
+    InputError
+        If one of them is missing.
+
+    Examples
+    --------
+    >>> thermal_properties(Body.from_dict({"material": "steel", "density": 7850.0}), "contact.body_1")
+    {'thermal_conductivity': 46.0, 'heat_capacity': 470.0, 'density': 7850.0}
+    """
+    material = {} if body is None or body.material is None else library.solid(body.material)
+    found: dict[str, float] = {}
+    for key, unit in _OF_BODIES.items():
+        own = None if body is None else getattr(body, key)
+        if own is None and key not in material:
+            raise InputError.missing(
+                f"{name}.{key}", f'a value, or {name}.material = "steel"; a thermal film needs it'
+            )
+        found[key] = to_si(material[key], unit) if own is None else own
+    return found

@@ -1,0 +1,617 @@
+"""Measurements beside a case: columns with units, and rows of a text file or a table of pandas, in SI
+units.
+"""
+
+from __future__ import annotations
+
+import codecs
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.amounts import Amount
+from ehlectric.errors import InputError, printable, short, shown
+from ehlectric.quantities import units
+from ehlectric.runtime.reading import read_bytes
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+# Amounts of a measurement by the names of their columns in the program, with SI unit and bounds.
+COLUMNS: Mapping[str, Amount] = MappingProxyType(
+    {
+        "time": Amount("s", least=0.0, most=1e9, reason="since the start of the measurement"),
+        "speed": Amount(units.ROTATION, above=0.0, most=1e5, reason="of the inner ring"),
+        "entrainment_speed": Amount("m/s", above=0.0, most=1e4, reason="(u1 + u2)/2"),
+        "temperature": Amount("K", least=200.0, most=600.0, reason="absolute, of the oil"),
+        "frequency": Amount("Hz", above=0.0, most=1e10, reason="of the meter"),
+        "capacitance": Amount("F", above=0.0, most=1e-3, reason="of a bearing or contact"),
+        "impedance": Amount("ohm", above=0.0, most=1e15, reason="magnitude"),
+        "phase": Amount("rad", least=-math.pi, most=math.pi, reason="negative for a capacitor"),
+        "film": Amount("m", above=0.0, most=1e-3, reason="central film thickness"),
+    }
+)
+
+# Names that people write over a column, in small letters and with spaces.
+_NAMES = {
+    "time": "time",
+    "elapsed time": "time",
+    "speed": "speed",
+    "inner speed": "speed",
+    "shaft speed": "speed",
+    "rotational speed": "speed",
+    "entrainment speed": "entrainment_speed",
+    "rolling speed": "entrainment_speed",
+    "mean speed": "entrainment_speed",
+    "temperature": "temperature",
+    "oil temperature": "temperature",
+    "frequency": "frequency",
+    "capacitance": "capacitance",
+    "parallel capacitance": "capacitance",
+    "cp": "capacitance",
+    "impedance": "impedance",
+    "impedance magnitude": "impedance",
+    "|z|": "impedance",
+    "z": "impedance",
+    "phase": "phase",
+    "phase angle": "phase",
+    "film": "film",
+    "film thickness": "film",
+    "central film": "film",
+    "central film thickness": "film",
+}
+_UNCERTAINTY = "uncertainty"
+
+# Heads that an error names as examples.
+EXAMPLES = "'speed [rpm]' and 'capacitance [pF]', or 'entrainment speed [m/s]' and 'film [nm]'"
+
+# Unit that stands for each quantity in the advice of an error.
+_USUAL = {"time": "s", "speed": "rpm", "entrainment_speed": "m/s", "temperature": "degC", "frequency": "Hz"}
+_USUAL |= {"capacitance": "pF", "impedance": "ohm", "phase": "deg", "film": "nm"}
+
+# Longest head of a column [characters].
+_LONGEST = 200
+
+
+@dataclass(frozen=True)
+class Column:
+    """Column of a measurement, by its head.
+
+    Attributes
+    ----------
+    name : str
+        Name of the quantity, one of ``COLUMNS``; of an uncertainty that of the quantity, or "" for the
+        measured one.
+    head : str
+        Head as it is written over the column.
+    unit : str
+        Unit in the head; "%" of a relative uncertainty.
+    uncertainty : bool
+        Whether the column has standard uncertainties.
+    """
+
+    name: str
+    head: str
+    unit: str
+    uncertainty: bool = False
+
+    def factor(self) -> float:
+        """Factor from the unit of the column to the SI unit; 0.01 for per cent.
+
+        Raises
+        ------
+        ValueError
+            If the unit is not one of the quantity; the message says why.
+        """
+        if self.unit == "%":
+            return 0.01
+        return _factor(_plain(self.unit), COLUMNS[self.name].unit)
+
+    def value(self, number: float) -> float:
+        """Value in SI units of a number in the unit of the column; an uncertainty stays a difference.
+
+        Raises
+        ------
+        ValueError
+            If the unit is not one of the quantity, or the value is out of its bounds.
+        """
+        if self.uncertainty:
+            return self._positive(number * self.factor())
+        bounds = COLUMNS[self.name]
+        value = units.absolute(number, self.unit) if bounds.unit == "K" else number * self.factor()
+        if not (bounds.above < value < bounds.below and bounds.least <= value <= bounds.most):
+            least = f"above {bounds.above:g}" if math.isfinite(bounds.above) else f"at least {bounds.least:g}"
+            unit = f" {bounds.unit}"
+            raise ValueError(f"{least}{unit} and at most {bounds.most:g}{unit}: {bounds.reason}")
+        return value
+
+    def _positive(self, value: float) -> float:
+        if not 0.0 < value < math.inf:
+            raise ValueError("an uncertainty above 0")
+        return value
+
+
+@lru_cache(maxsize=64)
+def _factor(written: str, unit: str) -> float:
+    """Factor from a unit to an SI unit; a column asks for it once a row."""
+    return units.factor(written, unit)
+
+
+def column_of(head: str) -> Column | None:
+    """Column by its head, such as "speed [rpm]" or "capacitance (pF)"; None for an unknown quantity.
+
+    Parameters
+    ----------
+    head : str
+        Head of the column: a name, and a unit in brackets. Names are not case-sensitive.
+
+    Returns
+    -------
+    Column or None
+        Column of a known quantity or of its uncertainty.
+
+    Raises
+    ------
+    InputError
+        If the quantity is known, but its unit is missing or is not one of the quantity.
+
+    Examples
+    --------
+    >>> column_of("Capacitance [pF]").name, column_of("uncertainty [%]").uncertainty
+    ('capacitance', True)
+    >>> column_of("speed [m/s]").name
+    'entrainment_speed'
+    >>> column_of("remark") is None
+    True
+    """
+    text = " ".join(head[: _LONGEST + 1].strip().strip("\"'").split())
+    if len(text) > _LONGEST:
+        return None
+    name, unit = _parts(text)
+    bare = " ".join(name.lower().replace("_", " ").split())
+    uncertain = _UNCERTAINTY in bare
+    words = bare.replace(_UNCERTAINTY + " of", "").replace(_UNCERTAINTY, "").strip()
+    if words not in _NAMES and not (uncertain and not words):
+        return None
+    known = _NAMES.get(words, "")
+    if unit is None:
+        usual = "%" if uncertain else _USUAL[known]
+        raise InputError(
+            f"column {shown(text)}", "has no unit", takes=f"a unit in brackets, as '{name} [{usual}]'"
+        )
+    if uncertain:
+        return Column(known, text, unit, uncertainty=True)
+    return _checked(known, text, unit)
+
+
+def _parts(text: str) -> tuple[str, str | None]:
+    """Name and unit of a head: the unit stands in the last brackets."""
+    for opening, closing in (("[", "]"), ("(", ")")):
+        start = text.rfind(opening)
+        if start >= 0 and text.endswith(closing):
+            return text[:start].strip(), text[start + 1 : -1].strip()
+    return text, None
+
+
+def _checked(name: str, head: str, unit: str) -> Column:
+    """Column whose unit belongs to its quantity; a speed in m/s is an entrainment speed."""
+    reasons = []
+    for candidate in (name, "entrainment_speed") if name == "speed" else (name,):
+        column = Column(candidate, head, unit)
+        try:
+            if COLUMNS[candidate].unit == "K":
+                units.absolute(0.0, unit)
+            else:
+                column.factor()
+        except ValueError as error:
+            reasons.append(str(error))
+        else:
+            return column
+    raise InputError(
+        f"column {shown(head)}", f"has the unit {shown(unit)} ({short(reasons[0])})", takes=_USUAL[name]
+    )
+
+
+def _plain(unit: str) -> str:
+    """Unit in the spelling of pint: people write Ohm, and a degree sign for an angle."""
+    text = units.plain(unit).replace("Ohm", "ohm").replace("Ω", "ohm").replace("\u2126", "ohm")
+    return "deg" if text == "°" else text
+
+
+# Quantities of an impedance, all three of which give a capacitance.
+_OF_IMPEDANCE = ("impedance", "phase", "frequency")
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredCapacitance:
+    """Parallel capacitance of measured rows, with the background in it.
+
+    Attributes
+    ----------
+    value : ndarray, shape (n,)
+        Capacitance [F]; NaN where the phase is not that of a capacitor.
+    uncertainty : ndarray, shape (n,), or None
+        Standard uncertainty [F]; None where the measurement states none.
+    resistance : ndarray, shape (n,), or None
+        Parallel resistance [Ohm], infinite at a phase of -90 deg; None where a capacitance was measured.
+    """
+
+    value: Array
+    uncertainty: Array | None
+    resistance: Array | None = None
+
+
+def parallel_circuit(magnitude: Array, phase: Array, frequency: Array) -> tuple[Array, Array]:
+    """Capacitance and resistance in parallel that have an impedance, C = -sin(phase)/(2 pi f magnitude).
+
+    Parameters
+    ----------
+    magnitude, phase, frequency : ndarray, shape (n,)
+        Magnitude of the impedance [Ohm], its phase [rad], negative for a capacitor, and the frequency f [Hz].
+
+    Returns
+    -------
+    capacitance, resistance : ndarray, shape (n,)
+        C [F], and R = magnitude/cos(phase) [Ohm]. C is negative for an inductive phase.
+
+    Examples
+    --------
+    >>> c, r = parallel_circuit(np.array([1e4]), np.array([-np.pi / 3]), np.array([1e5]))
+    >>> round(float(c[0]) * 1e12, 3), round(float(r[0]))
+    (137.832, 20000)
+    """
+    capacitance = -np.sin(phase) / (2.0 * math.pi * frequency * magnitude)
+    with np.errstate(divide="ignore"):
+        resistance = magnitude / np.cos(phase)
+    return capacitance, resistance
+
+
+def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> MeasuredCapacitance:
+    """Parallel capacitance of all rows of a measurement.
+
+    Parameters
+    ----------
+    measured : Measurement
+        Rows with a capacitance, or with magnitude, phase and frequency of an impedance.
+    uncertainty : float, optional
+        Relative standard uncertainty of the capacitance, for a measurement that states none.
+
+    Returns
+    -------
+    MeasuredCapacitance
+        Capacitance with its uncertainty; columns of the measurement win over ``uncertainty``.
+
+    Raises
+    ------
+    InputError
+        If the measurement has neither, or has both.
+    """
+    if measured.has("capacitance") and measured.has("impedance"):
+        raise InputError(measured.source, "has a capacitance and an impedance", takes="one of the two")
+    if measured.has("capacitance"):
+        value = measured.values["capacitance"]
+        stated = measured.uncertainties.get("capacitance")
+        return MeasuredCapacitance(value, _stated(value, stated, uncertainty))
+    missing = [name for name in _OF_IMPEDANCE if not measured.has(name)]
+    if len(missing) == len(_OF_IMPEDANCE) or "impedance" in missing:
+        raise InputError.missing(
+            f"{measured.source}: capacitance",
+            "a column 'capacitance [pF]', or columns 'impedance [ohm]', 'phase [deg]' and 'frequency [Hz]'",
+        )
+    if missing:
+        raise InputError.missing(f"{measured.source}: {missing[0]}", "a column of it beside the impedance")
+    value, resistance = parallel_circuit(*(measured.values[name] for name in _OF_IMPEDANCE))
+    stated = _of_impedance(measured)
+    value = np.where(value > 0.0, value, np.nan)
+    return MeasuredCapacitance(value, _stated(value, stated, uncertainty), resistance)
+
+
+def _of_impedance(measured: Measurement) -> Array | None:
+    """Uncertainty of the capacitance [F] from those of magnitude, phase and frequency, in quadrature."""
+    magnitude, phase, frequency = (measured.values[name] for name in _OF_IMPEDANCE)
+    given = measured.uncertainties
+    if not any(name in given for name in _OF_IMPEDANCE):
+        return None
+    slope = 1.0 / (2.0 * math.pi * frequency * magnitude)
+    capacitance = -np.sin(phase) * slope
+    none = np.zeros_like(magnitude)
+    parts = (
+        capacitance * given.get("impedance", none) / magnitude,
+        np.cos(phase) * slope * given.get("phase", none),
+        capacitance * given.get("frequency", none) / frequency,
+    )
+    total: Array = np.sqrt(sum(part**2 for part in parts))
+    return total
+
+
+def _stated(value: Array, stated: Array | None, relative: float | None) -> Array | None:
+    if stated is not None:
+        return stated
+    return None if relative is None else relative * value
+
+
+# Largest size of a file [bytes], and largest numbers of rows, of lines above the heads, and of columns.
+_MOST_BYTES, MOST_ROWS, _MOST_ABOVE, _MOST_COLUMNS = 8_000_000, 20_000, 500, 200
+
+# Letters of a number, and its largest length [characters].
+_OF_NUMBERS, _LONGEST_TEXT = frozenset("0123456789+-.,eE"), 40
+
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """Measured rows beside a case, SI units.
+
+    Attributes
+    ----------
+    source : str
+        Path of the file, or "table" for a table of pandas.
+    lines : tuple of int
+        Line of each row in the file, from 1; of a table its rows, from 1.
+    values : mapping of str to ndarray, shape (n,)
+        Quantities of the rows by name, as ``COLUMNS`` has them.
+    uncertainties : mapping of str to ndarray, shape (n,)
+        Standard uncertainties of the quantities, in the same units; relative ones are multiplied out.
+    ignored : tuple of str
+        Heads of columns that are not known, and were ignored.
+    """
+
+    source: str
+    lines: tuple[int, ...]
+    values: Mapping[str, Array]
+    uncertainties: Mapping[str, Array]
+    ignored: tuple[str, ...] = ()
+
+    @property
+    def size(self) -> int:
+        """Number of rows."""
+        return len(self.lines)
+
+    def has(self, *names: str) -> bool:
+        """Whether the measurement has all of some quantities."""
+        return all(name in self.values for name in names)
+
+
+@dataclass(frozen=True)
+class _Rows:
+    heads: Sequence[str]
+    cells: Sequence[Sequence[str]]
+    lines: tuple[int, ...]
+    decimal: str
+
+
+def read_measurement(measured: str | Path | pd.DataFrame) -> Measurement:
+    """Read a measurement from a text file or a table of pandas.
+
+    Parameters
+    ----------
+    measured : str, Path or pandas.DataFrame
+        Text file with separators ``,``, ``;`` or tab, decimal points or (not with ``,``) decimal commas, and
+        a line of heads such as ``speed [rpm];capacitance [pF]``. Lines that begin with ``#``, and lines above
+        the heads, are skipped. A table has such heads as names of its columns.
+
+    Returns
+    -------
+    Measurement
+        All rows in SI units.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is too large, has no heads that are known, a head has no unit or a wrong
+        one, or a row has a value that is missing, is no number or is out of bounds; the line is named.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> table = pd.DataFrame({"speed [rpm]": [1000, 3000], "capacitance [pF]": [260.0, 190.0]})
+    >>> measurement = read_measurement(table)
+    >>> measurement.size, measurement.values["capacitance"]
+    (2, array([2.6e-10, 1.9e-10]))
+    """
+    if hasattr(measured, "columns") and hasattr(measured, "itertuples"):
+        source, rows = "table", _of_table(measured)
+    else:
+        path = Path(measured)
+        source, rows = str(path), _of_text(path, decoded(path, read_bytes(path, most=_MOST_BYTES)))
+    columns, ignored = _columns(source, rows.heads)
+    if not rows.cells:
+        raise InputError(source, "has no rows below its heads", takes="at least one")
+    if len(rows.cells) > MOST_ROWS:
+        raise InputError(source, f"has {len(rows.cells)} rows", takes=f"at most {MOST_ROWS}; average them")
+    found = {place: _values(source, rows, place, column) for place, column in columns.items()}
+    values = {columns[place].name: found[place] for place in found if not columns[place].uncertainty}
+    uncertain = {place: found[place] for place in found if columns[place].uncertainty}
+    return Measurement(
+        source, rows.lines, values, _uncertainties(source, columns, uncertain, values), ignored
+    )
+
+
+def decoded(path: Path, content: bytes) -> str:
+    """Text of a file in UTF-8, UTF-16 or Windows-1252, as instruments write them.
+
+    Raises
+    ------
+    InputError
+        If the file is no text.
+    """
+    if b"\0" in content[:4096] and content[:2] not in _UTF_16:
+        raise InputError(path, "is not a text file")
+    for code in ("utf-16",) if content[:2] in _UTF_16 else ("utf-8-sig", "cp1252"):
+        try:
+            return content.decode(code)
+        except UnicodeDecodeError:
+            continue
+    raise InputError(path, "is not text in UTF-8, UTF-16 or Windows-1252")
+
+
+def _of_table(table: pd.DataFrame) -> _Rows:
+    heads = [str(name) for name in table.columns]
+    cells = [[str(cell) for cell in row] for row in table.itertuples(index=False, name=None)]
+    return _Rows(heads, cells, tuple(range(1, len(cells) + 1)), ".")
+
+
+def _of_text(path: Path, text: str) -> _Rows:
+    """Heads and rows of a text; the heads may stand in a line of comment above the numbers."""
+    lines = text.splitlines()
+    at, separator = _head_line(path, lines)
+    heads = _fields(lines[at].lstrip("# "), separator)
+    below = [(n, line) for n, line in enumerate(lines[at + 1 :], at + 2) if _is_row(line, separator)]
+    cells = []
+    for number, line in below[: MOST_ROWS + 1]:
+        fields = _fields(line, separator)
+        if len(fields) != len(heads):
+            raise InputError(
+                path, f"line {number} has {len(fields)} columns", takes=f"{len(heads)} as in its heads"
+            )
+        cells.append(fields)
+    numbers = tuple(number for number, _ in below[: MOST_ROWS + 1])
+    return _Rows(heads, cells, numbers, _decimal(path, cells, separator))
+
+
+def _is_row(line: str, separator: str | None) -> bool:
+    """Whether a line below the heads is a row: neither empty nor a comment."""
+    text = line.strip()
+    return bool(text.strip(separator or "")) and not text.startswith("#")
+
+
+def _head_line(path: Path, lines: Sequence[str]) -> tuple[int, str | None]:
+    """Place of the heads, the first line with a known quantity, and the separator of the columns."""
+    wrong: InputError | None = None
+    for place, line in enumerate(lines[:_MOST_ABOVE]):
+        text = line.lstrip("# ")
+        separator = next((mark for mark in (";", "\t", ",") if mark in text), None)
+        fields = _fields(text, separator)
+        known = 0
+        for field in fields[:_MOST_COLUMNS]:
+            try:
+                known += column_of(field) is not None
+            except InputError as error:
+                # A sentence above the heads may be the name of a quantity, too: it has no unit.
+                wrong = wrong or error
+        if known:
+            if len(fields) > _MOST_COLUMNS:
+                raise InputError(path, f"has {len(fields)} columns", takes=f"at most {_MOST_COLUMNS}")
+            return place, separator
+    if wrong is not None:
+        raise InputError(path, str(wrong))
+    raise InputError(path, "has no heads of known columns", takes=f"heads such as {EXAMPLES}")
+
+
+def _fields(line: str, separator: str | None) -> list[str]:
+    return [field.strip().strip('"').strip() for field in line.strip("\r\n").split(separator or "\0")]
+
+
+def _decimal(path: Path, cells: Sequence[Sequence[str]], separator: str | None) -> str:
+    """Decimal mark of all numbers of a file."""
+    if separator == ",":
+        return "."
+    numbers = [cell for row in cells for cell in row if _OF_NUMBERS.issuperset(cell)]
+    comma = next((cell for cell in numbers if "," in cell), None)
+    point = next((cell for cell in numbers if "." in cell), None)
+    if comma is not None and point is not None:
+        raise InputError(
+            path, f"mixes decimal points and decimal commas, {shown(point)} and {shown(comma)}", takes="one"
+        )
+    return "." if comma is None else ","
+
+
+def _columns(source: str, heads: Sequence[str]) -> tuple[dict[int, Column], tuple[str, ...]]:
+    """Known columns by their place, and heads of the others."""
+    columns: dict[int, Column] = {}
+    ignored = []
+    for place, head in enumerate(heads):
+        try:
+            column = column_of(head)
+        except InputError as error:
+            raise InputError(source, str(error)) from None
+        if column is None:
+            ignored.append(printable(head[:60]))
+            continue
+        same = [other for other in columns.values() if _key(other) == _key(column)]
+        if same:
+            raise InputError(
+                source,
+                f"has the columns {shown(same[0].head)} and {shown(column.head)}",
+                takes="one of the two",
+            )
+        columns[place] = column
+    if not any(not column.uncertainty for column in columns.values()):
+        raise InputError(source, "has no heads of known columns", takes=f"heads such as {EXAMPLES}")
+    return columns, tuple(head for head in ignored if head)
+
+
+def _key(column: Column) -> tuple[str, bool]:
+    return column.name, column.uncertainty
+
+
+def _values(source: str, rows: _Rows, place: int, column: Column) -> Array:
+    """Values of a column in SI units, shape (n,)."""
+    values = np.empty(len(rows.cells))
+    for k, (row, line) in enumerate(zip(rows.cells, rows.lines, strict=True)):
+        cell = row[place]
+        try:
+            number = _number(cell, rows.decimal)
+            # A relative uncertainty has no quantity of its own; others are converted with that of the value.
+            later = column.uncertainty and column.unit != "%"
+            values[k] = number if later else column.value(number)
+        except ValueError as error:
+            raise InputError(
+                source, f"line {line}, {column.head}: got {shown(cell)}", takes=str(error)
+            ) from None
+    return values
+
+
+def _number(cell: str, decimal: str) -> float:
+    if not cell or len(cell) > _LONGEST_TEXT or not _OF_NUMBERS.issuperset(cell):
+        raise ValueError("a number")
+    if decimal == "." and "," in cell:
+        raise ValueError("a number with a decimal point")
+    try:
+        number = float(cell.replace(",", "."))
+    except ValueError:
+        raise ValueError("a number") from None
+    if not np.isfinite(number):
+        raise ValueError("a finite number")
+    return number
+
+
+def _uncertainties(
+    source: str, columns: Mapping[int, Column], found: Mapping[int, Array], values: Mapping[str, Array]
+) -> dict[str, Array]:
+    """Standard uncertainties in SI units by quantity; one without a name belongs to the measured quantity."""
+    uncertainties: dict[str, Array] = {}
+    for place, numbers in found.items():
+        column = columns[place]
+        name = column.name or next((key for key in ("capacitance", "impedance", "film") if key in values), "")
+        if name not in values:
+            what = name or "capacitance, impedance or film"
+            raise InputError(source, f"has the column {shown(column.head)}", takes=f"a column {what} with it")
+        if column.unit == "%":
+            uncertainties[name] = numbers * np.abs(values[name])
+            continue
+        named = Column(name, column.head, column.unit, uncertainty=True)
+        uncertainties[name] = _absolute(source, named, numbers)
+    return uncertainties
+
+
+def _absolute(source: str, column: Column, numbers: Array) -> Array:
+    """Uncertainties in the SI unit of their quantity, from numbers in the unit of the column."""
+    unit = {"degC": "K", "°C": "K", "C": "K"}.get(column.unit, column.unit)
+    try:
+        factor = Column(column.name, column.head, unit, uncertainty=True).factor()
+    except ValueError as error:
+        takes = f"per cent or a unit of {column.name.replace('_', ' ')}"
+        raise InputError(source, f"column {shown(column.head)}: {error}", takes=takes) from None
+    if not np.all(numbers > 0.0):
+        raise InputError(source, f"column {shown(column.head)} has a value of 0 or below", takes="above 0")
+    return numbers * factor

@@ -1,0 +1,764 @@
+"""Table `lubricant` of a case: its keys, laws and data sheet, the library's values under them, and their
+checks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Optional, Self
+
+from pydantic import (
+    AfterValidator,
+    ConfigDict,
+    GetJsonSchemaHandler,
+    ModelWrapValidatorHandler,
+    SerializerFunctionWrapHandler,
+    ValidationError,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
+from pydantic.fields import FieldInfo
+from pydantic_core import CoreSchema, InitErrorDetails
+
+from ehlectric.cases import library
+from ehlectric.cases.amounts import Amount, Amounts
+from ehlectric.cases.library.library_oils import Grade
+from ehlectric.cases.table import Table, nearest
+from ehlectric.errors import InputError, shown
+from ehlectric.lubricant.data_sheet import Estimate, alpha_estimate, grade_middle, viscosity_at_100
+from ehlectric.lubricant.density import DENSITY_LAWS
+from ehlectric.lubricant.electrical_laws import (
+    CONDUCTIVITY,
+    CONDUCTIVITY_LAWS,
+    PERMITTIVITY_LAWS,
+    RELATIVE_PERMITTIVITY,
+)
+from ehlectric.lubricant.heat_laws import HEAT_CAPACITY_LAWS, THERMAL_CONDUCTIVITY_LAWS
+from ehlectric.lubricant.law import Law, Parameter
+from ehlectric.lubricant.over_temperature import ATMOSPHERIC_LAWS, Walther, density
+from ehlectric.lubricant.viscosity import VISCOSITY_LAWS, roelands_exponent
+
+# Keys that choose a law by name, each with the table of its laws, in the order of the case file.
+LAWS: dict[str, Mapping[str, Law]] = {
+    "atmospheric_law": ATMOSPHERIC_LAWS,
+    "viscosity_law": VISCOSITY_LAWS,
+    "density_law": DENSITY_LAWS,
+    "permittivity_law": PERMITTIVITY_LAWS,
+    "conductivity_law": CONDUCTIVITY_LAWS,
+    "thermal_conductivity_law": THERMAL_CONDUCTIVITY_LAWS,
+    "heat_capacity_law": HEAT_CAPACITY_LAWS,
+}
+
+# Laws that an oil may lack. Where it gives no name but the parameters of the law "constant", it has that law.
+OPTIONAL_LAWS = ("conductivity_law", "thermal_conductivity_law", "heat_capacity_law")
+
+
+def law_parameters(*choices: str) -> dict[str, Parameter]:
+    """Parameters of the laws of a lubricant, by name.
+
+    Parameters
+    ----------
+    *choices : str
+        Keys of ``LAWS``, such as "density_law"; all keys if none is given.
+
+    Returns
+    -------
+    dict of str to Parameter
+        Parameters of the laws that are in the tables at the time of the call.
+
+    Examples
+    --------
+    >>> law_parameters("density_law")["density_c1"].unit
+    'Pa'
+    """
+    tables = [LAWS[key] for key in choices or LAWS]
+    return {
+        parameter.name: parameter for laws in tables for law in laws.values() for parameter in law.parameters
+    }
+
+
+def is_parameter(name: str) -> bool:
+    """Whether a law of a lubricant has a parameter of this name.
+
+    Examples
+    --------
+    >>> is_parameter("roelands_z"), is_parameter("roelands_x")
+    (True, False)
+    """
+    return any(
+        parameter.name == name
+        for laws in LAWS.values()
+        for law in laws.values()
+        for parameter in law.parameters
+    )
+
+
+@dataclass(frozen=True)
+class Named(AfterValidator):
+    """Pydantic annotation of a name, with the names that are allowed.
+
+    Attributes
+    ----------
+    takes : str
+        Description of the allowed names, for messages.
+    """
+
+    takes: str = ""
+
+
+def law_name(laws: Mapping[str, object]) -> Named:
+    """Pydantic annotation of the name of a law of this table."""
+
+    def known(name: str) -> str:
+        if name not in laws:
+            known_names = ", ".join(repr(law) for law in laws)
+            raise InputError(
+                got=shown(name), takes=f"one of {known_names}; nearest is {nearest(name, laws)!r}"
+            )
+        return name
+
+    return Named(known, f"one of {', '.join(map(repr, laws))}")
+
+
+def quantity_of(parameter: Parameter) -> Amount:
+    """Quantity with the unit and the bounds of a parameter, which parses its values."""
+    return Amount(
+        parameter.unit,
+        above=parameter.above,
+        below=parameter.below,
+        least=parameter.least,
+        most=parameter.most,
+        reason=parameter.reason,
+        difference=parameter.difference,
+    )
+
+
+def library_name(base: Any, names: Sequence[str]) -> str:
+    """Check that ``base`` is a name of the library, and return it; the number 6208 is not the name "6208".
+
+    Raises
+    ------
+    InputError
+        If the base is not a string, or not a name of the library.
+    """
+    if not isinstance(base, str):
+        raise InputError(
+            "base", got=shown(base), takes=f"a name of the library, as a string: {', '.join(names)}"
+        )
+    if base not in names:
+        raise InputError("base", got=shown(base), takes=f"a name of the library: {', '.join(names)}")
+    return base
+
+
+def base_values(table: Any) -> dict[str, Any]:
+    """Values of the lubricant that ``base`` names in the library; none without a base.
+
+    Raises
+    ------
+    InputError
+        If the library has no lubricant of this name.
+    """
+    if not isinstance(table, Mapping) or table.get("base") is None:
+        return {}
+    return library.lubricant(library_name(table["base"], library.lubricant_names()))
+
+
+TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the oil")
+
+_Temperatures = Annotated[tuple[float, ...], Amounts(TEMPERATURE, least=2)]
+
+
+def _check(temperatures: tuple[float, ...], name: str, values: tuple[float, ...]) -> None:
+    """Check that temperatures increase, and that there are as many values of a property."""
+    if any(b <= a for a, b in pairwise(temperatures)):
+        raise InputError("temperature", got=list(temperatures), takes="increasing values")
+    if len(values) != len(temperatures):
+        raise InputError(
+            name, got=f"{len(values)} values over {len(temperatures)} of temperature", takes="as many"
+        )
+
+
+class PermittivityTable(Table):
+    """Measured relative permittivity over temperature at ambient pressure, interpolated linearly."""
+
+    temperature: _Temperatures
+    relative_permittivity: Annotated[tuple[float, ...], Amounts(quantity_of(RELATIVE_PERMITTIVITY), least=2)]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        _check(self.temperature, "relative_permittivity", self.relative_permittivity)
+        return self
+
+
+class ConductivityTable(Table):
+    """Measured electrical conductivity over temperature; its logarithm is interpolated over 1/T."""
+
+    temperature: _Temperatures
+    conductivity: Annotated[tuple[float, ...], Amounts(quantity_of(CONDUCTIVITY), least=2)]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        _check(self.temperature, "conductivity", self.conductivity)
+        return self
+
+
+_Viscosity = Annotated[float, Amount("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
+
+# Keys that give the viscosity.
+SHEET_VISCOSITY = ("kinematic_viscosity_40", "iso_vg", "kinematic_viscosity_100", "viscosity_index")
+
+# A root is found for each oil, and a case asks for it many times.
+_at_100 = lru_cache(maxsize=64)(viscosity_at_100)
+
+
+class OilTemperature(Table):
+    """Viscosity, density, thermal expansion and thermal conductivity of an oil over temperature."""
+
+    kinematic_viscosity_40: _Viscosity | None = None
+    iso_vg: Annotated[int, Grade()] | None = None
+    kinematic_viscosity_100: _Viscosity | None = None
+    viscosity_index: (
+        Annotated[
+            float,
+            Amount("", least=0.0, most=400.0, reason="ASTM D2270; 95 to 100 is usual for mineral oils"),
+        ]
+        | None
+    ) = None
+    density_15: Annotated[float, Amount("kg/m**3", least=500.0, most=2000.0, reason="of an oil")]
+    # D. Dowson and G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon, 1966, as later works quote it.
+    expansion: Annotated[float, Amount("1/K", least=1e-5, most=2e-3, reason="thermal, of an oil")] = 6.5e-4
+    base_oil: Literal["mineral-paraffinic", "mineral-naphthenic", "pao", "ester", "polyglycol"] | None = None
+    thermal_conductivity: (
+        Annotated[float, Amount("W/m/K", least=0.01, most=1.0, reason="of an oil")] | None
+    ) = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for keys, hint in (
+            (("kinematic_viscosity_40", "iso_vg"), ""),
+            (
+                ("kinematic_viscosity_100", "viscosity_index"),
+                "; an index of 95 to 100 is usual for mineral oils",
+            ),
+        ):
+            given = [key for key in keys if getattr(self, key) is not None]
+            if len(given) == 2:
+                raise InputError(
+                    keys[0],
+                    got=" and ".join((*keys, "")).removesuffix(" and ") + " together",
+                    takes="one of the two",
+                )
+            if not given:
+                raise InputError.missing(keys[0], f"either {keys[0]} or {keys[1]}{hint}")
+        self.at_100()
+        return self
+
+    def at_40(self) -> float:
+        """Kinematic viscosity at 40 degC [m^2/s]: the given one, or the middle of the ISO viscosity grade."""
+        if self.kinematic_viscosity_40 is not None:
+            return self.kinematic_viscosity_40
+        assert self.iso_vg is not None
+        return grade_middle(self.iso_vg)
+
+    def at_100(self) -> float:
+        """Kinematic viscosity at 100 degC [m^2/s]: the given one, or that of the viscosity index.
+
+        Raises
+        ------
+        InputError
+            If an oil with this index is too thin for ASTM D2270.
+        """
+        if self.kinematic_viscosity_100 is not None:
+            return self.kinematic_viscosity_100
+        assert self.viscosity_index is not None
+        try:
+            return _at_100(self.at_40(), self.viscosity_index)
+        except ValueError as error:
+            got = f"{self.viscosity_index:g} ({error})"
+            raise InputError(
+                "viscosity_index", got=got, takes="kinematic_viscosity_100 in its place"
+            ) from None
+
+
+ALPHA, EXPONENT = "pressure_viscosity_coefficient", "roelands_z"
+
+
+def of_base_oil(oil: Properties) -> frozenset[str]:
+    """Names of the parameters that follow from ``temperature.base_oil``, because the table lacks them.
+
+    Where neither the coefficient nor Roelands' exponent is given, the coefficient is estimated. The exponent
+    follows from the coefficient by Roelands' relation. A given exponent leaves nothing to estimate.
+    """
+    if oil.temperature is None or oil.temperature.base_oil is None or oil.parameter(EXPONENT) is not None:
+        return frozenset()
+    return frozenset({EXPONENT} if oil.parameter(ALPHA) is not None else {ALPHA, EXPONENT})
+
+
+def estimated_alpha(oil: Properties, temperature: float | None) -> Estimate | None:
+    """Estimate of the coefficient at a temperature [K]; None where the table says what it is.
+
+    Raises
+    ------
+    InputError
+        If the viscosity is outside the range in which the estimate holds.
+    """
+    sheet = oil.temperature
+    if sheet is None or sheet.base_oil is None or temperature is None or ALPHA not in of_base_oil(oil):
+        return None
+    walther = Walther.of(sheet.at_40(), sheet.at_100())
+    return alpha_estimate(
+        sheet.base_oil,
+        walther.viscosity(temperature),
+        slope=walther.b,
+        density=density(sheet.density_15, sheet.expansion, temperature),
+    )
+
+
+def base_oil_values(oil: Properties, viscosity: float, temperature: float | None) -> dict[str, float]:
+    """Values of the parameters that follow from the type of base oil, at a viscosity [Pa s]."""
+    names = of_base_oil(oil)
+    estimate = estimated_alpha(oil, temperature)
+    alpha = oil.parameter(ALPHA) if estimate is None else estimate.value
+    if alpha is None:
+        return {}
+    values = {ALPHA: alpha}
+    constant = oil.parameter("roelands_pressure")
+    if constant is not None:
+        values[EXPONENT] = roelands_exponent(viscosity, alpha, constant)
+    return {name: values[name] for name in names if name in values}
+
+
+# Keys of a base that are left out where the case gives one of the keys before them.
+_REPLACED: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
+    (("relative_permittivity", "permittivity_table"), ("relative_permittivity", "permittivity_table")),
+    (("conductivity", "conductivity_table"), ("conductivity", "conductivity_law", "conductivity_table")),
+)
+
+
+def with_base(table: Any) -> Any:
+    """Add to a table the values of the lubricant that ``base`` names in the library.
+
+    Values of the table replace those of the library. Where the table says in another way how viscous the oil
+    is, the library's way is left out: a viscosity, a law over temperature, or a data sheet. With a data sheet
+    or a law over temperature that has no viscosity as its parameter, the parameters that follow from the
+    viscosity are left out, too. The density of a data sheet takes the place of the library's.
+
+    Values of the library's data sheet stay unless the table replaces them: those whose keys a data sheet of
+    the table does not give, and the thermal conductivity beside every way to give the viscosity.
+
+    Raises
+    ------
+    InputError
+        If the library has no lubricant of this name.
+    """
+    base = base_values(table)
+    if not base or not isinstance(table, Mapping):
+        return table
+    left_out = _replaced(table) | _other_viscosity(table)
+    kept = {key: value for key, value in base.items() if key not in left_out}
+    sheet, own = base.get("temperature"), table.get("temperature")
+    if isinstance(sheet, Mapping) and isinstance(own, Mapping):
+        return kept | {**table, "temperature": _with_sheet(sheet, own)}
+    if isinstance(sheet, Mapping) and "temperature" in left_out and "thermal_conductivity" in sheet:
+        kept["thermal_conductivity"] = sheet["thermal_conductivity"]
+    return kept | dict(table)
+
+
+def _with_sheet(sheet: Mapping[str, Any], own: Mapping[Any, Any]) -> dict[Any, Any]:
+    """Data sheet of a table, with those values of the library's sheet that it does not replace."""
+    given = {key for key, value in own.items() if value is not None}
+    # The viscosities of two oils are not mixed.
+    left_out = given.union(SHEET_VISCOSITY) if given.intersection(SHEET_VISCOSITY) else given
+    return {key: value for key, value in sheet.items() if key not in left_out} | dict(own)
+
+
+def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
+    """Remove from the table of an oil the keys that changed keys replace, as ``with_base`` leaves them out.
+
+    Parameters
+    ----------
+    table : dict
+        Table ``lubricant`` of a case, changed in place.
+    changes : mapping
+        New values of this table; those of a data sheet as a table under ``temperature``.
+
+    Examples
+    --------
+    >>> table = {"atmospheric_law": "vogel", "viscosity_law": "modulus"}
+    >>> displace_oil(table, {"viscosity": 0.05})
+    >>> table
+    {'viscosity_law': 'modulus'}
+    """
+    displaced = _replaced(changes)
+    if changes.get("conductivity_table") is None:
+        # A conductivity is a parameter of its law.
+        displaced -= {"conductivity_law"}
+    ways = [key for key in ("temperature", "atmospheric_law") if changes.get(key) is not None]
+    # A change within the same way, such as a grade of the same data sheet, replaces nothing.
+    if not any(table.get(key) is not None for key in ways):
+        displaced |= _other_viscosity(changes)
+    if not ways and _has_viscosity(table.get("atmospheric_law")):
+        displaced -= {"atmospheric_law"}
+    for key in displaced - changes.keys():
+        table.pop(key, None)
+
+
+def _replaced(table: Mapping[Any, Any]) -> set[str]:
+    """Keys that alternatives in a table take the place of, permittivity and conductivity."""
+    pairs = [keys for given, keys in _REPLACED if any(table.get(key) is not None for key in given)]
+    return {key for keys in pairs for key in keys}
+
+
+def _other_viscosity(table: Mapping[Any, Any]) -> set[str]:
+    """Keys of a base that give the viscosity in another way than the table does."""
+    sheet = table.get("temperature")
+    derived = {name for name, parameter in law_parameters().items() if parameter.derivation}
+    if sheet is not None:
+        if isinstance(sheet, Mapping) and sheet.get("base_oil") is not None:
+            # The type of base oil gives the coefficient in place of the exponent of another oil.
+            derived.add("roelands_z")
+        return {"viscosity", "atmospheric_law", "density", *derived}
+    name = table.get("atmospheric_law")
+    if name is not None:
+        # The coefficient of a base belongs to its viscosity, which such a law has at a reference temperature.
+        return {"temperature"} if _has_viscosity(name) else {"viscosity", "temperature", *derived}
+    if table.get("viscosity") is not None:
+        return {"atmospheric_law", "temperature"}
+    return set()
+
+
+def _has_viscosity(name: Any) -> bool:
+    """Whether a law over temperature has the viscosity at a reference temperature as a parameter."""
+    law = ATMOSPHERIC_LAWS.get(name) if isinstance(name, str) else None
+    return law is not None and any(parameter.name == "viscosity" for parameter in law.parameters)
+
+
+class Properties(Table):
+    """Keys of a lubricant: its properties, the names of its laws, and the parameters of these laws.
+
+    The parameters of the laws are keys of this table, but not fields of the class. Their names, units and
+    bounds come from the tables of laws at the time a case is read (``known_keys``). A parameter that the case
+    does not give is None. A case may give parameters of laws that it does not use, for example by its base.
+    """
+
+    model_config = ConfigDict(extra="allow")
+
+    base: str | None = None
+    viscosity: Annotated[float, Amount("Pa*s", least=1e-7, most=1e6, reason="at ambient pressure")] | None = (
+        None
+    )
+    atmospheric_law: Annotated[str, law_name(ATMOSPHERIC_LAWS)] | None = None
+    viscosity_law: Annotated[str, law_name(VISCOSITY_LAWS)]
+    density_law: Annotated[str, law_name(DENSITY_LAWS)]
+    permittivity_law: Annotated[str, law_name(PERMITTIVITY_LAWS)] = "clausius-mossotti"
+    relative_permittivity: Annotated[float, quantity_of(RELATIVE_PERMITTIVITY)] | None = None
+    permittivity_table: PermittivityTable | None = None
+    conductivity_law: Annotated[str, law_name(CONDUCTIVITY_LAWS)] | None = None
+    conductivity_table: ConductivityTable | None = None
+    thermal_conductivity_law: Annotated[str, law_name(THERMAL_CONDUCTIVITY_LAWS)] | None = None
+    heat_capacity_law: Annotated[str, law_name(HEAT_CAPACITY_LAWS)] | None = None
+    density: Annotated[float, Amount("kg/m**3", least=500.0, most=3000.0, reason="of an oil")] | None = None
+    thermal_expansion: (
+        Annotated[float, Amount("1/K", least=1e-5, most=2e-3, reason="of the volume of an oil")] | None
+    ) = None
+    reference_temperature: Annotated[float, TEMPERATURE] | None = None
+    eyring_stress: (
+        Annotated[float, Amount("Pa", least=1e4, most=1e9, reason="oils have 2 to 20 MPa")] | None
+    ) = None
+    carreau_stress: (
+        Annotated[float, Amount("Pa", least=1e2, most=1e9, reason="10 kPa of thickened oils to 10 MPa")]
+        | None
+    ) = None
+    carreau_exponent: (
+        Annotated[float, Amount("", least=0.1, most=1.0, reason="1 is a Newtonian oil")] | None
+    ) = None
+    limiting_coefficient: (
+        Annotated[float, Amount("", least=1e-3, most=0.5, reason="limiting shear stress over pressure")]
+        | None
+    ) = None
+    temperature_range: Annotated[tuple[float, ...], Amounts(TEMPERATURE, least=2)] | None = None
+    temperature: OilTemperature | None = None
+    ambient_pressure: Annotated[float, Amount("Pa", least=0.0, most=1e8, reason="around the contact")] = 1e5
+
+    if TYPE_CHECKING:
+        # Parameters that users and other packages read as attributes.
+        pressure_viscosity_coefficient: float | None = None
+        roelands_z: float | None = None
+        roelands_pressure: float | None = None
+    else:
+
+        def __getattr__(self, name: str) -> Any:
+            try:
+                return super().__getattr__(name)
+            except AttributeError:
+                if is_parameter(name):
+                    return None
+                raise
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Schema with the names of the laws and with their parameters, which are not fields of the class."""
+        schema = super().__get_pydantic_json_schema__(core, handler)
+        for name, parameter in law_parameters().items():
+            if name not in schema["properties"]:
+                quantity = quantity_of(parameter)
+                schema["properties"][name] = quantity.__get_pydantic_json_schema__(core, handler)
+        for name, laws in LAWS.items():
+            schema["properties"][name]["enum"] = list(laws)
+        return schema | {"additionalProperties": False}
+
+    @property
+    def over_temperature(self) -> bool:
+        """Whether the viscosity at ambient pressure follows from the temperature."""
+        return self.temperature is not None or self.atmospheric_law is not None
+
+    def law(self, key: str) -> str | None:
+        """Name of the law that the lubricant has for a key of ``LAWS``; None if it has none."""
+        name: str | None = getattr(self, key)
+        if name is None and key in OPTIONAL_LAWS:
+            needed = LAWS[key]["constant"].parameters
+            if all(self.knows(parameter.name) for parameter in needed):
+                return "constant"
+        return name
+
+    def knows(self, name: str) -> bool:
+        """Whether the case gives a parameter of a law, or its data sheet the density."""
+        return self.parameter(name) is not None or (name == "density" and self.temperature is not None)
+
+    def parameter(self, name: str) -> float | None:
+        """Value of a parameter of a law in SI units; None if the case does not give it."""
+        extra = self.__pydantic_extra__ or {}
+        value: float | None = extra[name] if name in extra else getattr(self, name)
+        return value
+
+    @classmethod
+    def key_names(cls) -> Iterator[str]:
+        """Names of the keys of the table, in the order of ``known_keys``; a name may come twice."""
+        for name in cls.model_fields:
+            yield name
+            for law in LAWS.get(name, {}).values():
+                yield from (parameter.name for parameter in law.parameters)
+
+    @classmethod
+    def known_keys(cls) -> dict[str, FieldInfo]:
+        """Keys of the table: its fields, and behind each choice of a law the parameters of these laws."""
+        known: dict[str, FieldInfo] = {}
+        for name, field in cls.model_fields.items():
+            known[name] = field
+            for parameter in law_parameters(name).values() if name in LAWS else ():
+                if parameter.name not in cls.model_fields:
+                    annotation = Annotated[float, quantity_of(parameter)]
+                    known[parameter.name] = FieldInfo(annotation=Optional[annotation], default=None)  # noqa: UP045
+        return known
+
+    @field_validator("temperature", mode="before")
+    @classmethod
+    def _is_sheet(cls, value: Any) -> Any:
+        """Refuse a temperature in place of the data sheet."""
+        if isinstance(value, str | int | float):
+            raise InputError(
+                got=shown(value),
+                takes="a table, the data sheet of the oil; the temperature of a contact is "
+                "contact.temperature",
+            )
+        return value
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _parse(cls, source: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Add the values of the base, and validate fields and parameters.
+
+        Errors of fields and of parameters are raised together, in the order of ``known_keys``.
+        """
+        table = with_base(source)
+        if not isinstance(table, Mapping):
+            return handler(table)
+        fields, errors = _parsed(cls, table)
+        try:
+            lubricant = handler(fields)
+        except ValidationError as error:
+            errors += [
+                InitErrorDetails(
+                    type=detail["type"],
+                    loc=detail["loc"],
+                    input=detail["input"],
+                    ctx=detail.get("ctx", {}),
+                )
+                for detail in error.errors()
+            ]
+        if errors:
+            place = {name: k for k, name in enumerate(cls.known_keys())}
+            errors.sort(key=lambda error: place.get(str(*error["loc"][:1]), len(place)))
+            raise ValidationError.from_exception_data(cls.__name__, errors)
+        return lubricant
+
+    @model_serializer(mode="wrap")
+    def _in_order(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Serialise the table with its keys in the order of ``known_keys``."""
+        table = handler(self)
+        return {name: table[name] for name in type(self).key_names() if name in table}
+
+
+def _parsed(
+    model: type[Properties], table: Mapping[Any, Any]
+) -> tuple[dict[Any, Any], list[InitErrorDetails]]:
+    """Parse the parameters of a table to SI units.
+
+    Returns the table with parsed parameters, and the errors of parameters and of unknown keys.
+    """
+    known, fields = law_parameters(), dict(table)
+    errors: list[InitErrorDetails] = []
+    for name in [name for name in table if isinstance(name, str) and name not in model.model_fields]:
+        value = fields.pop(name)
+        try:
+            if name not in known:
+                errors.append(InitErrorDetails(type="extra_forbidden", loc=(name,), input=value))
+            elif value is not None:
+                fields[name] = quantity_of(known[name]).parse(value)
+        except ValueError as error:
+            errors.append(
+                InitErrorDetails(type="value_error", loc=(name,), input=value, ctx={"error": error})
+            )
+    return fields, errors
+
+
+# Ways to give the viscosity, for messages.
+_WAYS = "viscosity, [lubricant.temperature] or atmospheric_law"
+
+
+def refuse_missing(oil: Properties) -> None:
+    """Check that a lubricant gives its values in one way, and that none is missing.
+
+    Raises
+    ------
+    InputError
+        If it does not; the message names all values that are missing.
+    """
+    checks: list[Callable[[], None]] = [partial(check_viscosity, oil), partial(check_once, oil)]
+    for key, laws in LAWS.items():
+        name = oil.law(key)
+        if name is not None:
+            checks.append(partial(check_parameters, oil, key, laws[name]))
+    checks.append(partial(_check_permittivity, oil))
+    missing: dict[str | None, InputError] = {}
+    for check in checks:
+        try:
+            check()
+        except InputError as error:
+            if not error.is_missing:
+                raise
+            missing.setdefault(error.key, error)
+    if missing:
+        raise InputError.together(list(missing.values()))
+
+
+def _check_permittivity(oil: Properties) -> None:
+    """Check that a lubricant has a permittivity."""
+    if oil.relative_permittivity is None and oil.permittivity_table is None:
+        raise InputError.missing(
+            "relative_permittivity", "either relative_permittivity or permittivity_table"
+        )
+
+
+def check_viscosity(oil: Properties) -> None:
+    """Check that a lubricant has exactly one source of its viscosity at ambient pressure.
+
+    Raises
+    ------
+    InputError
+        If it has none, or more than one.
+    """
+    if VISCOSITY_LAWS[oil.viscosity_law].atmospheric is not None:
+        for key in ("viscosity", "temperature", "atmospheric_law"):
+            if getattr(oil, key) is not None:
+                raise InputError.worded(
+                    key, f"is not used: viscosity_law {oil.viscosity_law!r} gives the viscosity itself"
+                )
+        return
+    ways = {
+        "viscosity": oil.viscosity is not None and not _is_parameter(oil, "viscosity"),
+        "temperature": oil.temperature is not None,
+        "atmospheric_law": oil.atmospheric_law is not None,
+    }
+    given = [key for key, is_given in ways.items() if is_given]
+    if len(given) != 1:
+        together = f"{' and '.join(given)} together" if given else None
+        raise InputError("viscosity", got=together, takes=f"either {_WAYS}")
+
+
+def check_once(oil: Properties) -> None:
+    """Check that no value is given twice, and that none is given which no law of the oil would use.
+
+    Raises
+    ------
+    InputError
+        For two conductivities or two densities, and for a value that lacks the key which gives it a meaning.
+    """
+    conductivities = [key for key in ("conductivity", "conductivity_law") if getattr(oil, key) is not None]
+    if oil.conductivity_table is not None and conductivities:
+        both = f"{conductivities[0]} and conductivity_table together"
+        raise InputError(conductivities[0], got=both, takes="either of them")
+    if oil.parameter("conductivity_activation") is not None and oil.conductivity_law is None:
+        raise InputError.missing("conductivity_law", "'arrhenius', which uses conductivity_activation")
+    if oil.density is not None and oil.temperature is not None:
+        raise InputError("density", got="density and temperature.density_15 together", takes="either of them")
+    if oil.parameter("heat_capacity") is not None and oil.law("heat_capacity_law") is None:
+        raise InputError.missing("density", "it, with which heat_capacity is that of a volume")
+    if oil.thermal_expansion is not None and oil.reference_temperature is None:
+        raise InputError.missing(
+            "reference_temperature", "the temperature at which there is no thermal_expansion"
+        )
+
+
+def _is_parameter(oil: Properties, name: str) -> bool:
+    """Whether the law over temperature takes a key of the lubricant as a parameter."""
+    if oil.atmospheric_law is None:
+        return False
+    law = LAWS["atmospheric_law"][oil.atmospheric_law]
+    return any(parameter.name == name for parameter in law.parameters)
+
+
+def check_parameters(oil: Properties, key: str, law: Law) -> None:
+    """Check that a lubricant has all parameters of one of its laws.
+
+    A parameter that follows from the viscosity at a temperature may be missing where the viscosity depends
+    on the temperature, a coefficient where the type of base oil is given, and a permittivity with its table.
+
+    Raises
+    ------
+    InputError
+        If a parameter is missing; the message names the law, and all parameters that it lacks.
+    """
+    given = {p.name: oil.parameter(p.name) for p in law.parameters}
+    values = {name: value for name, value in given.items() if value is not None}
+    missing, follows = [], of_base_oil(oil)
+    if oil.permittivity_table is not None:
+        follows |= {"relative_permittivity"}
+    for parameter in law.parameters:
+        rule = parameter.derivation
+        if oil.knows(parameter.name) or parameter.name in follows:
+            continue
+        if rule is None or not oil.over_temperature:
+            missing.append(parameter.name)
+        elif any(oil.parameter(name) is None for name in rule.parameters):
+            also = ", or temperature.base_oil for an estimate" if oil.temperature is not None else ""
+            raise InputError.missing(
+                parameter.name,
+                f"it, or {' and '.join(rule.parameters)}, from which it follows at the temperature{also}",
+            )
+    if missing:
+        also = f" with {', '.join(missing[1:])}" if missing[1:] else ""
+        hint = law.hint(oil.viscosity, values) if law.hint and oil.viscosity else ""
+        name = getattr(oil, key)
+        source = _without_source(oil, missing[0])
+        raise InputError.worded(missing[0], f"missing; {key} {name!r} needs it{also}{source}{hint}")
+
+
+def _without_source(oil: Properties, name: str) -> str:
+    """Text that the library has no source of a parameter, if its lubricant lacks it."""
+    needs = library.tables("lubricant", oil.base).get("needs", ()) if oil.base else ()
+    return f"; the library has no source of it for {oil.base!r}" if name in needs else ""

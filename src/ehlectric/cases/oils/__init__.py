@@ -1,1 +1,0 @@
-"""Lubricant of a case: its keys, its laws with the parameters of the case, and its data sheet."""

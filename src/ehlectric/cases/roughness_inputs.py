@@ -1,0 +1,176 @@
+"""Tables `roughness` of a case: rough surfaces from files or generators, and their processing steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import AfterValidator, model_validator
+
+from ehlectric.cases.amounts import Amount, Count
+from ehlectric.cases.table import Table
+from ehlectric.errors import InputError, shown
+from ehlectric.quantities.units import length_unit
+
+_Height = Annotated[float, Amount("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
+_Length = Annotated[float, Amount("m", least=1e-9, most=1.0, reason="of waves and features on a surface")]
+_LengthUnit = Annotated[str, AfterValidator(length_unit)]
+_Place = Annotated[float, Amount("m", least=-1.0, most=1.0, reason="along entrainment, 0 at the centre")]
+_Side = Annotated[float, Amount("m", least=-1.0, most=1.0, reason="across entrainment, 0 at the centre")]
+_Angle = Annotated[
+    float, Amount("deg", least=-180.0, most=180.0, reason="from the x axis, counter-clockwise")
+]
+
+# Required keys and optional keys of each generator.
+GENERATORS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "sinusoid": (("amplitude", "wavelength"), ("phase", "orientation")),
+    "gaussian": (("rq", "correlation_length", "seed"), ("correlation_length_y", "orientation")),
+    "self-affine": (("rq", "hurst", "rolloff_wavelength", "seed"), ("shortest_wavelength",)),
+    "pit": (("depth", "width"), ("rim", "position", "position_y")),
+    "asperity": (("height", "width"), ("position", "position_y")),
+}
+_FILE_KEYS = ("x_unit", "z_unit", "line", "along", "direction", "assume_transverse")
+SHAPES = ("sinusoid", "pit", "asperity")
+_POINT_KEYS = ("correlation_length_y", "orientation", "position_y", "shift_y")
+_STEPS = ("form", "cutoff_long", "cutoff_short", "trim", "rescale_rq", "truncate", "extend")
+
+
+class Roughness(Table):
+    """One rough surface, read from a file or generated, and its processing steps."""
+
+    surface: Literal[1, 2]
+    file: str | None = None
+    x_unit: _LengthUnit | None = None
+    z_unit: _LengthUnit | None = None
+    line: Annotated[int, Count(0, 1_000_000, "of a map, from 0")] | None = None
+    along: Literal["row", "column"] = "row"
+    direction: Literal["x", "y"] = "x"
+    assume_transverse: bool = False
+    generator: str | None = None
+    amplitude: _Height | None = None
+    wavelength: _Length | None = None
+    phase: Annotated[float, Amount("", least=-1e3, most=1e3, reason="in rad")] | None = None
+    rq: _Height | None = None
+    correlation_length: _Length | None = None
+    correlation_length_y: _Length | None = None
+    orientation: _Angle | None = None
+    hurst: Annotated[float, Amount("", least=0.0, most=1.0, reason="1 is the smoothest")] | None = None
+    rolloff_wavelength: _Length | None = None
+    shortest_wavelength: _Length | None = None
+    seed: Annotated[int, Count(0, 2**32, "of the random numbers")] | None = None
+    depth: _Height | None = None
+    height: _Height | None = None
+    width: _Length | None = None
+    rim: Annotated[float, Amount("m", least=0.0, most=1e-3, reason="height of the rim")] | None = None
+    position: _Place | None = None
+    position_y: _Side | None = None
+    form: Literal["none", "mean", "line", "parabola"] = "none"
+    cutoff_long: _Length | None = None
+    cutoff_short: _Length | None = None
+    trim: Annotated[float, Amount("m", least=0.0, most=1.0, reason="taken off each end")] | None = None
+    rescale_rq: _Height | None = None
+    truncate: _Height | None = None
+    shift: _Place = 0.0
+    shift_y: _Side = 0.0
+    extend: Literal["mirror", "repeat", "flat"] = "mirror"
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.file is None) == (self.generator is None):
+            both = None if self.file is None else "file and generator together"
+            raise InputError("file", got=both, takes="either file or generator")
+        allowed = {"surface", "shift", "shift_y"}
+        allowed |= {"file", *_FILE_KEYS, *_STEPS} if self.generator is None else self._check_generator()
+        for name in sorted(self._given() - allowed):
+            what = f"the generator {self.generator!r}" if self.generator else "a file"
+            raise InputError.worded(name, f"is not used by {what}")
+        return self
+
+    def _given(self) -> set[str]:
+        """Names of the keys whose value differs from the default."""
+        fields = type(self).model_fields.items()
+        return {name for name, field in fields if getattr(self, name) != field.default}
+
+    def _check_generator(self) -> set[str]:
+        """Check the keys of the generator, and return the names of all keys that it may have."""
+        if self.generator not in GENERATORS:
+            raise InputError(
+                "generator", got=shown(self.generator), takes=f"one of {', '.join(map(repr, GENERATORS))}"
+            )
+        needed, optional = GENERATORS[self.generator]
+        for name in needed:
+            if getattr(self, name) is None:
+                raise InputError.worded(name, f"missing; the generator {self.generator!r} needs it")
+        rolloff, shortest = self.rolloff_wavelength, self.shortest_wavelength
+        if rolloff is not None and shortest is not None and shortest >= rolloff:
+            raise InputError(
+                "shortest_wavelength",
+                got=f"{shortest:g} m",
+                takes=f"less than rolloff_wavelength, {rolloff:g} m",
+            )
+        round_waves = self.generator == "gaussian" and self.correlation_length_y is None
+        if round_waves and self.orientation is not None:
+            raise InputError(
+                "orientation",
+                got=f"{self.orientation:g} deg for an isotropic surface",
+                takes="correlation_length_y with it",
+            )
+        return {"generator", *needed, *optional, *(() if self.generator in SHAPES else _STEPS)}
+
+    def check_geometry(self, geometry: str) -> None:
+        """Check that the surface has no key that only the other kind of contact may have.
+
+        Parameters
+        ----------
+        geometry : str
+            Geometry of the contact, "line" or "point".
+
+        Raises
+        ------
+        InputError
+            If a key does not fit the geometry; the key in the message is not preceded by ``roughness.``.
+        """
+        if geometry == "line":
+            for name in _POINT_KEYS:
+                if name in self._given():
+                    raise InputError.worded(name, "is not used by a line contact, only by a point contact")
+            if self.direction == "y" and not self.assume_transverse:
+                raise InputError(
+                    "direction",
+                    got="'y', measured across entrainment; a line contact sees every profile as ridges "
+                    "across it",
+                    takes="assume_transverse = true to use it so all the same",
+                )
+        elif self.assume_transverse:
+            raise InputError.worded(
+                "assume_transverse", "is not used by a point contact, only by a line contact"
+            )
+
+
+def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
+    """Check that rough surfaces have only keys that fit the geometry of the contact, "line" or "point".
+
+    Raises
+    ------
+    InputError
+        If a key does not fit; the message names the key, its value, and what is allowed.
+    """
+    for table in tables:
+        try:
+            table.check_geometry(geometry)
+        except InputError as error:
+            raise error.under("roughness") from None
+
+
+def find_files(table: dict[str, Any], folder: Path) -> None:
+    """Make the names of roughness files absolute; in a case file they are relative to its ``folder``.
+
+    They then stay valid if the case is written to another folder.
+    """
+    rough = table.get("roughness")
+    for surface in rough if isinstance(rough, list) else []:
+        if not isinstance(surface, dict) or not isinstance(surface.get("file"), str):
+            continue
+        if not Path(surface["file"]).is_absolute():
+            surface["file"] = str((folder / surface["file"]).absolute())

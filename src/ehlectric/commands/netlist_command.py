@@ -1,0 +1,197 @@
+"""The command that writes a bearing, or those of a drive, as a netlist for circuit simulators."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias
+
+import typer
+
+from ehlectric.commands.options import Quiet, file_argument, files_ending, one_of
+from ehlectric.commands.terminal import (
+    NOT_CONVERGED,
+    echo_files,
+    print_rows,
+    progress_bar,
+    say,
+    user_errors,
+    warn,
+)
+from ehlectric.errors import InputError
+
+if TYPE_CHECKING:
+    from ehlectric.drive.netlist import Arc, Subcircuit
+    from ehlectric.quantities.rows import Row
+    from ehlectric.runtime.progress import Progress
+
+# Writes the subcircuits, and the test bench if there is one; the files written.
+Writer: TypeAlias = "Callable[[Path, Path | None], list[Path]]"
+
+# Options by the names of their inputs.
+_OPTIONS = {"arc_resistance": "--arc-resistance", "extinction_voltage": "--extinction-voltage"}
+
+
+def spice(
+    input_file: Annotated[Path, file_argument("FILE", "Bearing file or drive file, in TOML.", ".toml")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Write the subcircuit into this file.",
+            autocompletion=files_ending(".lib", ".cir"),
+        ),
+    ] = Path("bearing.lib"),
+    bench: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Write a test bench with the drive into this file: that of the drive file, or of the table "
+            "[motor] of a bearing file.",
+            show_default=False,
+            autocompletion=files_ending(".cir"),
+        ),
+    ] = None,
+    arc_resistance: Annotated[
+        str | None,
+        typer.Option(
+            metavar="R",
+            help='Resistance of a discharge through the films, as "1 ohm"; the subcircuit then has a switch.',
+            show_default=False,
+        ),
+    ] = None,
+    extinction_voltage: Annotated[
+        str | None,
+        typer.Option(
+            metavar="V",
+            help='Voltage across the films below which a discharge ends, as "2 V"; the switch needs it too.',
+            show_default=False,
+        ),
+    ] = None,
+    speeds: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SPEEDS",
+            help='Make the speed a parameter: a table at "500 rpm, 1000 rpm", or at a number of speeds of a '
+            'range, "500 rpm : 3000 rpm : 7". The speed of the file is always in it.',
+            show_default=False,
+        ),
+    ] = None,
+    contacts: Annotated[
+        str,
+        typer.Option(
+            metavar="HOW",
+            help="Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
+            "(formula). Without this option the file decides.",
+            show_default=False,
+            autocompletion=one_of("solved", "atlas", "formula"),
+        ),
+    ] = "",
+    quiet: Quiet = False,
+) -> None:
+    """Write a bearing as a netlist for ngspice and LTspice: a subcircuit from shaft to housing.
+
+    It has the capacitance of the films and the leak through their oil, the coating of a ring and the parallel
+    capacitance, and with both of its options a switch that closes where the films break down. Every parameter
+    has a line with its unit. The table [motor] is only needed for --bench. Of a drive file both bearings are
+    written, with the arc of its table [breakdown]; the bench has its inverter and its circuit.
+
+    Exit status 0: written. 2: the input is wrong, or there is another file of this name. 3: a contact is not
+    converged, the files are still written; or memory ran out.
+    """
+    with user_errors(), _named_as_options():
+        from ehlectric.drive.netlist_files import arc_of, check_targets
+        from ehlectric.runs.file_kinds import expect
+        from ehlectric.runtime.files import clear_left_behind
+
+        kind = expect(input_file, "bearing", "drive")
+        given = {"--arc-resistance": arc_resistance, "--extinction-voltage": extinction_voltage}
+        if kind == "drive":
+            _refuse_with_drive({**given, "--speeds": speeds})
+        arc = arc_of(arc_resistance, extinction_voltage)
+        check_targets(output, bench)
+        with progress_bar(shown=not quiet) as progress:
+            if kind == "drive":
+                found, write = _drive(input_file, contacts, progress)
+            else:
+                found, write = _bearing(input_file, contacts, arc, speeds, progress, motor=bench is not None)
+        clear_left_behind(output.parent)
+        files = write(output, bench)
+    if not quiet:
+        for one in found:
+            print_rows(_rows(one), one.case.title)
+        echo_files(files)
+        warn(dict.fromkeys(warning for one in found for warning in one.warnings()))
+        if kind == "drive" and bench is None:
+            say("note: the bearings alone; --bench FILE.cir also writes the inverter and the motor", err=True)
+        for note in dict.fromkeys(note for one in found for note in one.notes):
+            say(f"note: {note}", err=True)
+    if not all(result.converged for one in found for result in one.results):
+        say("error: not converged: a contact of the bearing", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _refuse_with_drive(options: Mapping[str, str | None]) -> None:
+    """Refuse options whose values a drive file has."""
+    for name, value in options.items():
+        if value is not None:
+            raise InputError(name, got="it beside a drive file", takes="the value of the drive file, or none")
+
+
+def _bearing(
+    path: Path, contacts: str, arc: Arc | None, speeds: str | None, progress: Progress, *, motor: bool
+) -> tuple[tuple[Subcircuit, ...], Writer]:
+    """Subcircuit of a bearing file, and what writes it."""
+    from ehlectric.drive.netlist import check_strength, drive_of, solve_at_speeds, speeds_of, subcircuit_of
+    from ehlectric.drive.netlist_files import write_subcircuit
+    from ehlectric.runs import by_kind
+
+    case = by_kind.read_bearing(path)
+    case = case.replace({"contacts": contacts}) if contacts else case
+    if arc is not None:
+        check_strength(case)
+    if motor:
+        drive_of(case)
+    others = () if speeds is None else speeds_of(case, speeds)
+    own = subcircuit_of(solve_at_speeds(case, others, progress), arc)
+    return (own,), partial(write_subcircuit, own)
+
+
+def _drive(path: Path, contacts: str, progress: Progress) -> tuple[tuple[Subcircuit, ...], Writer]:
+    """Subcircuits of the bearings of a drive file, and what writes them."""
+    from ehlectric.drive.drive_netlist import drive_netlist, write_both
+    from ehlectric.runs import by_kind
+
+    case = by_kind.read_drive(path)
+    case = case.replace({"drive.contacts": contacts}) if contacts else case
+    netlist = drive_netlist(case, progress)
+    return netlist.subcircuits, partial(write_both, netlist)
+
+
+@contextmanager
+def _named_as_options() -> Iterator[None]:
+    """Context in which an input of the arc is named by its option."""
+    try:
+        yield
+    except InputError as error:
+        raise error.retold(_OPTIONS.get(error.key or "", error.key), error.text) from None
+
+
+def _rows(subcircuit: Subcircuit) -> Iterator[Row]:
+    """Rows of the table: the subcircuit and its parameters, and what it has at each speed of a table."""
+    from ehlectric.quantities.formats import amount
+    from ehlectric.quantities.rows import Row
+    from ehlectric.quantities.units import rpm_text
+
+    yield Row("subcircuit", f"{subcircuit.name} shaft housing")
+    for parameter in subcircuit.parameters():
+        unit = parameter.unit.replace("Ohm", "Ω")
+        shown = f"{parameter.value:.4g} rpm" if unit == "rpm" else amount(parameter.value, unit)
+        yield Row(parameter.name, shown, "", f", {parameter.meaning}")
+    for one in subcircuit.found if subcircuit.tabulated else ():
+        breaks = "" if one.threshold is None else f", breakdown at {one.threshold:.4g} V"
+        yield Row(f"at {rpm_text(one.speed)} rpm", amount(one.capacitance, "F"), "", breaks)

@@ -1,0 +1,159 @@
+"""The commands oils and oil: the list of the library's oils, and all that is known of one oil."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlectric.commands.options import (
+    Formats,
+    Json,
+    Look,
+    Plots,
+    Quiet,
+    Style,
+    figure_options,
+    files_ending,
+)
+from ehlectric.commands.terminal import echo_files, print_table, say, user_errors, warn
+
+if TYPE_CHECKING:
+    from ehlectric.cases.oil_report import OilReport
+
+
+def oils(as_json: Json = False) -> None:
+    """List the oils of the library, with viscosity, coefficient, density and permittivity.
+
+    Each name is a value of lubricant.base. A letter behind a number tells how the value came about. The last
+    table names the keys that a case must give, because no source of them was found.
+    """
+    with user_errors():
+        from ehlectric.cases.library.library_oils import library_oils
+        from ehlectric.tables.oil_tables import LETTERS, listed_oil, listed_tables
+
+        listed = [listed_oil(oil) for oil in library_oils()]
+    if as_json:
+        typer.echo(json.dumps(listed, indent=2))
+        return
+    numbers, about = listed_tables(listed)
+    print_table(numbers)
+    say("kind of the weakest value behind a number:")
+    # No value of an oil has the kind "by rule", which is one of bearings.
+    kinds = (f"{letter} {kind}" for kind, letter in LETTERS.items() if kind != "by rule")
+    say(", ".join(kinds))
+    say("")
+    print_table(about)
+    say("all values of an oil with their sources: ehlectric oil NAME")
+
+
+def _complete(incomplete: str) -> list[str]:
+    """Names of oils and TOML files that begin with some letters."""
+    from ehlectric.cases.library import lubricant_names
+
+    names = [name for name in lubricant_names() if name.startswith(incomplete)]
+    return names + files_ending(".toml")(incomplete)
+
+
+def oil(
+    name: Annotated[
+        str,
+        typer.Argument(
+            metavar="NAME",
+            help="Name of the library, or a TOML file with a table [lubricant]: a case, a bearing or an oil.",
+            show_default=False,
+            autocompletion=_complete,
+        ),
+    ],
+    temperature: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="TEMPERATURE",
+            help='Compute at this temperature, such as "90 degC". Repeat the option for several. By default '
+            "that of the file, or 40, 60, 80 and 100 degC as far as the oil has values there.",
+            show_default=False,
+        ),
+    ] = None,
+    pressure: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="PRESSURE",
+            help='Compute at this pressure, such as "1 GPa", and at ambient pressure. Repeat the option for '
+            "several. By default ambient pressure alone.",
+            show_default=False,
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="DIR",
+            help="Write oil.csv and the figures over pressure and temperature into this folder.",
+            show_default=False,
+        ),
+    ] = None,
+    plots: Plots = True,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+    as_json: Json = False,
+) -> None:
+    """Show every property of an oil at temperature and pressure, with its law, its kind and its sources.
+
+    What no source has is shown as missing, and nothing takes its place. A star marks a value beyond the range
+    of its law. Without --output the tables are printed alone.
+    """
+    with user_errors():
+        look = figure_options(formats, style)
+
+        from ehlectric.cases.oil_report import oil_report
+
+        report = oil_report(name, temperature or (), pressure or ())
+        files = [] if output is None else _write(report, output, look, draw=plots)
+    if as_json:
+        typer.echo(json.dumps(report.summary(), indent=2))
+    elif not quiet:
+        _print(report)
+        if files:
+            echo_files(files)
+    if not quiet:
+        warn(report.warnings)
+
+
+def _print(report: OilReport) -> None:
+    """Print the tables of an oil: values, laws with kinds, sources."""
+    from ehlectric.tables.oil_tables import behind_table, heading, sources_table, values_table
+
+    say(heading(report))
+    for table in (values_table(report), behind_table(report), sources_table(report)):
+        print_table(table)
+        say("")
+    if any(report.beyond(line, oil) for line in report.lines for oil in report.oils):
+        say("* beyond the range of the law")
+    for line in report.missing:
+        say(line)
+
+
+def _write(report: OilReport, folder: Path, look: Look, *, draw: bool) -> Sequence[Path]:
+    """Write the table of an oil as CSV, and its figures."""
+    from ehlectric.figures.figure_names import OIL_FIGURE_FILES, in_formats
+    from ehlectric.runtime.files import write
+    from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+    from ehlectric.tables.oil_tables import CSV_FILE, csv_content
+
+    names = [CSV_FILE, *(in_formats(OIL_FIGURE_FILES, look["formats"]) if draw else ())]
+    with ExitStack() as stack:
+        stack.enter_context(alone_in(folder, names, locks=[FIGURE_LOCK]))
+        write(folder / CSV_FILE, csv_content(report))
+        if not draw:
+            return [folder / CSV_FILE]
+        from ehlectric.figures.oil_figures import save_oil
+        from ehlectric.figures.style import style as styled
+
+        stack.enter_context(styled(look["style"]))
+        return [folder / CSV_FILE, *save_oil(report, folder, look["formats"])]

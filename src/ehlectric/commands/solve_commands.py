@@ -1,0 +1,335 @@
+"""The commands that solve a contact, a bearing or a drive, check a case, and list the bearings of the
+library.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlectric.commands.animate_command import tell_where_it_stops
+from ehlectric.commands.options import (
+    Background,
+    CaseFile,
+    Formats,
+    Json,
+    Measured,
+    Output,
+    Plots,
+    Quiet,
+    ResultFile,
+    Style,
+    Uncertainty,
+    figure_options,
+    file_argument,
+    one_of,
+)
+from ehlectric.commands.terminal import (
+    echo_files,
+    print_rows,
+    print_table,
+    print_verdict,
+    progress_bar,
+    progress_line,
+    report,
+    say,
+    user_errors,
+    warn,
+)
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.contact.result import PointResult, Result
+    from ehlectric.runtime.progress import RunOutcome
+
+
+def check(
+    file: Annotated[
+        Path,
+        file_argument(
+            "FILE", "Case, bearing, drive or sweep file, in TOML; also one with [motion].", ".toml"
+        ),
+    ],
+    quiet: Quiet = False,
+    as_json: Json = False,
+) -> None:
+    """Check a file of any kind without solving it, and print what it means.
+
+    Hertz contact, groups, regime and film formulas of a contact; with [discharge], an estimate of its
+    breakdown voltage. Loads, speeds, oil, films, capacitance and margin of a bearing, unsolved. Source and
+    bearings of a drive, not simulated. Number of points of a sweep, and its first point.
+
+    Exit status 0: the file can be solved. 2: the input is wrong.
+    """
+    with user_errors():
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.file_kinds import expect
+        from ehlectric.runs.meaning import check as check_meaning
+
+        kind = expect(file, "contact", "motion", "bearing", "drive", "sweep")
+        meaning = check_meaning(by_kind.RUNS[kind].read(file))
+    if as_json:
+        typer.echo(json.dumps(meaning.summary, indent=2))
+    elif not quiet:
+        print_rows(meaning.rows, meaning.title)
+        print_verdict(meaning.verdict)
+    if not quiet:
+        warn(meaning.warnings)
+
+
+def run(
+    case_file: CaseFile,
+    output: Output = Path("results"),
+    plots: Plots = True,
+    formats: Formats = None,
+    style: Style = "screen",
+    solver: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="Solve with ehlectric, or with paper, the multigrid and over-relaxation of the paper.",
+            autocompletion=one_of("ehlectric", "paper"),
+        ),
+    ] = "ehlectric",
+    measured: Measured = None,
+    uncertainty: Uncertainty = None,
+    quiet: Quiet = False,
+    as_json: Json = False,
+) -> None:
+    """Solve a contact; write summary.json, result.nc, film.csv and figures.
+
+    With --measured, film thicknesses over the entrainment speed give the film factor that explains them: in
+    measured.json, measured.csv and a figure.
+
+    A case with [motion] writes summary.json, motion.nc and figures. If it is interrupted, run the same
+    command to resume it.
+
+    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    folder with a sweep, or with moving roughness of another case, is refused.
+
+    Exit status 0: solved. 2: the input is wrong. 3: not converged, all files are still written; or memory
+    ran out.
+    """
+    with user_errors():
+        look = figure_options(formats, style)
+
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.file_kinds import expect
+        from ehlectric.runs.measured_film_factors import MeasuredFile
+
+        kind = expect(case_file, "contact", "motion")
+        case = by_kind.read_case(case_file)
+        data = MeasuredFile.of(measured, None, uncertainty)
+        solve = partial(
+            by_kind.run_and_draw, kind, case, output, draw=plots, solver=solver, measured=data, **look
+        )
+        if kind == "contact":
+            if not quiet:
+                warn(by_kind.expected_warnings(case))
+            with progress_line(shown=not quiet) as progress:
+                outcome = solve(progress)
+        else:
+            with progress_bar(shown=not quiet) as bar, tell_where_it_stops(output, bar) as progress:
+                outcome = solve(progress)
+    tables = _tables if kind == "contact" else _transient_tables
+    report(outcome, tables, quiet=quiet, as_json=as_json)
+
+
+def _tables(outcome: RunOutcome[Result | PointResult]) -> Iterator[Table]:
+    """Tables of a stationary contact: its rough surfaces and its key figures."""
+    from ehlectric.tables.contact_tables import result_rows
+    from ehlectric.tables.measured_tables import measured_tables, table_of
+    from ehlectric.tables.surface_tables import surface_table
+
+    for rough in outcome.result.rough:
+        if rough["steps"]:
+            yield surface_table(rough)
+    yield table_of(result_rows(outcome.result), outcome.result.case.title)
+    yield from measured_tables(outcome)
+
+
+def _transient_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
+    """Table of a transient contact."""
+    from ehlectric.tables.measured_tables import table_of
+    from ehlectric.tables.motion_tables import run_rows
+
+    yield table_of(run_rows(outcome.summary), outcome.summary["title"])
+
+
+def plot(
+    result: ResultFile,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="DIR", help="Write the figures into this folder, not beside the result."
+        ),
+    ] = None,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+) -> None:
+    """Draw the figures of a result again.
+
+    The result of a contact, of moving roughness, of a bearing, of a drive or of a sweep. A sweep over one or
+    two keys is drawn as a map and lines, and a Sobol design as its sensitivity; for other sweeps use
+    ehlectric map.
+    """
+    with user_errors():
+        look = figure_options(formats, style)
+
+        from ehlectric.commands.draw_commands import load_and_draw
+        from ehlectric.runs.file_kinds import refuse_input
+        from ehlectric.runs.result_folders import stored_result
+
+        refuse_input(result)
+        file = stored_result(result)
+        files, warnings = load_and_draw(file, file.parent if output is None else output, **look)
+    if not quiet:
+        echo_files(files)
+        warn(warnings)
+
+
+def bearings(as_json: Json = False) -> None:
+    """List the bearings of the library, which a bearing file uses as base = "NAME".
+
+    The elements are their number, diameter and length. They are "published", or follow "by rule" from both
+    load ratings, or are "assumed". C and C0 are the load ratings that a maker prints.
+    """
+    with user_errors():
+        from ehlectric.cases.library.bearing_catalogue import bearing_catalogue
+        from ehlectric.tables.oil_tables import catalogue_tables, described
+
+        found = bearing_catalogue()
+        if as_json:
+            typer.echo(json.dumps([described(bearing) for bearing in found], indent=2))
+            return
+        for table in catalogue_tables(found):
+            print_table(table)
+            say("")
+        say('in a bearing file: base = "6208"; the sources of all values are in the guide')
+
+
+def bearing(
+    bearing_file: Annotated[Path, file_argument("FILE", "Bearing file, in TOML.", ".toml")],
+    output: Output = Path("bearing"),
+    contacts: Annotated[
+        str,
+        typer.Option(
+            metavar="HOW",
+            help="Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
+            "(formula). Without this option the file decides.",
+            show_default=False,
+            autocompletion=one_of("solved", "atlas", "formula"),
+        ),
+    ] = "",
+    measured: Measured = None,
+    background: Background = None,
+    uncertainty: Uncertainty = None,
+    plots: Plots = True,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+    as_json: Json = False,
+) -> None:
+    """Solve a whole rolling bearing; write summary.json, bearing.nc, tables as CSV and figures.
+
+    With --measured, capacitances over the speed give the film factor that explains them: in measured.json,
+    measured.csv and a figure.
+
+    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    folder with a sweep or with moving roughness is refused.
+
+    Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
+    written; or memory ran out, or the process of a contact was killed four times.
+    """
+    with user_errors():
+        look = figure_options(formats, style)
+
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.file_kinds import expect
+        from ehlectric.runs.measured_film_factors import MeasuredFile
+
+        expect(bearing_file, "bearing")
+        case = by_kind.read_bearing(bearing_file)
+        data = MeasuredFile.of(measured, background, uncertainty)
+        with progress_bar(shown=not quiet) as progress:
+            outcome = by_kind.run_and_draw(
+                "bearing", case, output, progress, draw=plots, contacts=contacts, measured=data, **look
+            )
+    report(outcome, _bearing_tables, quiet=quiet, as_json=as_json)
+
+
+def _bearing_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
+    """Tables of a bearing: loads, films and totals."""
+    from ehlectric.tables.bearing_tables import films_table, loads_table, total_rows
+    from ehlectric.tables.measured_tables import measured_tables, table_of
+
+    summary = outcome.summary
+    yield loads_table(summary)
+    yield films_table(summary)
+    yield table_of(total_rows(summary), summary["title"])
+    yield from measured_tables(outcome)
+
+
+def drive(
+    drive_file: Annotated[Path, file_argument("FILE", "Drive file, in TOML.", ".toml")],
+    output: Output = Path("drive"),
+    contacts: Annotated[
+        str,
+        typer.Option(
+            metavar="HOW",
+            help="Solve the contacts of both bearings (solved), or take films at once from the atlas (atlas) "
+            "or a formula (formula). Without this option the files decide.",
+            show_default=False,
+            autocompletion=one_of("solved", "atlas", "formula"),
+        ),
+    ] = "",
+    plots: Plots = True,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+    as_json: Json = False,
+) -> None:
+    """Simulate inverter, motor and both bearings over time; write tables, drive.nc and figures.
+
+    The files are summary.json, events.csv with the discharges, spectrum.csv with the amplitudes of the shaft
+    voltage over the frequency, drive.nc for ehlectric plot, and figures of the bearing voltage, its spectrum,
+    the discharges of each bearing with their voltage, charge, energy and current, and the same for each
+    remedy of the file.
+
+    The folder then holds this result alone: files of an earlier result are removed, other files stay. A
+    folder with a sweep or with moving roughness is refused.
+
+    Exit status 0: solved. 2: the input is wrong. 3: a contact is not converged, all files are still
+    written; or memory ran out, or the process of a contact was killed four times.
+    """
+    with user_errors():
+        look = figure_options(formats, style)
+
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.file_kinds import expect
+
+        expect(drive_file, "drive")
+        case = by_kind.read_drive(drive_file)
+        with progress_bar(shown=not quiet) as progress:
+            outcome = by_kind.run_and_draw(
+                "drive", case, output, progress, draw=plots, contacts=contacts, **look
+            )
+    report(outcome, _drive_tables, quiet=quiet, as_json=as_json)
+
+
+def _drive_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
+    """Tables of a drive: its simulation, both bearings side by side, and its remedies."""
+    from ehlectric.tables.drive_tables import ends_table, remedies_table, whole_rows
+    from ehlectric.tables.measured_tables import table_of
+
+    yield table_of(whole_rows(outcome.summary))
+    yield ends_table(outcome.summary)
+    if outcome.summary["remedies"]:
+        yield remedies_table(outcome.summary)

@@ -1,0 +1,216 @@
+"""The commands init and examples, which write files to start from."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Annotated
+
+import typer
+
+from ehlectric.commands.options import Quiet, one_of
+from ehlectric.commands.terminal import echo_files, say, user_errors
+from ehlectric.errors import InputError, shown
+from ehlectric.runs.example_files import examples_folder
+
+_HERE = Path(__file__).parent
+
+# File of each kind of template. Kinds that an example shows in full have it as their template.
+TEMPLATES: Mapping[str, str] = MappingProxyType(
+    {
+        "line": "templates/line.toml",
+        "point": "templates/point.toml",
+        "rough": "templates/rough.toml",
+        "moving": "examples/moving_roughness.toml",
+        "discharge": "examples/discharge.toml",
+        "bearing": "examples/bearing_6208.toml",
+        "drive": "examples/drive.toml",
+        "sweep": "templates/sweep.toml",
+        "uncertainty": "templates/uncertainty.toml",
+    }
+)
+_GEOMETRIES = ("line", "point")
+
+# Measurements that belong to an example, by the name of its file.
+_MEASUREMENTS = {"bearing_6208.toml": "measurements/bearing_6208_capacitance.csv"}
+
+# Folder of the examples that holds the surfaces of rough contacts.
+_SURFACES = "surfaces"
+
+
+def template(kind: str) -> Path:
+    """File of a template.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the file, one of ``TEMPLATES``.
+
+    Raises
+    ------
+    InputError
+        If there is no such kind.
+    """
+    if kind not in TEMPLATES:
+        raise InputError("--kind", got=shown(kind), takes=f"one of {', '.join(TEMPLATES)}")
+    folder, _, name = TEMPLATES[kind].partition("/")
+    return (examples_folder() if folder == "examples" else _HERE / folder) / name
+
+
+def init(
+    path: Annotated[Path, typer.Argument(metavar="FILE", help="Write this file.")] = Path("case.toml"),
+    kind: Annotated[
+        str,
+        typer.Option(
+            metavar="KIND",
+            help=f"Write a file of this kind: {', '.join(TEMPLATES)}.",
+            autocompletion=one_of(*TEMPLATES),
+        ),
+    ] = "line",
+    geometry: Annotated[str, typer.Option(hidden=True)] = "",
+    force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it exists.")] = False,
+    alone: Annotated[
+        bool, typer.Option("--no-schema", help="Write no schema beside the file, and no line that names it.")
+    ] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Write a commented file of any kind to start from.
+
+    The file can be solved as it is. Its comments explain every key, and mark what is an assumption. Beside it
+    lies the JSON Schema of its kind, by which editors such as VS Code complete and explain its keys.
+    """
+    with user_errors():
+        if geometry and geometry not in _GEOMETRIES:
+            takes = f"{' or '.join(_GEOMETRIES)}; other kinds are written with --kind"
+            raise InputError("--geometry", got=shown(geometry), takes=takes)
+        from ehlectric.runs.file_kinds import command_of_file
+        from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special
+
+        source = template(geometry or kind)
+        refuse_special(path)
+        if path.exists() and not force:
+            raise InputError(path, "already exists; use --force to overwrite")
+        clear_left_behind(prepare(path.parent))
+        beside = None
+        if alone:
+            _copy(source, path)
+        else:
+            beside = _write_with_schema(source, path)
+        command = command_of_file(path)
+    if not quiet:
+        say(f"written: {path}")
+        if beside is not None:
+            say(f"  editors complete its keys by: {beside}")
+        say(f"  check it with: ehlectric check {path}")
+        say(f"  solve it with: ehlectric {command} {path}")
+
+
+def examples(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="NAME",
+            help="Copy these examples; without a name, all are listed or copied.",
+            show_default=False,
+            autocompletion=lambda incomplete: [n for n in _names() if n.startswith(incomplete)],
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="DIR", help="Copy into this folder; by default, into this one."
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
+    quiet: Quiet = False,
+) -> None:
+    """List the examples, or copy them with the files that belong to them.
+
+    Without arguments, the examples are listed. With names or with --output they are copied.
+    """
+    with user_errors():
+        if not names and output is None:
+            for name in _names():
+                typer.echo(f"{name:18}  {_about(name)}")
+            typer.echo("copy all with: ehlectric examples -o DIR; one with: ehlectric examples NAME")
+            return
+        wanted = [_known(name) for name in names] if names else _names()
+        files = list(dict.fromkeys(file for name in wanted for file in _needed(f"{name}.toml")))
+        target = output or Path()
+
+        from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special
+        from ehlectric.runtime.folders import alone_in
+
+        for file in files:
+            refuse_special(target / file)
+            if (target / file).exists() and not force:
+                raise InputError(target / file, "already exists; use --force to overwrite")
+        with alone_in(target, files):
+            for file in files:
+                clear_left_behind(prepare((target / file).parent))
+                _copy(examples_folder() / file, target / file)
+    if not quiet:
+        echo_files(target / file for file in files)
+
+
+def _names() -> list[str]:
+    """Names of the examples, without the suffix of their files."""
+    return sorted(path.stem for path in examples_folder().glob("*.toml"))
+
+
+def _known(name: str) -> str:
+    """Name of an example, also where its suffix was typed.
+
+    Raises
+    ------
+    InputError
+        If there is no such example.
+    """
+    stem = name.removesuffix(".toml")
+    if stem not in _names():
+        raise InputError("examples", got=shown(name), takes=f"one of {', '.join(_names())}")
+    return stem
+
+
+def _about(name: str) -> str:
+    """One line about an example: its title."""
+    table = tomllib.loads((examples_folder() / f"{name}.toml").read_text(encoding="utf-8"))
+    return str(table.get("title", ""))
+
+
+def _needed(file: str) -> Iterator[str]:
+    """File of an example and the files that it names, relative to the folder of the examples."""
+    yield file
+    table = tomllib.loads((examples_folder() / file).read_text(encoding="utf-8"))
+    if file in _MEASUREMENTS:
+        yield _MEASUREMENTS[file]
+    if isinstance(table.get("case"), str):
+        yield from _needed(table["case"])
+    for surface in table.get("roughness", ()):
+        if "file" in surface:
+            yield surface["file"]
+            yield f"{_SURFACES}/README.md"  # licence of the measured surfaces
+
+
+def _write_with_schema(source: Path, path: Path) -> Path:
+    """Write a template whose first line names the schema of its kind, and the schema beside it."""
+    from ehlectric.commands.write_commands import schema_text
+    from ehlectric.runs.file_kinds import kind_of_tables
+    from ehlectric.runtime.files import refuse_special, write
+
+    text = source.read_text(encoding="utf-8")
+    kind = kind_of_tables(tomllib.loads(text)) or "contact"
+    kind = "contact" if kind == "motion" else kind
+    beside = path.parent / f"ehlectric-{kind}.schema.json"
+    refuse_special(beside)
+    write(beside, schema_text(kind).encode())
+    write(path, f"#:schema ./{beside.name}\n{text}".encode())
+    return beside
+
+
+def _copy(source: Path, target: Path) -> None:
+    from ehlectric.runtime.files import write
+
+    write(target, source.read_bytes())

@@ -1,0 +1,421 @@
+"""The commands that solve a sweep, and that look at one: sweep, map and sensitivity."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ehlectric.commands.options import (
+    Formats,
+    Look,
+    Output,
+    Quiet,
+    Style,
+    figure_options,
+    file_argument,
+    files_ending,
+)
+from ehlectric.commands.terminal import (
+    NOT_CONVERGED,
+    echo_files,
+    print_rows,
+    print_table,
+    print_verdict,
+    refuse_failure,
+    say,
+    user_errors,
+    warn,
+)
+from ehlectric.errors import InputError, LostError, ResultWarning, WriteError, shown
+from ehlectric.runtime.memory import is_out_of_memory, out_of_memory
+from ehlectric.runtime.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from ehlectric.sweep.result import SweepResults
+    from ehlectric.sweep.sweep_inputs import Sweep
+
+
+# Time between two lines of progress where stderr is not a terminal [s].
+_EVERY = 15.0
+
+# Largest number of processes.
+_MOST_WORKERS = 1024
+
+
+def sweep(
+    sweep_file: Annotated[Path, file_argument("FILE", "Sweep file, in TOML.", ".toml")],
+    output: Output = Path("sweep"),
+    workers: Annotated[
+        str | None,
+        typer.Option(
+            metavar="N",
+            help="Solve in this number of processes; without it, in as many as there are cores.",
+            show_default=False,
+        ),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help='Solve on the Dask cluster with this address, such as "tcp://10.0.0.1:8786".',
+            show_default=False,
+        ),
+    ] = None,
+    formats: Formats = None,
+    style: Style = "screen",
+    plots: Annotated[
+        bool,
+        typer.Option(
+            "--plots",
+            help="Draw maps and lines over one or two varied keys, or the sensitivity. --format implies it.",
+        ),
+    ] = False,
+    quiet: Annotated[
+        bool,
+        typer.Option("--quiet", "-q", help="Print no table and no progress, only one line on what failed."),
+    ] = False,
+) -> None:
+    """Solve a case over varied inputs; write sweep.sqlite, sweep.csv and sweep.nc.
+
+    With pyarrow installed, sweep.parquet is written too. Each point is saved as it finishes: if the sweep is
+    interrupted, run the same command to resume it. Figures come from ehlectric map and ehlectric
+    sensitivity, or from --plots.
+
+    Exit status 0: done; points that failed are counted. 2: the input is wrong. 3: no point was solved, or
+    memory or workers were lost.
+    """
+    with user_errors():
+        options = {"workers": _workers(workers, scheduler), "scheduler": scheduler}
+        look = figure_options(formats, style)
+
+        from ehlectric.runs import by_kind
+        from ehlectric.runs.file_kinds import expect
+
+        expect(sweep_file, "sweep")
+        asked = by_kind.read_sweep_file(sweep_file)
+        if not quiet:
+            _tell_what_lacks(asked)
+        with _tell_where_it_stops(output) as begun, _shown(begun, quiet=quiet) as progress:
+            outcome = by_kind.RUNS["sweep"].run(asked, output, progress, **options)
+        wanted = (plots or bool(formats)) and outcome.converged
+        drawn, told = _drawn(output, look) if wanted else ((), ())
+    if not quiet:
+        from ehlectric.sweep.sweep_verdict import sweep_verdict
+        from ehlectric.tables.sweep_summary import sweep_rows
+
+        print_rows(sweep_rows(outcome.result))
+        echo_files((*outcome.files, *drawn))
+        warn((*outcome.warnings, *told))
+        print_verdict(sweep_verdict(outcome.result))
+    elif outcome.converged:
+        warn(_in_short(outcome.result))
+    refuse_failure(outcome)
+
+
+def _tell_what_lacks(sweep: Sweep) -> None:
+    """Warn, before points are solved, of a point of a sweep of drives that cannot be computed."""
+    from ehlectric.cases.drive_case import DriveCase
+    from ehlectric.sweep.engine import lacking_point
+    from ehlectric.sweep.run import planned_points
+
+    drives = isinstance(sweep.case, DriveCase)
+    lacking = lacking_point(sweep, planned_points(sweep)) if drives else None
+    if lacking is not None:
+        warn([f"{lacking}; points like it will fail"])
+
+
+def _drawn(folder: Path, look: Look) -> tuple[tuple[Path, ...], tuple[ResultWarning | str, ...]]:
+    """Figures of a sweep and their warnings; without figures, the reason as a warning."""
+    from ehlectric.commands.draw_commands import load_and_draw
+
+    try:
+        return load_and_draw(folder, folder, **look)
+    except WriteError:
+        raise
+    except InputError as error:
+        return (), (f"no figures: {error}",)
+
+
+def _workers(text: str | None, scheduler: str | None) -> int | None:
+    """Number of processes of the option --workers; None where it is not given."""
+    if text is None:
+        return None
+    if scheduler is not None:
+        raise InputError.worded("--workers", "cannot be combined with --scheduler")
+    digits = len(str(_MOST_WORKERS))
+    if not text.isdecimal() or len(text) > digits or not 1 <= int(text) <= _MOST_WORKERS:
+        raise InputError("--workers", got=shown(text), takes=f"a whole number from 1 to {_MOST_WORKERS}")
+    return int(text)
+
+
+class _Begun:
+    """State of a sweep: ``yet`` is true when points are being solved."""
+
+    yet = False
+
+
+@contextmanager
+def _tell_where_it_stops(output: Path) -> Iterator[_Begun]:
+    """Context of a sweep; if it is interrupted or loses its workers, one line tells how much is saved."""
+    begun = _Begun()
+
+    def tell(why: str) -> None:
+        from ehlectric.sweep.store import saved_points
+
+        # Read from the file: the progress may not have been called for the last points yet.
+        saved, points = saved_points(output)
+        text = f"{saved} of {points} points are saved in {output}; the same command resumes the sweep"
+        say(f"{why}; {text}", err=True)
+
+    try:
+        yield begun
+    except LostError as error:
+        tell(f"error: the workers were lost: {error}")
+        raise typer.Exit(NOT_CONVERGED) from None
+    except InputError:
+        raise
+    except Exception as error:
+        if not (begun.yet and is_out_of_memory(error)):
+            raise
+        tell(f"error: {out_of_memory(error)}")
+        raise typer.Exit(NOT_CONVERGED) from None
+    except (KeyboardInterrupt, SystemExit):
+        if begun.yet:
+            tell("interrupted")
+        raise
+
+
+@contextmanager
+def _shown(begun: _Begun, *, quiet: bool) -> Iterator[Progress]:
+    """Context with progress on stderr: a bar on a terminal, else a line now and then."""
+    with nullcontext(silent) if quiet else _bar() if sys.stderr.isatty() else _lines() as show:
+
+        def progress(done: int, of: int, text: str) -> None:
+            begun.yet = True
+            show(done, of, text)
+
+        yield progress
+
+
+@contextmanager
+def _lines() -> Iterator[Progress]:
+    """Context with progress as plain lines, for a log file."""
+    started, first, last = 0.0, 0, time.monotonic()
+
+    def show(done: int, of: int, text: str) -> None:
+        nonlocal started, first, last
+        now = time.monotonic()
+        if not started:
+            started, first = now, done
+        if now - last < _EVERY:
+            return
+        last = now
+        rate = (done - first) / max(now - started, 1e-9)
+        left = f", {rate:.3g} a second, {_duration((of - done) / rate)} left" if rate else ""
+        typer.echo(f"{done} of {of} points{left}" + (f", {text}" if text else ""), err=True)
+
+    yield show
+
+
+@contextmanager
+def _bar() -> Iterator[Progress]:
+    """Context with a bar that shows the rate of this run and the time left."""
+    from rich import progress
+    from rich.console import Console
+
+    columns = (
+        progress.BarColumn(),
+        progress.MofNCompleteColumn(),
+        progress.TextColumn("{task.fields[rate]}"),
+        progress.TimeRemainingColumn(),
+        progress.TextColumn("{task.description}"),
+    )
+    with progress.Progress(*columns, console=Console(stderr=True)) as bar:
+        tasks: list[progress.TaskID] = []
+
+        def show(done: int, of: int, text: str) -> None:
+            if not tasks:
+                tasks.append(bar.add_task(text, total=of, completed=done, rate=""))
+            speed = bar.tasks[0].speed
+            rate = "" if speed is None else f"{speed:.3g}/s"
+            bar.update(tasks[0], completed=done, description=text, rate=rate)
+
+        yield show
+
+
+def _duration(seconds: float) -> str:
+    """Time as hours, minutes and seconds."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}"
+
+
+def _in_short(results: SweepResults) -> Iterator[str]:
+    """One line with the numbers of points that are not usable, where there are any."""
+    counts = Counter(point.status for point in results.points)
+    parts = [f"{counts[status]} {status}" for status in ("failed", "not converged") if counts[status]]
+    if doubtful := sum(results.doubtful):
+        parts.append(f'{doubtful} solved but "do not use"')
+    if parts:
+        yield f"of {len(results.points)} points {', '.join(parts)}; sweep.csv says why"
+
+
+def _varied_keys(ctx: typer.Context, incomplete: str) -> list[str]:
+    """Varied keys of the sweep in the folder that is typed already, for the completion of a shell."""
+    from ehlectric.sweep.store import read_sweep
+
+    try:
+        results = read_sweep(ctx.params["folder"])
+    except (InputError, KeyError, TypeError):
+        return []
+    return [key for key in (*results.axes, *results.ranges) if key.startswith(incomplete)]
+
+
+SweepFolder = Annotated[
+    Path,
+    typer.Argument(
+        metavar="DIR",
+        help="Folder of a sweep, finished or not.",
+        show_default=False,
+        autocompletion=files_ending(),
+    ),
+]
+Value = Annotated[
+    str,
+    typer.Option(
+        metavar="KEY",
+        help="Draw this key of summary.json, such as film.minimum_thickness. Without it, the breakdown "
+        "voltage is drawn.",
+        show_default=False,
+    ),
+]
+OtherFolder = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="DIR", help="Write into this folder, not into that of the sweep."),
+]
+
+
+def draw_maps(
+    folder: SweepFolder,
+    x: Annotated[
+        str,
+        typer.Option(
+            metavar="KEY", help="Draw this varied key along the horizontal axis.", autocompletion=_varied_keys
+        ),
+    ],
+    y: Annotated[
+        str | None,
+        typer.Option(
+            metavar="KEY",
+            help="Draw this varied key along the vertical axis. Without it there are lines and no map.",
+            autocompletion=_varied_keys,
+        ),
+    ] = None,
+    value: Value = "",
+    at: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KEY=VALUE",
+            help='Hold a further varied key at a value, as in "bearing.temperature=70 degC". Repeat the '
+            "option for several keys. The cut is part of the names of the figures.",
+        ),
+    ] = None,
+    output: OtherFolder = None,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+) -> None:
+    """Draw a value of a sweep as a map and as lines over one or two varied keys.
+
+    The applied voltage is marked. For a bearing that is swept over its speed only, the capacitance and the
+    breakdown voltage over the speed are drawn too.
+    """
+    with user_errors():
+        held, look = _held(at or []), figure_options(formats, style)
+
+        from ehlectric.figures.figure_names import SPEED_FIGURE_FILES, in_formats, map_files, of_cut
+        from ehlectric.figures.style import style as styled
+        from ehlectric.figures.sweep_figures import save_maps, save_speeds
+        from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+        from ehlectric.sweep.slices import take
+        from ehlectric.sweep.store import read_sweep
+        from ehlectric.sweep.sweep_inputs import main_value
+
+        results, forms = read_sweep(folder), look["formats"]
+        value = value or main_value(results.case)
+        taken = take(results, x, y, value, held)
+        names = in_formats(
+            (*map_files(value, held), *(of_cut(name, held) for name in SPEED_FIGURE_FILES)), forms
+        )
+        with alone_in(output or folder, names, locks=[FIGURE_LOCK]) as target, styled(style):
+            files = save_maps(results, x, y, value, target, at=held, formats=forms)
+            files += save_speeds(results, taken, target, forms, at=held)
+    if not quiet:
+        from ehlectric.figures.sweep_points import held_text
+
+        if taken.at or taken.free:
+            say("at " + held_text(results, taken).removeprefix("at "))
+        echo_files(files)
+
+
+def sensitivity(
+    folder: SweepFolder,
+    value: Value = "",
+    output: OtherFolder = None,
+    formats: Formats = None,
+    style: Style = "screen",
+    quiet: Quiet = False,
+) -> None:
+    """Show which inputs of a Sobol design contribute most to the spread of a value.
+
+    Writes sensitivity.json with the spread and the Sobol indices, and a figure of both. By default the value
+    is the breakdown voltage of a contact, the margin of a bearing with a motor, or the rate of a drive.
+    """
+    with user_errors():
+        look = figure_options(formats, style)
+
+        from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, in_formats
+        from ehlectric.figures.style import style as styled
+        from ehlectric.figures.sweep_figures import save_sensitivity
+        from ehlectric.runs.result_folders import SENSITIVITY
+        from ehlectric.runtime.files import write_json
+        from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+        from ehlectric.sweep.sensitivity import sensitivity as sensitivity_of
+        from ehlectric.sweep.store import read_sweep
+        from ehlectric.sweep.sweep_inputs import ranked_value
+
+        results = read_sweep(folder)
+        indices = sensitivity_of(results, value or ranked_value(results.case))
+        names = in_formats([SENSITIVITY_FIGURE], look["formats"])
+        with alone_in(output or folder, (SENSITIVITY, *names), locks=[FIGURE_LOCK]) as target, styled(style):
+            write_json(target / SENSITIVITY, indices.to_dict())
+            drawn = save_sensitivity(results, indices, target / SENSITIVITY_FIGURE, look["formats"])
+        files = [target / SENSITIVITY, *drawn]
+    if not quiet:
+        from ehlectric.sweep.warnings import sensitivity_warnings
+        from ehlectric.tables.sweep_summary import indices_table, spread_rows
+
+        print_rows(spread_rows(results, indices), results.title)
+        print_table(indices_table(results, indices))
+        echo_files(files)
+        warn(sensitivity_warnings(indices))
+
+
+def _held(options: Sequence[str]) -> dict[str, str]:
+    """Keys and values of the option --at."""
+    held: dict[str, str] = {}
+    for text in options:
+        key, sign, value = (part.strip() for part in text.partition("="))
+        if not (sign and key and value):
+            raise InputError("at", got=shown(text), takes="KEY=VALUE")
+        if key in held:
+            raise InputError("at", got=f"{key} twice", takes="each key once")
+        held[key] = value
+    return held

@@ -1,0 +1,178 @@
+"""The commands that write a result for other programs, its report, and the JSON Schema of a kind of file."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ehlectric.commands.options import Quiet, ResultFile, files_ending, one_of
+from ehlectric.commands.terminal import echo_files, progress_line, user_errors
+from ehlectric.errors import InputError, shown
+
+
+def export(
+    result: ResultFile,
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Write this file. Its name ends in .mat (MATLAB, Octave), .xlsx (spreadsheets) or .vtkhdf "
+            "(ParaView).",
+            show_default=False,
+            autocompletion=files_ending(".mat", ".xlsx", ".vtkhdf"),
+        ),
+    ],
+    quiet: Quiet = False,
+) -> None:
+    """Write a result for other programs: MATLAB and Octave, spreadsheets, or ParaView.
+
+    A .mat file has all arrays and the summary, a workbook the summary, the inputs and the table of the
+    result, and a .vtkhdf file the film and the field of a contact. All are in SI units.
+
+    Exit status 0: written. 2: the result has no such form, or the file cannot be written.
+    """
+    with user_errors():
+        from ehlectric.runs.exports import export as write
+        from ehlectric.runs.file_kinds import refuse_input
+
+        refuse_input(result)
+        file = write(result, output)
+    if not quiet:
+        echo_files([file])
+
+
+_FORMATS = ("html", "pdf")
+
+
+def report(
+    result: ResultFile,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Write the report into this file, which ends in .html or .pdf, and not beside the result.",
+            autocompletion=files_ending(".html", ".pdf"),
+        ),
+    ] = None,
+    formats: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--format",
+            metavar="FORMAT",
+            help="Write the report as html or as pdf. Without this option, both are written.",
+            show_default=False,
+            autocompletion=one_of(*_FORMATS),
+        ),
+    ] = None,
+    quiet: Quiet = False,
+) -> None:
+    """Write the report of a result: report.html, which needs no other file, and report.pdf.
+
+    It holds the verdict, the warnings, the key numbers, all figures, every input with its source, what the
+    model leaves out, versions, and the input file. The result of a contact, of moving roughness, of a
+    bearing, of a drive or of a sweep.
+    """
+    with user_errors():
+        wanted = _wanted(output, formats)
+
+        from ehlectric.report.written_report import write_report
+        from ehlectric.runs.file_kinds import refuse_input
+        from ehlectric.runs.result_folders import stored_result
+        from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+
+        refuse_input(result)
+        with progress_line(shown=not quiet) as progress:
+            progress(0, 0, "drawing figures")
+            if output is not None:
+                files = write_report(result, output)
+            else:
+                file = stored_result(result)
+                names = [f"report.{name}" for name in wanted]
+                with alone_in(file.parent, names, locks=[FIGURE_LOCK]) as folder:
+                    files = write_report(file, *(folder / name for name in names))
+    if not quiet:
+        echo_files(files)
+
+
+def _wanted(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:
+    """Formats that are wanted.
+
+    Raises
+    ------
+    InputError
+        If there is no such format, or a file is named too, whose ending decides.
+    """
+    for name in formats or ():
+        if name not in _FORMATS:
+            raise InputError("--format", got=shown(name), takes=f"one of {', '.join(_FORMATS)}")
+    if output is not None and formats:
+        raise InputError(
+            "--format",
+            "cannot be combined with --output",
+            takes="one of them: the file ends in .html or .pdf",
+        )
+    return tuple(dict.fromkeys(formats or _FORMATS))
+
+
+KINDS = ("contact", "bearing", "drive", "sweep")
+
+
+def schema(
+    kind: Annotated[
+        str,
+        typer.Argument(
+            metavar="KIND",
+            help=f"Kind of the file: {', '.join(KINDS)}.",
+            autocompletion=one_of(*KINDS),
+        ),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Write the schema into this file; by default, it is printed.",
+            autocompletion=files_ending(".json"),
+        ),
+    ] = None,
+) -> None:
+    """Print the JSON Schema of a kind of file: keys with their texts, units, bounds and examples.
+
+    An editor completes and explains the keys of a TOML file whose first line is "#:schema", and the path of
+    the schema. ehlectric init writes both.
+    """
+    with user_errors():
+        text = schema_text(kind)
+        if output is not None:
+            from ehlectric.runtime.files import clear_left_behind, prepare, refuse_special, write
+
+            refuse_special(output)
+            clear_left_behind(prepare(output.parent))
+            write(output, text.encode())
+    if output is None:
+        typer.echo(text, nl=False)
+    else:
+        echo_files([output])
+
+
+def schema_text(kind: str) -> str:
+    """Text of the JSON Schema of a kind of file, made from the tables by which files are checked.
+
+    Raises
+    ------
+    InputError
+        If there is no such kind.
+    """
+    if kind not in KINDS:
+        raise InputError("KIND", got=shown(kind), takes=f"one of {', '.join(KINDS)}")
+    from ehlectric.runs.json_schema import schema_of
+
+    return json.dumps(schema_of(kind), indent=1, ensure_ascii=False) + "\n"

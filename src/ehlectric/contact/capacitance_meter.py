@@ -1,0 +1,463 @@
+"""Capacitance that a meter at the two bodies of a contact reads: film, outer gap, coating and parallel
+parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from scipy.constants import epsilon_0
+
+from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.cases.contact_inputs import Contact
+from ehlectric.cases.meter_inputs import Meter, body_radii
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.discharge.film_capacitance import LEAST_RATIO, Layers, zone_capacitances
+from ehlectric.discharge.outer_gap import Bodies, Body, Outside, around_line, around_point
+from ehlectric.errors import ResultWarning
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.field.poisson import ATOM
+from ehlectric.field.zones import line_zone_areas, point_zone_areas
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.formulas.hertz import dry_contact
+
+Ring = tuple[float, float]
+_EVERYWHERE: Ring = (0.0, np.inf)
+
+
+def bodies_of(contact: Contact) -> Bodies:
+    """Bodies of a contact; if the case gives reduced radii only, a body with these radii on a plane."""
+    first, second = (Body(1.0 / along, 1.0 / across) for along, across in body_radii(contact))
+    return Bodies.of(first, second)
+
+
+def body_text(contact: Contact) -> str:
+    """Words for the two bodies that face each other outside the film.
+
+    Examples
+    --------
+    >>> given = {"reduced_radius": "10 mm", "reduced_modulus": "226 GPa", "load_per_length": 1e5}
+    >>> body_text(Contact.from_dict(given | {"entrainment_speed": 1.0}))
+    'cylinder of 10 mm on a plane'
+    """
+    return " on a ".join(_words(*radii) for radii in _smaller_first(contact))
+
+
+def _smaller_first(contact: Contact) -> Iterator[tuple[float, float]]:
+    yield from sorted(body_radii(contact), key=lambda radii: -1.0 / radii[0])
+
+
+def _words(along: float, across: float) -> str:
+    """Words for a body with these radii [m]."""
+    if np.isinf(along) and np.isinf(across):
+        return "plane"
+    if np.isinf(across):
+        return f"{'hollow ' if along < 0.0 else ''}cylinder of {abs(along) * 1e3:.4g} mm"
+    if along == across > 0.0:
+        return f"ball of {along * 1e3:.4g} mm"
+    return f"body of {along * 1e3:.4g} mm along and {across * 1e3:.4g} mm across entrainment"
+
+
+def gap_around(
+    contact: Contact,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    meter: Meter,
+    length: float | None,
+    ring: Ring = _EVERYWHERE,
+) -> tuple[Outside, float]:
+    """Gap between the bodies outside the domain of a film.
+
+    Parameters
+    ----------
+    contact : Contact
+        Table of the contact, for the radii of both bodies.
+    conditions : Conditions or PointConditions
+        Operating conditions of the contact.
+    film : Film or PointFilm
+        Film whose domain is left out, and whose thickness the gap continues.
+    meter : Meter
+        Inputs of the meter, for the width of the bodies.
+    length : float or None
+        Length across entrainment of a line contact [m].
+    ring : tuple of float
+        Smallest and largest distance from the contact of the part that is wanted [m].
+
+    Returns
+    -------
+    outside : Outside
+        Gap at nodes outside the domain.
+    mismatch : float
+        Largest relative difference between gap and film at the edge of the domain; zero for a line contact.
+    """
+    bodies = bodies_of(contact)
+    if isinstance(film, PointFilm):
+        assert isinstance(conditions, PointConditions)
+        radii, modulus = (conditions.radius_x, conditions.radius_y), conditions.reduced_modulus
+        dry = dry_contact(conditions.load, *radii, modulus)
+        nodes: tuple[Array, Array, Array] = (film.x, film.y, film.thickness)
+        return around_point(bodies, dry, modulus, nodes, width=meter.length, ring=ring)
+    assert isinstance(conditions, Conditions) and length is not None
+    ends = film.x, film.thickness
+    half_width, radius = conditions.half_width, conditions.reduced_radius
+    return around_line(bodies, half_width, radius, ends, length=length, ring=ring), 0.0
+
+
+@dataclass(frozen=True)
+class MeterProfile:
+    """Capacitance between the bodies up to a distance from the contact, without what lies in parallel.
+
+    Attributes
+    ----------
+    radius : ndarray, shape (n,)
+        Distance from the middle of the contact, increasing [m].
+    filled, air, oil : ndarray, shape (n,)
+        Capacitance up to this distance, with the gap outside the domain filled as the case says, with air,
+        and with oil [F].
+    edge : float
+        Smallest distance of the edge of the film's domain from the contact [m].
+    """
+
+    radius: Array
+    filled: Array
+    air: Array
+    oil: Array
+    edge: float
+
+
+def meter_profile(contact: Metered, distances: int = 80) -> MeterProfile:
+    """Capacitance between the bodies of a solved contact up to a distance from it.
+
+    Parameters
+    ----------
+    contact : Metered
+        Solved contact, whose case has a table ``meter``.
+    distances : int
+        Number of distances, in equal ratios.
+
+    Returns
+    -------
+    MeterProfile
+        Capacitance [F] over distance [m]. The last values are those of the whole gap.
+    """
+    coating = contact.layers.coating
+    near, within = contact.nodes()
+    outside = {
+        "filled": contact.filled(coating),
+        "air": contact.outside(1.0, coating),
+        "oil": contact.outside(contact.case.oil.relative_permittivity, coating),
+    }
+    edges = [abs(float(end)) for axis in contact.film.axes for end in (axis[0], axis[-1])]
+    farthest = max(float(np.max(at)) for at, _ in ((near, within), *outside.values()))
+    radius = np.geomspace(0.05 * min(contact.conditions.semi_axes), farthest, distances)
+    inner = _up_to(radius, near, within)
+    return MeterProfile(
+        radius=radius,
+        **{name: inner + _up_to(radius, at, values) for name, (at, values) in outside.items()},
+        edge=min(edges),
+    )
+
+
+def _up_to(radius: Array, at: Array, values: Array) -> Array:
+    """Sum of the values at distances up to each radius; at the distance of a node half of its value."""
+    order = np.argsort(at)
+    sums = np.cumsum(values[order])
+    total: Array = np.interp(radius, at[order], sums - 0.5 * values[order], left=0.0)
+    return np.where(radius >= at[order][-1], sums[-1], total)
+
+
+@dataclass(frozen=True)
+class MeterReading:
+    """Capacitance that a meter reads at the two bodies of a contact, and its parts, SI units.
+
+    A value is None if the case lacks the input that it needs. The capacitances of the film's domain, of the
+    gap outside and in parallel add up to ``capacitance``; a coating is in each of the first two.
+
+    Attributes
+    ----------
+    capacitance : float
+        Capacitance that the meter reads [F].
+    capacitance_air, capacitance_oil : float
+        The same where air or oil fills the whole gap outside the film's domain [F].
+    capacitance_domain, capacitance_hertz : float
+        Capacitance of the film's domain, and of the Hertz zone in it [F].
+    capacitance_outside : float
+        Capacitance between the bodies outside the domain, filled as the case says [F].
+    capacitance_outside_air, capacitance_outside_oil : float
+        Capacitance outside the domain in air and in oil [F].
+    parallel_capacitance : float or None
+        Capacitance in parallel [F].
+    share_of_hertz, share_of_domain, share_of_outside : float
+        Parts of the reading that are due to the Hertz zone, the domain and the gap outside, dimensionless.
+    roughness_factor : float or None
+        Capacitance of the domain over that with smooth surfaces, dimensionless.
+    film_ratio : float or None
+        Minimum film thickness over Rq, dimensionless.
+    capacitance_uncoated : float or None
+        Capacitance between the bodies without the coating [F].
+    coating_capacitance : float or None
+        Single capacitor in series with ``capacitance_uncoated`` that has the effect of the coating [F].
+    coating_voltage_share, film_voltage_share : float or None
+        Parts of the voltage on the coating and on the film at the minimum film, dimensionless.
+    film_breakdown_voltage : float or None
+        Voltage between the bodies at which the film breaks down under its share [V].
+    coating_breakdown_voltage : float or None
+        Voltage at which the coating alone breaks down [V].
+    breakdown_voltage : float or None
+        Voltage between the bodies at which both have broken down [V].
+    length : float or None
+        Length of a line contact, or given width of a point contact [m].
+    bodies : str
+        Words for the bodies that face each other outside the domain.
+    mismatch : float
+        Largest relative difference between film and outer gap at the edge of the domain.
+    """
+
+    capacitance: float
+    capacitance_air: float
+    capacitance_oil: float
+    capacitance_domain: float
+    capacitance_hertz: float
+    capacitance_outside: float
+    capacitance_outside_air: float
+    capacitance_outside_oil: float
+    parallel_capacitance: float | None
+    share_of_hertz: float
+    share_of_domain: float
+    share_of_outside: float
+    roughness_factor: float | None
+    film_ratio: float | None
+    capacitance_uncoated: float | None
+    coating_capacitance: float | None
+    coating_voltage_share: float | None
+    film_voltage_share: float | None
+    film_breakdown_voltage: float | None
+    coating_breakdown_voltage: float | None
+    breakdown_voltage: float | None
+    length: float | None
+    bodies: str
+    mismatch: float
+
+    def summary(self) -> dict[str, Any]:
+        """All values, as in ``meter`` of summary.json."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """Capacitances of one contact with its coating, or without it [F]."""
+
+    domain: float
+    hertz: float
+    air: float
+    oil: float
+    outside: float
+
+
+@dataclass(frozen=True)
+class Metered:
+    """Solved contact of a case with a table ``meter``.
+
+    Attributes
+    ----------
+    case : Case
+        Case of the contact.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film, field : Film and Field, or PointFilm and PointField
+        Solution of the contact.
+    """
+
+    case: Case
+    conditions: Conditions | PointConditions
+    film: Film | PointFilm
+    field: Field | PointField
+
+    @property
+    def meter(self) -> Meter:
+        """Table ``meter`` of the case."""
+        assert self.case.meter is not None
+        return self.case.meter
+
+    @property
+    def length(self) -> float | None:
+        """Length across entrainment, of the meter or of the discharge [m]."""
+        discharge = self.case.discharge
+        return self.meter.length or (None if discharge is None else discharge.length)
+
+    @property
+    def layers(self) -> Layers:
+        """Coating and roughness of the meter's table."""
+        coating = self.meter.coating
+        return Layers(0.0 if coating is None else coating.thickness_in_vacuum, self.meter.rq or 0.0)
+
+    def zones(self, part: Film | PointFilm | Field | PointField) -> dict[str, Array]:
+        """Width [m] or area [m^2] of each zone at the nodes of the film, or at the columns of the field."""
+        semi_axes = self.conditions.semi_axes
+        areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
+        return dict(areas(part.axes, *semi_axes))
+
+    def domain(self, layers: Layers) -> dict[str, float]:
+        """Capacitance of each zone of the film's domain [F]."""
+        film, field, zones = self.film, self.field, (self.zones(self.film), self.zones(self.field))
+        oil = self.case.oil.permittivity(film.pressure, film.density)
+        discharge = self.case.discharge
+        outlet = "full" if discharge is None else discharge.outlet
+        by_zone = zone_capacitances(film, field, zones, oil, layers)[outlet]
+        across = self.length if isinstance(film, Film) else 1.0
+        assert across is not None
+        return {name: across * value for name, value in by_zone.items()}
+
+    def nodes(self) -> tuple[Array, Array]:
+        """Distance from the contact [m] and capacitance [F] of the film's nodes, as of a thin gap."""
+        film = self.film
+        oil = self.case.oil.permittivity(film.pressure, film.density)
+        thin = self.layers.density(epsilon_0 * oil / np.maximum(film.thickness, ATOM), oil)
+        thin = thin * sum(self.zones(film).values())
+        at = np.sqrt(sum(axis**2 for axis in np.meshgrid(*film.axes, indexing="ij")))
+        # The solved field, and gas in the outlet, change the sum by little; the places keep their shares.
+        return at.ravel(), thin.ravel() * (sum(self.domain(self.layers).values()) / float(np.sum(thin)))
+
+    def outside(self, permittivity: float, coating: float, ring: Ring = (0.0, np.inf)) -> tuple[Array, Array]:
+        """Distance from the contact [m] and capacitance [F] of nodes outside the domain, in one medium."""
+        gap, _ = gap_around(self.case.contact, self.conditions, self.film, self.meter, self.length, ring)
+        return gap.radius, gap.capacitances(permittivity, coating)
+
+    def filled(self, coating: float) -> tuple[Array, Array]:
+        """Distance [m] and capacitance [F] of nodes outside the domain, filled as the case says."""
+        oil, fill, radius = self.case.oil.relative_permittivity, self.meter.fill, self.meter.oil_radius
+        if radius is not None:
+            parts = self.outside(oil, coating, (0.0, radius)), self.outside(1.0, coating, (radius, np.inf))
+            return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
+        assert fill is not None
+        at, wet = self.outside(oil, coating)
+        return at, fill * wet + (1.0 - fill) * self.outside(1.0, coating)[1]
+
+    def parts(self, layers: Layers) -> _Parts:
+        """Capacitances with the given coating and roughness [F]."""
+        zones, oil = self.domain(layers), self.case.oil.relative_permittivity
+        return _Parts(
+            domain=sum(zones.values()),
+            hertz=zones["hertz"],
+            air=float(np.sum(self.outside(1.0, layers.coating)[1])),
+            oil=float(np.sum(self.outside(oil, layers.coating)[1])),
+            outside=float(np.sum(self.filled(layers.coating)[1])),
+        )
+
+    @property
+    def film_share(self) -> float:
+        """Part of the voltage that lies on the film where it is thinnest, dimensionless."""
+        film = self.film
+        permittivity = self.case.oil.permittivity(film.pressure, film.density)
+        thinnest = np.argmin(film.thickness)
+        return float(self.layers.film_share(epsilon_0 * permittivity.flat[thinnest] / film.minimum_thickness))
+
+
+def meter_reading(contact: Metered, film_breakdown: float | None) -> MeterReading:
+    """Capacitance that a meter at the two bodies of a solved contact reads.
+
+    Parameters
+    ----------
+    contact : Metered
+        Solved contact, whose case has a table ``meter``.
+    film_breakdown : float or None
+        Breakdown voltage of the film alone [V].
+
+    Returns
+    -------
+    MeterReading
+        Capacitance and its parts, SI units.
+    """
+    meter, layers = contact.meter, contact.layers
+    parts, beside = contact.parts(layers), meter.parallel_capacitance or 0.0
+    whole = parts.domain + parts.outside + beside
+    smooth = sum(contact.domain(Layers(coating=layers.coating)).values())
+    _, mismatch = gap_around(contact.case.contact, contact.conditions, contact.film, meter, contact.length)
+    return MeterReading(
+        capacitance=whole,
+        capacitance_air=parts.domain + parts.air + beside,
+        capacitance_oil=parts.domain + parts.oil + beside,
+        capacitance_domain=parts.domain,
+        capacitance_hertz=parts.hertz,
+        capacitance_outside=parts.outside,
+        capacitance_outside_air=parts.air,
+        capacitance_outside_oil=parts.oil,
+        parallel_capacitance=meter.parallel_capacitance,
+        share_of_hertz=parts.hertz / whole,
+        share_of_domain=parts.domain / whole,
+        share_of_outside=parts.outside / whole,
+        roughness_factor=None if meter.rq is None else parts.domain / smooth,
+        film_ratio=contact.film.minimum_thickness / meter.rq if meter.rq else None,
+        **_coating(contact, parts, film_breakdown),
+        length=contact.length,
+        bodies=body_text(contact.case.contact),
+        mismatch=mismatch,
+    )
+
+
+def _coating(contact: Metered, parts: _Parts, film_breakdown: float | None) -> dict[str, float | None]:
+    """Values of a coating; None without one."""
+    coating, found = contact.meter.coating, dict.fromkeys(_OF_COATING)
+    values: dict[str, float | None] = dict(found)
+    if coating is None:
+        return values | {"film_breakdown_voltage": film_breakdown, "breakdown_voltage": film_breakdown}
+    bare = contact.parts(Layers(rq=contact.layers.rq))
+    with_coating, without = parts.domain + parts.outside, bare.domain + bare.outside
+    share = contact.film_share
+    own = None if coating.strength is None else coating.strength * coating.thickness
+    film = None if film_breakdown is None else film_breakdown / share
+    both = None
+    if own is not None and film is not None and film_breakdown is not None:
+        # Either part breaks down first, and the whole voltage then lies on the other one.
+        both = min(max(film, own), max(own / (1.0 - share), film_breakdown))
+    return values | {
+        "capacitance_uncoated": without,
+        "coating_capacitance": 1.0 / (1.0 / with_coating - 1.0 / without),
+        "coating_voltage_share": 1.0 - share,
+        "film_voltage_share": share,
+        "film_breakdown_voltage": film,
+        "coating_breakdown_voltage": own,
+        "breakdown_voltage": both,
+    }
+
+
+_OF_COATING = (
+    "capacitance_uncoated",
+    "coating_capacitance",
+    "coating_voltage_share",
+    "film_voltage_share",
+    "film_breakdown_voltage",
+    "coating_breakdown_voltage",
+    "breakdown_voltage",
+)
+
+
+def meter_warnings(case: Any, film: Film | PointFilm) -> Iterator[ResultWarning]:
+    """Warnings of a film too thin for a roughness factor, and of a coating that the field does not have."""
+    meter = case.meter if isinstance(case, Case) else None
+    if meter is None or not film.converged:
+        return
+    if meter.coating is not None:
+        yield ResultWarning(
+            "coating-in-series",
+            "field and discharge are those of the film alone, under the potentials of [electric]; the "
+            "voltage between the coated bodies is higher, by 1/meter.film_voltage_share",
+        )
+    elif meter.rq:
+        yield from _thin_for(meter.rq, film)
+
+
+def _thin_for(rq: float, film: Film | PointFilm) -> Iterator[ResultWarning]:
+    ratio = film.minimum_thickness / rq
+    if ratio < LEAST_RATIO:
+        yield ResultWarning(
+            "roughness-factor-rough",
+            f"the minimum film is {ratio:.2g} times meter.rq: below {LEAST_RATIO:g} the surfaces touch, and "
+            "the roughness factor of the capacitance is an order of magnitude only; solve the rough contact "
+            "with [[roughness]]",
+        )

@@ -1,0 +1,468 @@
+"""Heat and shear of the film of a contact: input of the solver; numbers, files and warnings of results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from ehlectric.cases.case import Case
+from ehlectric.cases.case_oil import CELSIUS, Lubricant
+from ehlectric.cases.film_inputs import thermal_properties
+from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
+from ehlectric.contact.problems import Setup
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.film.hot_oil import Body, HeatedFilm, HotOil, Physics, Thermal
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.film.shear_laws import UNBOUNDED, Rheology
+from ehlectric.lubricant.oil import Oil
+
+# Keys of the temperatures of the oil in the inlet and of both bodies.
+_TEMPERATURES = ("contact.temperature", "contact.temperature_1", "contact.temperature_2")
+
+
+def physics_of(case: Case | Setup, conditions: Conditions | PointConditions) -> Physics | None:
+    """Heat and shear of the film of a contact; None for an isothermal Newtonian one.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact. A setup without a case has no heat and no shear.
+    conditions : Conditions or PointConditions
+        Operating conditions of the contact.
+
+    Returns
+    -------
+    Physics or None
+        Rheology, speeds, bodies and oil over temperature, SI units.
+
+    Raises
+    ------
+    InputError
+        If a surface moves against entrainment in a thermal film, or the oil has no values at its
+        temperatures.
+
+    Examples
+    --------
+    >>> from ehlectric.contact.conditions import resolve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 4.0}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "slide_to_roll_ratio": 0.5}
+    >>> oil = {"base": "paper", "eyring_stress": "5 MPa"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": oil, "film": {"rheology": "eyring"}})
+    >>> found = physics_of(case, resolve(case))
+    >>> found.speeds, found.rheology.constants
+    ((5.0, 3.0), {'eyring_stress': 5000000.0})
+    """
+    if not isinstance(case, Case) or case.film is None:
+        return None
+    speed = conditions.entrainment_speed
+    first, second = (speed * ratio for ratio in surface_ratios(conditions.slide_to_roll_ratio))
+    return Physics(
+        rheology=Rheology(case.film.rheology, case.film.constants(case.lubricant)),
+        speeds=(first, second),
+        viscosity=conditions.viscosity,
+        thermal=_thermal(case, conditions, (first, second)) if case.film.thermal else None,
+    )
+
+
+def _thermal(case: Case, conditions: Conditions | PointConditions, speeds: tuple[float, float]) -> Thermal:
+    """Bodies and oil of a thermal film."""
+    contact = case.contact
+    if min(speeds) < 0.0:
+        raise InputError(
+            "contact.slide_to_roll_ratio",
+            got=f"{conditions.slide_to_roll_ratio:g}, at which surface {1 + speeds.index(min(speeds))} moves "
+            "against entrainment",
+            takes="-2 to 2 for a thermal film",
+        )
+    assert contact.temperature is not None
+    inlet = contact.temperature
+    warm = tuple(inlet if own is None else own for own in (contact.temperature_1, contact.temperature_2))
+    bodies = tuple(
+        Body(temperature, **thermal_properties(contact.value(name), f"contact.{name}"))
+        for name, temperature in zip(("body_1", "body_2"), warm, strict=True)
+    )
+    return Thermal(
+        bodies=(bodies[0], bodies[1]),
+        inlet_temperature=inlet,
+        oil=hot_oil(case.lubricant, (inlet, *warm), conditions.max_pressure, _TEMPERATURES),
+    )
+
+
+def heat_summary(heated: HeatedFilm | None) -> dict[str, Any]:
+    """Numbers within the table ``film`` of summary.json; none of an isothermal Newtonian film.
+
+    Parameters
+    ----------
+    heated : HeatedFilm or None
+        Heat and shear of the film.
+
+    Returns
+    -------
+    dict
+        Values in SI units, with the keys of ``contact.heat.keys``.
+    """
+    if heated is None:
+        return {}
+    return {
+        "rheology": heated.rheology,
+        "thermal": heated.thermal,
+        "max_temperature_rise": heated.max_temperature_rise,
+        "temperature_rise_error": heated.temperature_rise_error,
+        "traction_coefficient": heated.traction_coefficient,
+        "rolling_coefficient": heated.rolling_coefficient,
+        "power_loss": heated.power_loss,
+        "energy_imbalance": heated.energy_imbalance,
+        "isothermal": {
+            "minimum_thickness": heated.isothermal_minimum_thickness,
+            "central_thickness": heated.isothermal_central_thickness,
+        },
+    }
+
+
+# Hertz pressure from which the traction of a Newtonian film is meaningless [Pa]: at 1 GPa it is 5 to 30 times
+# too large.
+_NEWTONIAN = 0.5e9
+
+# Shear stress over pressure above that of all oils: measured limits are 0.03 to 0.12.
+_CARRIED = 0.15
+
+# Slide-to-roll ratio from which there is a traction to warn of.
+_PURE_ROLLING = 1e-4
+
+# Peclet number u b/(2 kappa) of a body below which the conduction along its surface matters: of a line
+# contact, whose conduction along is computed, near the steady state that a body at rest does not have.
+_SLOW = {"line": 0.1, "point": 5.0}
+
+# Error of the temperature rise over the rise, and of the balance of heat, above which there is a warning.
+_RISE_ERROR, _IMBALANCE = 0.05, 0.02
+
+# Error of the rise of which there is no warning [K].
+_SMALL_ERROR = 0.1
+
+# Position from which a maximum of the pressure is the spike, and the distance from it that counts as at the
+# spike, in half-widths of the contact.
+_OUTLET, _NEAR = 0.3, 0.05
+
+# Rise whose error is of no interest [K], and rise from which the model is doubtful [K].
+_SMALL_RISE, _LARGE_RISE = 1.0, 200.0
+
+# Minimum film over the boundary film below which surfaces touch.
+_TOUCHING = 1.01
+
+# Temperatures at which the slope of the viscosity is looked at.
+_SAMPLES = 50
+
+_CELSIUS = 273.15
+
+
+def heat_warnings(
+    case: Case | Setup,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    physics: Physics | None,
+) -> Iterator[ResultWarning]:
+    """Warnings about a film with heat or shear; none for an isothermal Newtonian film.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Solved film.
+    physics : Physics or None
+        Heat and shear as they were solved.
+    """
+    heated = film.heated
+    if heated is None or physics is None:
+        return
+    if not film.converged:
+        simple = heated.isothermal_minimum_thickness
+        thinnest = film.minimum_thickness if simple is None else min(simple, film.minimum_thickness)
+        if film.status == "film collapsed" or thinnest < _TOUCHING * conditions.boundary_film:
+            yield ResultWarning(
+                "surfaces-touch",
+                "the surfaces would touch: films whose surfaces touch are solved without the table [film] "
+                "only; leave it out, lower the roughness, or raise speed or viscosity",
+            )
+        elif physics.thermal is not None:
+            thicker = _thicker_from(physics.thermal.oil, conditions.max_pressure)
+            if thicker is not None:
+                text = _thicker(thicker, conditions.max_pressure)
+                yield ResultWarning("film-temperature-range", f"{text}; give other laws of the lubricant")
+        return
+    if heated.isothermal_minimum_thickness is None:
+        yield ResultWarning(
+            "isothermal-unsolved",
+            "the isothermal Newtonian film of this contact did not converge, so that the effect of heat and "
+            "shear on the film is not known; the film itself may be used; try more solver.max_iterations "
+            "or grid.nodes",
+        )
+    yield from _traction(heated, conditions)
+    if physics.thermal is not None and isinstance(case, Case):
+        yield from _temperatures(case, heated, physics.thermal.oil, conditions.max_pressure)
+        yield from _accuracy(film, heated)
+        for number, (body, speed) in enumerate(zip(physics.thermal.bodies, physics.speeds, strict=True), 1):
+            yield from _slow(number, body, speed, conditions)
+
+
+def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
+    """Advice about a film with heat that did not converge at a Hertz pressure [Pa].
+
+    Its turns of film and temperature have a limit of their own, so that more Newton steps do not help. What a
+    finer grid does is not known before it is tried.
+    """
+    stress = float(np.max(np.abs(heated.shear_stress)))
+    if heated.rheology == "newtonian" and not stress < _CARRIED * max_pressure:
+        return (
+            f"the film would have shear stresses up to {stress / max_pressure:.2g} times the Hertz pressure, "
+            f"and oils carry less than {_CARRIED:g} times: no oil is Newtonian there; give "
+            "lubricant.eyring_stress and film.rheology 'eyring'"
+        )
+    return (
+        "its temperature and its pressure do not settle together, which more Newton steps do not change; "
+        "another number of grid.nodes may, and film.thermal = false has no such turns"
+    )
+
+
+def _traction(heated: HeatedFilm, conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
+    """Warning about the friction of a film at high pressure whose shear stress has no bound."""
+    slides = abs(conditions.slide_to_roll_ratio) > _PURE_ROLLING
+    if heated.rheology not in UNBOUNDED or not slides or conditions.max_pressure <= _NEWTONIAN:
+        return
+    assert heated.traction_coefficient is not None
+    traction, above = f"{abs(heated.traction_coefficient):.3g}", f"{_NEWTONIAN / 1e9:g} GPa"
+    numbers = f"the traction coefficient of {traction}"
+    numbers += ", the temperature rise and the power loss" if heated.thermal else " and the power loss"
+    if heated.rheology == "carreau" and heated.thermal:
+        # Heat and Carreau's law keep the stress within the size of measured ones, but not below their limit.
+        text = (
+            f"{numbers} may be too large: above {above} the shear stress of oils has a limit, which the law "
+            "of Carreau does not have; compare with film.rheology 'limiting'"
+        )
+    else:
+        text = (
+            f"do not use {numbers}: above {above} the stress of a {heated.rheology.capitalize()} film is "
+            "several times too large, as it has no limit; give film.rheology 'eyring' or 'limiting'"
+        )
+    yield ResultWarning("newtonian-traction", text)
+
+
+def _thicker_from(oil: HotOil, pressure: float) -> float | None:
+    """Temperature [K] from which the laws of an oil make it thicker with temperature; None if nowhere."""
+    temperature = np.linspace(oil.lowest, oil.highest, _SAMPLES)
+    rises = oil.log_viscosity(np.full(_SAMPLES, pressure), temperature).by_temperature > 0.0
+    return float(temperature[np.argmax(rises)]) if rises.any() else None
+
+
+def _thicker(temperature: float, pressure: float) -> str:
+    return (
+        f"at {pressure / 1e9:.3g} GPa the laws of the oil make it thicker with temperature above "
+        f"{temperature - _CELSIUS:.3g} °C, which no oil does"
+    )
+
+
+def _temperatures(
+    case: Case, heated: HeatedFilm, oil: HotOil, max_pressure: float
+) -> Iterator[ResultWarning]:
+    """Warnings about temperatures at which oil, laws or model are not known."""
+    found, known = heated.temperature_range, case.lubricant.temperature_range
+    assert found is not None
+    reasons = []
+    if known is not None and not (known[0] <= found[0] and found[1] <= known[1]):
+        reasons.append(
+            f"the laws of the oil hold for {_celsius(*known)} (lubricant.temperature_range), and are "
+            "extrapolated"
+        )
+    if not (oil.lowest <= found[0] and found[1] <= oil.highest):
+        effect = ", whose effect is part of temperature_rise_error" if found[1] > oil.highest else ""
+        reasons.append(
+            f"its properties were taken from {_celsius(oil.lowest, oil.highest)}, and go on as straight "
+            f"lines{effect}"
+        )
+    thicker = _thicker_from(oil, max_pressure)
+    if thicker is not None and thicker < found[1]:
+        reasons.append(_thicker(thicker, max_pressure))
+    if reasons:
+        text = f"the film has {_celsius(*found)}, but {'; '.join(reasons)}"
+        yield ResultWarning("film-temperature-range", text)
+    rise = heated.max_temperature_rise or 0.0
+    if rise > _LARGE_RISE:
+        yield ResultWarning(
+            "film-very-hot",
+            f"the film is up to {rise:.3g} K hotter at its middle than the oil in the inlet: oil and its "
+            "additives do not stand this for long, and its laws are hardly known; check speeds and load",
+        )
+
+
+def _celsius(low: float, high: float) -> str:
+    return f"{low - _CELSIUS:.4g} to {high - _CELSIUS:.4g} °C"
+
+
+def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarning]:
+    """Warning about a temperature rise that the grid does not resolve."""
+    rise, error, lost = heated.max_temperature_rise, heated.temperature_rise_error, heated.energy_imbalance
+    if rise is None or rise < _SMALL_RISE:
+        return
+    if error is not None and error > max(_SMALL_ERROR, _RISE_ERROR * rise):
+        text = f"the temperature rise of {rise:.3g} K has an estimated error of {100 * error / rise:.2g} %"
+        if _at_spike(film, heated):
+            text += (
+                ": it is that at the pressure spike, whose height depends on the grid; use more grid.nodes, "
+                "or the temperature elsewhere in the film"
+            )
+        else:
+            text += "; use more grid.nodes"
+        yield ResultWarning("heat-unresolved", text)
+    elif lost is not None and abs(lost) > _IMBALANCE:
+        yield ResultWarning(
+            "heat-unresolved",
+            f"the balance of heat in the film is {100 * abs(lost):.2g} % off; use more grid.nodes",
+        )
+
+
+def _at_spike(film: Film | PointFilm, heated: HeatedFilm) -> bool:
+    """Whether the hottest node at mid-film is at the pressure spike, a maximum near the outlet."""
+    assert heated.mid_temperature is not None
+    along, *across = np.unravel_index(np.argmax(heated.mid_temperature), film.pressure.shape)
+    pressure = film.pressure[:, across[0]] if across else film.pressure
+    x = film.x / film.scales.length
+    peaks = 1 + np.flatnonzero((pressure[1:-1] > pressure[:-2]) & (pressure[1:-1] >= pressure[2:]))
+    return bool(np.any((x[peaks] > _OUTLET) & (np.abs(x[peaks] - x[along]) < _NEAR)))
+
+
+def _slow(
+    number: int, body: Body, speed: float, conditions: Conditions | PointConditions
+) -> Iterator[ResultWarning]:
+    """Warning about a surface that moves so slowly that its temperature is not that of the model."""
+    peclet = speed * conditions.semi_axes[0] / (2.0 * body.diffusivity)
+    if peclet < _SLOW[conditions.geometry]:
+        along = "sideways" if conditions.geometry == "point" else "without a steady state"
+        yield ResultWarning(
+            "slow-body",
+            f"surface {number} moves at {speed:.3g} m/s, a Peclet number of {peclet:.2g} below "
+            f"{_SLOW[conditions.geometry]:g}: heat spreads in it {along}, which is left out, so that its "
+            "temperature is an estimate",
+        )
+
+
+# Temperatures over which the laws of the oil are taken: that far below the coldest part at the inlet, since
+# oil that expands in the outlet cools by some kelvins, and that far above the hottest one [K].
+_BELOW, _ABOVE = 20.0, 250.0
+
+# Steps by which the range shrinks where a law has no value at its end [K], and its smallest part above the
+# inlet.
+_STEP, _LEAST = 10.0, 30.0
+
+# Largest number of such steps in the search for a temperature that a message may name.
+_SEARCHED = 100
+
+
+def oil_over_temperature(lubricant: Lubricant) -> Callable[[float], Oil]:
+    """Oil as a function of temperature, also beyond the range of its measurements.
+
+    The film is nearly always hotter than the oil in the inlet, so that ``temperature_range`` does not bound
+    its temperatures; a warning tells when they leave it. Electrical properties have no part in the film.
+    """
+    mechanical = lubricant.model_copy(
+        update={
+            "temperature_range": None,
+            "permittivity_table": None,
+            "conductivity_table": None,
+            "conductivity_law": None,
+            "relative_permittivity": 1.0,
+        }
+    )
+    return lambda temperature: mechanical.at(temperature)
+
+
+def hot_oil(
+    lubricant: Lubricant, temperatures: tuple[float, ...], max_pressure: float, keys: tuple[str, ...] = ()
+) -> HotOil:
+    """Oil over pressure and temperature for the energy equation of a film.
+
+    Parameters
+    ----------
+    lubricant : Lubricant
+        Table of the oil, with density, thermal conductivity and heat capacity.
+    temperatures : tuple of float
+        Temperatures of the oil in the inlet and of both bodies [K].
+    max_pressure : float
+        Hertz pressure [Pa], at which the laws must have values.
+    keys : tuple of str
+        Keys of the temperatures in the file, which a message names; without them it names the lubricant.
+
+    Returns
+    -------
+    HotOil
+        Oil from 20 K below the lowest of the temperatures to 250 K above the highest, or to where its laws
+        have values.
+
+    Raises
+    ------
+    InputError
+        If the laws of the oil have no values in this neighbourhood.
+    """
+    oil_at = oil_over_temperature(lubricant)
+    ends = []
+    for extreme, furthest, least in ((min, -_BELOW, 0.0), (max, _ABOVE, _LEAST)):
+        start = extreme(temperatures)
+        end = _end(oil_at, start, furthest, least, max_pressure)
+        if end is None:
+            key = keys[temperatures.index(start)] if keys else None
+            raise _no_values(oil_at, start, np.copysign(least, furthest), max_pressure, key)
+        ends.append(end)
+    return HotOil.through(oil_at, *ends)
+
+
+def _end(
+    oil_at: Callable[[float], Oil], start: float, furthest: float, least: float, max_pressure: float
+) -> float | None:
+    """End of the range [K]: as far from ``start`` as the laws of the oil have values; None if nowhere."""
+    away = abs(furthest)
+    while away >= least:
+        end = start + np.copysign(away, furthest)
+        if _has_values(oil_at, end, max_pressure):
+            return float(end)
+        away -= _STEP
+    return None
+
+
+def _no_values(
+    oil_at: Callable[[float], Oil], start: float, beyond: float, max_pressure: float, key: str | None
+) -> InputError:
+    """Error of a temperature [K] from which the film reaches ``beyond`` [K], where an oil has no values."""
+    needed = start + beyond
+    what = f"has no viscosity, density or thermal properties at {needed - CELSIUS:.4g} °C"
+    if key is None:
+        text = f"{what}, a temperature that the film may reach; choose other laws for a thermal film"
+        return InputError.worded("lubricant", text)
+    towards = np.copysign(_STEP, -beyond)
+    known = (needed + k * towards for k in range(1, _SEARCHED))
+    end = next((at for at in known if _has_values(oil_at, at, max_pressure)), None)
+    takes = "other laws of the lubricant"
+    if end is not None:
+        takes = f"at {'least' if towards > 0.0 else 'most'} {end - beyond - CELSIUS:.4g} °C, or {takes}"
+    return InputError(
+        key,
+        f"got {start - CELSIUS:.4g} °C, with which the film may reach {needed - CELSIUS:.4g} °C, where the "
+        "lubricant has no viscosity, density or thermal properties",
+        takes=takes,
+    )
+
+
+def _has_values(oil_at: Callable[[float], Oil], temperature: float, max_pressure: float) -> bool:
+    """Whether the laws of an oil have values at a temperature and at pressures up to the largest."""
+    pressure = np.array([0.0, 0.5, 1.0]) * max_pressure
+    try:
+        with np.errstate(all="ignore"):
+            oil = oil_at(temperature)
+            laws = (oil.log_viscosity, oil.density_ratio, oil.thermal_conductivity_law, oil.heat_capacity_law)
+            values = [law(pressure)[0] for law in laws if law is not None]
+    except (InputError, ArithmeticError, ValueError):
+        return False
+    thermal = [value for value in values[1:] if not np.all(value > 0.0)]
+    return not thermal and all(bool(np.all(np.isfinite(value))) for value in values) and oil.viscosity > 0.0

@@ -1,0 +1,211 @@
+"""Functions of line and of point contacts, one table each, for the steps in which the two kinds differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.cases.roughness_inputs import Roughness
+from ehlectric.contact import problems
+from ehlectric.contact.conditions import Conditions, PointConditions, resolve, resolve_point
+from ehlectric.contact.contact_solution import (
+    ConditionsT,
+    FieldT,
+    FilmT,
+    RoughnessStatistics,
+    Solution,
+    line_roughness,
+    point_roughness,
+)
+from ehlectric.contact.problems import Setup
+from ehlectric.contact.warnings import (
+    line_case_warnings,
+    line_result_warnings,
+    point_case_warnings,
+    point_result_warnings,
+)
+from ehlectric.errors import ResultWarning
+from ehlectric.field.line_field import Field, solve_field
+from ehlectric.field.point_field import PointField, solve_point_field
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.field.poisson_3d import PointFieldProblem
+from ehlectric.film.isothermal_film import Film, PointFilm, solve_film, solve_point_film
+from ehlectric.film.problem import FilmProblem
+from ehlectric.formulas import film_line, film_point
+from ehlectric.formulas.film_line import LineContact, Thickness
+from ehlectric.formulas.film_point import PointContact
+from ehlectric.surfaces.generated_profiles import Domain
+from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface, rough_maps, rough_surfaces
+from ehlectric.surfaces.surface_warnings import map_surface_warnings, profile_surface_warnings
+
+RoughT = TypeVar("RoughT", RoughSurface, RoughMap)
+ContactT = TypeVar("ContactT", LineContact, PointContact)
+ProblemT = TypeVar("ProblemT", FieldProblem, PointFieldProblem)
+
+
+@dataclass(frozen=True)
+class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
+    """Functions of one kind of contact, line or point, for each step in which the kinds differ.
+
+    Attributes
+    ----------
+    resolve : callable
+        Case -> operating conditions.
+    domain, spacings : callable
+        Setup, conditions -> domain of the film [m]; setup, conditions -> node spacing along each axis [m].
+    rough : callable
+        Tables of the rough surfaces, domain -> rough surfaces, read from files or generated.
+    film_problem, solve_film : callable
+        Setup, conditions, rough surfaces -> film problem; film problem -> film.
+    field_problem, solve_field : callable
+        Setup, conditions, film, roughness -> field problem; field problem -> field over the whole range.
+    case_warnings, surface_warnings : callable
+        Functions that yield warnings before the solution: about the operating conditions, and about the
+        rough surfaces.
+    result_warnings : callable
+        Setup, film, field -> warnings about the solution.
+    formulas, regime : mapping and callable
+        Published film-thickness formulas by name, and the function that names the lubrication regime.
+    contact_keys, grid_keys, hertz_keys : tuple of str
+        Attributes of the operating conditions that a summary lists under ``inputs.contact``,
+        ``inputs.grid`` and ``hertz``.
+    film_summary, field_summary : callable
+        Solution -> key figures of the film and of the field that are specific to this kind of contact.
+    roughness : callable
+        Solution -> statistics of the roughness over the Hertz zone.
+    """
+
+    resolve: Callable[[Case], ConditionsT]
+    domain: Callable[[Case | Setup, ConditionsT], Domain]
+    spacings: Callable[[Case | Setup, ConditionsT], tuple[float, ...]]
+    rough: Callable[[Sequence[Roughness], Domain], Sequence[RoughT]]
+    film_problem: Callable[[Case | Setup, ConditionsT, Sequence[RoughT]], FilmProblem]
+    solve_film: Callable[..., FilmT]
+    field_problem: Callable[[Case | Setup, ConditionsT, FilmT, Array], ProblemT]
+    solve_field: Callable[[ProblemT], FieldT]
+    case_warnings: Callable[[Case | Setup, ConditionsT], Iterator[ResultWarning]]
+    surface_warnings: Callable[..., Iterator[ResultWarning]]
+    result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
+    formulas: Mapping[str, Callable[[ContactT], Thickness]]
+    regime: Callable[[ContactT], str]
+    contact_keys: tuple[str, ...]
+    grid_keys: tuple[str, ...]
+    hertz_keys: tuple[str, ...]
+    film_summary: Callable[[Solution[ConditionsT, FilmT, FieldT]], dict[str, Any]]
+    field_summary: Callable[[Solution[ConditionsT, FilmT, FieldT]], dict[str, Any]]
+    roughness: Callable[[Solution[ConditionsT, FilmT, FieldT]], RoughnessStatistics]
+
+
+def _line_film(solution: Solution[Conditions, Film, Field]) -> dict[str, Any]:
+    return {"nodes": solution.film.x.size}
+
+
+def _point_film(solution: Solution[PointConditions, PointFilm, PointField]) -> dict[str, Any]:
+    film = solution.film
+    return {
+        "nodes": list(film.thickness.shape),
+        "inlet_deficit": film.inlet_deficit,
+        "side_deficit": film.side_deficit,
+    }
+
+
+def _line_field(solution: Solution[Conditions, Film, Field]) -> dict[str, Any]:
+    field, central = solution.field, None
+    if solution.in_field_range(0.0):
+        central = float(np.interp(0.0, field.x, field.middle_strength)) * solution.strength_scale
+    return {
+        "central_dimensionless": central,
+        "high_field_width": field.high_field_width,
+        "capacitance_per_length": field.capacitance,
+        "columns": field.x.size,
+    }
+
+
+def _point_field(solution: Solution[PointConditions, PointFilm, PointField]) -> dict[str, Any]:
+    field, central = solution.field, None
+    if solution.in_field_range((0.0, 0.0)):
+        along = [np.interp(0.0, field.y, row) for row in field.middle_strength]
+        central = float(np.interp(0.0, field.x, along)) * solution.strength_scale
+    return {
+        "central_dimensionless": central,
+        "high_field_area": field.high_field_area,
+        "capacitance": field.capacitance,
+        "capacitance_by_charge": field.capacitance_by_charge,
+        "capacitance_by_zone": solution.capacitance_by_zone,
+        "columns": list(field.middle_strength.shape),
+    }
+
+
+def _whole_field(problem: PointFieldProblem) -> PointField:
+    """Field on both sides of the plane y = 0, also if the problem covers only the half y >= 0."""
+    field = solve_point_field(problem)
+    return field.mirrored() if field.y[0] == 0.0 else field
+
+
+LINE: Kind[Conditions, LineContact, RoughSurface, Film, FieldProblem, Field] = Kind(
+    resolve=resolve,
+    domain=problems.line_domain_of,
+    spacings=lambda setup, conditions: (problems.spacing(setup, conditions),),
+    rough=rough_surfaces,
+    film_problem=problems.film_problem,
+    solve_film=solve_film,
+    field_problem=problems.field_problem,
+    solve_field=solve_field,
+    case_warnings=line_case_warnings,
+    surface_warnings=profile_surface_warnings,
+    result_warnings=line_result_warnings,
+    formulas=film_line.FORMULAS,
+    regime=film_line.regime,
+    contact_keys=(
+        "reduced_radius",
+        "reduced_modulus",
+        "load_per_length",
+        "entrainment_speed",
+        "slide_to_roll_ratio",
+    ),
+    grid_keys=(),
+    hertz_keys=("half_width", "max_pressure"),
+    film_summary=_line_film,
+    field_summary=_line_field,
+    roughness=line_roughness,
+)
+
+POINT: Kind[PointConditions, PointContact, RoughMap, PointFilm, PointFieldProblem, PointField] = Kind(
+    resolve=resolve_point,
+    domain=problems.domain_of,
+    spacings=problems.spacings,
+    rough=rough_maps,
+    film_problem=problems.point_film_problem,
+    solve_film=solve_point_film,
+    field_problem=problems.point_field_problem,
+    solve_field=_whole_field,
+    case_warnings=point_case_warnings,
+    surface_warnings=map_surface_warnings,
+    result_warnings=point_result_warnings,
+    formulas=film_point.FORMULAS,
+    regime=film_point.regime,
+    contact_keys=(
+        "radius_x",
+        "radius_y",
+        "reduced_modulus",
+        "load",
+        "entrainment_speed",
+        "slide_to_roll_ratio",
+    ),
+    grid_keys=("side",),
+    hertz_keys=("semi_axis_x", "semi_axis_y", "max_pressure"),
+    film_summary=_point_film,
+    field_summary=_point_field,
+    roughness=point_roughness,
+)
+
+# Kind of contact whose types are not known before run time, for example the kind of a case read from a file.
+AnyKind = Kind[Any, Any, Any, Any, Any, Any]
+
+# Kinds of contact by the ``geometry`` of a case or of operating conditions.
+KINDS: Mapping[str, AnyKind] = {"line": LINE, "point": POINT}

@@ -1,0 +1,333 @@
+"""Grid of a contact, refined until the error of the film is small enough, and the error that it can reach."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ehlectric.cases.grid_inputs import Grid
+from ehlectric.contact.contact_memory import check_grid
+from ehlectric.contact.problems import Setup
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.film.film_error import MINIMUM_ORDER, expected_error, expected_nodes
+from ehlectric.film.film_solver import UNKNOWN
+from ehlectric.film.hot_oil import Physics
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.problem import FilmProblem, OnGrid
+
+# How often the intervals of a grid are doubled at the most, with smooth and with rough surfaces. A film whose
+# estimate does not fall, such as one under white noise, would take them up to the memory of the machine.
+_MOST_DOUBLED = {"line": 8, "point": 5}
+_MOST_DOUBLED_ROUGH = {"line": 3, "point": 2}
+
+
+@dataclass(frozen=True)
+class Refined:
+    """Film of the last grid of a refinement, and the setup with this grid.
+
+    Attributes
+    ----------
+    film : Film or PointFilm
+        Film on the last grid.
+    first, setup : Setup
+        Setup with the first grid and with the last one, which have no target.
+    seconds : float
+        Time taken to solve the films on all grids [s].
+    warnings : tuple of ResultWarning
+        A warning if the target error was not reached.
+    """
+
+    film: Any
+    first: Setup
+    setup: Setup
+    seconds: float
+    warnings: tuple[ResultWarning, ...]
+
+
+def refined(
+    setup: Setup,
+    geometry: str,
+    problem_of: Callable[[Setup], FilmProblem],
+    solved: Callable[[FilmProblem], Film | PointFilm],
+    on_grid: OnGrid | None = None,
+) -> Refined:
+    """Solve a film, and refine its grid until the discretisation error is below ``grid.target``.
+
+    The film is solved on one grid only if the grid has no target.
+
+    Parameters
+    ----------
+    setup : Setup
+        Setup with the first grid.
+    geometry : str
+        Geometry of the contact, "line" or "point".
+    problem_of : callable
+        Function that makes the film problem: setup -> problem.
+    solved : callable
+        Function that solves the film and refines its grid: problem -> film.
+    on_grid : callable, optional
+        Function that is called after each grid: grid, discretisation error or None -> None.
+
+    Returns
+    -------
+    Refined
+        Film of the last grid, with a warning if the target error was not reached. The intervals of a line
+        contact's grid are doubled at most eight times, those of a point contact's five times; with rough
+        surfaces three times and twice.
+    """
+    started, target = time.perf_counter(), setup.grid.target
+    first = replace(setup, grid=_fixed(setup.first_grid))
+    problem = problem_of(first)
+    if target is None:
+        return Refined(solved(problem), first, first, time.perf_counter() - started, ())
+    grids, refusal = finer_grids(setup, geometry, problem.physics)
+    film = solved(replace(problem, target_error=target, most_nodes=grids[-1].nodes_along, on_grid=on_grid))
+    closest = (film.x[-1] - film.x[0]) / float(np.min(np.diff(film.x)))
+    grid = min(grids, key=lambda grid: abs(grid.nodes_along - 1 - closest))
+    warnings: tuple[ResultWarning, ...] = ()
+    if film.discretisation_error is None or film.discretisation_error > target:
+        unknown = f"the error is unknown on {UNKNOWN} grids in succession"
+        why = refusal if grid is grids[-1] else unknown
+        warnings = (_not_reached("refine" if setup.grid.refine else "error", target, grid, why),)
+    return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
+
+
+def finer_grids(setup: Setup, geometry: str, physics: Physics | None) -> tuple[list[Grid], str]:
+    """Grids of a refinement from the first one up to the last one that is allowed, and why it is the last.
+
+    Parameters
+    ----------
+    setup : Setup
+        Setup of the contact.
+    geometry : str
+        Geometry of the contact, "line" or "point".
+    physics : Physics or None
+        Rheology and heat of the film, which need memory.
+
+    Returns
+    -------
+    list of Grid, str
+        Grids, each with twice as many intervals as the grid before, and the reason why there is no finer one.
+    """
+    heat = None if physics is None else "sheared" if physics.thermal is None else "thermal"
+    grids, rough = [_fixed(setup.first_grid)], bool(setup.roughness)
+    most = (_MOST_DOUBLED_ROUGH if rough else _MOST_DOUBLED)[geometry]
+    while True:
+        if len(grids) > most:
+            kind = "rough" if rough else "smooth"
+            return grids, f"a {kind} contact is refined {most} times at the most; begin with more grid.nodes"
+        try:
+            finer = _doubled(grids[-1])
+            check_grid(geometry, finer, rough=rough, heat=heat)
+        except InputError as error:
+            return grids, str(error)
+        if setup.grid.most_nodes is not None and finer.nodes_along > setup.grid.most_nodes:
+            return grids, f"the next grid has {finer.nodes_along} nodes, more than grid.most_nodes"
+        grids.append(finer)
+
+
+def _fixed(grid: Grid) -> Grid:
+    """Grid with the same nodes that is not refined."""
+    return grid.model_copy(update={"refine": None, "error": None, "most_nodes": None})
+
+
+def _not_reached(key: str, target: float, grid: Grid, reason: str) -> ResultWarning:
+    reached = f"an error of {100 * target:g} % was not reached with {grid.nodes_along} nodes"
+    return ResultWarning("refine-not-reached", f"grid.{key}: {reached}; {reason}")
+
+
+def _doubled(grid: Grid) -> Grid:
+    """Grid with twice as many intervals.
+
+    Raises an InputError if the finer grid exceeds the bounds of a case.
+    """
+    table = grid.model_dump(mode="json", exclude_none=True)
+    table |= {key: 2 * table[key] - 1 for key in ("nodes", "nodes_y") if key in table}
+    try:
+        return Grid.from_dict(table)
+    except InputError as error:
+        raise error.under("grid") from None
+
+
+# Time that a film takes for each node that is solved for [s], on one core of a workstation, until the
+# times of the coarser grids are known.
+_SECONDS_A_NODE = {"line": 2e-5, "point": 1e-4}
+
+# Power of the number of nodes with which the time of a grid grows.
+_GROWTH = 1.1
+
+
+@dataclass(frozen=True)
+class ExpectedGrid:
+    """Grid of a refinement before it is solved.
+
+    Attributes
+    ----------
+    nodes : int
+        Number of nodes along entrainment, over the whole domain.
+    solved : float
+        Number of nodes that are solved for.
+    error : float or None
+        Relative discretisation error of the film that is expected on this grid; None if it is not known.
+    """
+
+    nodes: int
+    solved: float
+    error: float | None
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Grids of a refinement and what is expected of them, before the film is solved.
+
+    Attributes
+    ----------
+    key : str
+        Key of the grid that asks for the error, "error" or "refine".
+    target : float
+        Relative error that is asked for.
+    grids : tuple of ExpectedGrid
+        All grids up to the finest one that is allowed.
+    seconds_a_node : float
+        Time that the film takes for each node [s].
+    """
+
+    key: str
+    target: float
+    grids: tuple[ExpectedGrid, ...]
+    seconds_a_node: float
+
+    def last(self, done: int = 0, error: float | None = None) -> int | None:
+        """Number of the grid on which the refinement will end, counted from 1; None if it is not known.
+
+        The first ``done`` grids are solved, and the last one of them has the ``error``.
+        """
+        if done and error is not None and error <= self.target:
+            return done
+        for number in range(done + 1, len(self.grids) + 1):
+            expected = self.expected(number, done, error)
+            if expected is None:
+                return None
+            if expected <= self.target:
+                return number
+        return len(self.grids)
+
+    def expected(self, number: int, done: int = 0, error: float | None = None) -> float | None:
+        """Error that is expected on a grid by its number; an error on a coarser grid corrects it."""
+        grid = self.grids[number - 1]
+        if error is None:
+            return grid.error
+        known = self.grids[done - 1].error
+        if grid.error is None or known is None:
+            return error * float(0.5 ** (MINIMUM_ORDER * (number - done)))
+        return float(error * grid.error / known)
+
+    def seconds(self, done: int, until: int, measured: float | None = None) -> float:
+        """Time of the grids after the first ``done`` ones [s], up to a grid by its number.
+
+        ``measured`` is the time of the last grid that is done.
+        """
+        a_node, at = self.seconds_a_node, self.grids[0].solved
+        if done and measured is not None:
+            at = self.grids[done - 1].solved
+            a_node = measured / at
+        solved = np.array([grid.solved for grid in self.grids[done:until]])
+        return float(np.sum(a_node * solved * (solved / at) ** (_GROWTH - 1.0)))
+
+    def warnings(self) -> Iterator[ResultWarning]:
+        """Warning where the error that is asked for is probably out of reach."""
+        finest = self.grids[-1]
+        if finest.error is None or finest.error <= self.target:
+            return
+        yield ResultWarning(
+            "error-out-of-reach",
+            f"grid.{self.key}: an error of {_percent(self.target)} is probably out of reach, because the "
+            f"film is thin for its contact; about {_percent(finest.error)} is expected on the finest grid, "
+            f"with {finest.nodes} nodes, after about {_duration(self.seconds(0, len(self.grids)))}; raise "
+            f"grid.{self.key}, end sooner with a smaller grid.most_nodes, or take the film of the atlas "
+            "(ehlectric film) or of formulas (ehlectric check)",
+        )
+
+
+def reach_of(setup: Setup, geometry: str, problem: FilmProblem) -> Reach:
+    """Expected errors and times of the grids of a refinement.
+
+    Parameters
+    ----------
+    setup : Setup
+        Setup of the contact, whose grid has a target.
+    geometry : str
+        Geometry of the contact, "line" or "point".
+    problem : FilmProblem
+        Film problem of the contact on its first grid.
+    """
+    assert setup.grid.target is not None
+    grids, _ = finer_grids(setup, geometry, problem.physics)
+    return Reach(
+        "refine" if setup.grid.refine else "error",
+        setup.grid.target,
+        tuple(
+            ExpectedGrid(grid.nodes_along, expected_nodes(problem, 2**k), expected_error(problem, 2**k))
+            for k, grid in enumerate(grids)
+        ),
+        _SECONDS_A_NODE[geometry],
+    )
+
+
+class FilmProgress:
+    """Progress of a contact's film in words: its grid, the error so far, and about the time that is left.
+
+    Parameters
+    ----------
+    reach : Reach or None
+        Expected errors of the grids; None of a grid that is not refined.
+    clock : callable
+        Function that returns the time [s].
+    """
+
+    def __init__(self, reach: Reach | None, clock: Callable[[], float] = time.perf_counter) -> None:
+        self._reach, self._clock = reach, clock
+        self._done, self._started = 0, clock()
+        self._error: float | None = None
+        self._measured: float | None = None
+
+    def on_grid(self, _mesh: Mesh, error: float | None) -> None:
+        """Note that a grid of the refinement is solved, and its discretisation error."""
+        now = self._clock()
+        self._measured, self._started = now - self._started, now
+        self._done, self._error = self._done + 1, error
+
+    def text(self, nodes: int, step: int, residual: float) -> str:
+        """Line about a Newton step: nodes of its grid along entrainment, its number, and the residual."""
+        now = f"{nodes} nodes, step {step + 1}, residual {residual:.1e}"
+        told = "" if self._error is None else f"; error {_percent(self._error)} so far"
+        reach = self._reach
+        if reach is None or self._done >= len(reach.grids):
+            return f"film: {now}{told}"
+        last = reach.last(self._done, self._error)
+        if last is None:
+            return f"film: grid {self._done + 1}, {now}{told}"
+        if last <= self._done:
+            return f"film: {now}{told}"
+        left = reach.seconds(self._done, last, self._measured) - (self._clock() - self._started)
+        reached = reach.expected(last, self._done, self._error)
+        if reached is not None and reached > reach.target:
+            told += f", about {_percent(reached)} in reach"
+        return f"film: grid {self._done + 1} of {last}, {now}{told}; about {_duration(max(left, 1.0))} left"
+
+
+def _percent(error: float) -> str:
+    return f"{100.0 * error:.0f} %" if error >= 0.1 else f"{100.0 * error:.2g} %"
+
+
+def _duration(seconds: float) -> str:
+    """Time in words, in seconds, minutes or hours."""
+    for unit, name in ((3600.0, "h"), (60.0, "min")):
+        if seconds >= 1.5 * unit:
+            return f"{seconds / unit:.0f} {name}"
+    return f"{max(seconds, 1.0):.0f} s"

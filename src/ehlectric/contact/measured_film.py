@@ -1,0 +1,275 @@
+"""Film factors of a contact from its measured film thickness: solved or by formula over the speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from ehlectric.arrays import Array
+from ehlectric.cases.case import Case
+from ehlectric.cases.defaults import Contacts
+from ehlectric.cases.film_factors import (
+    FilmFactors,
+    fitted_columns,
+    mean_factor,
+    measurement_warnings,
+    slope_of,
+    temperature_warnings,
+)
+from ehlectric.cases.measurements import Measurement
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.solver import solve
+from ehlectric.errors import ConvergenceError, InputError, ResultWarning
+from ehlectric.film.atlas.atlas_films import contact_film
+from ehlectric.runtime.progress import Progress, silent
+
+# Formula of the central film by the geometry of the contact: those that hold in all regimes.
+FORMULA = {"line": "moes", "point": "nijenbanning_venner_moes"}
+
+# Error of these formulas: they differ from solved films by up to 40 %.
+_FORMULA_ERROR = 0.4
+
+# Number of films that are solved: three, one more for each further ratio of the film, and at most seven.
+_LEAST, _RATIO, _MOST = 3, 1.8, 7
+
+# Largest number of different speeds.
+MOST_POINTS = 5000
+
+
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """Solved over formula film thickness, over the film by formula, in logarithms."""
+
+    logs: Array
+    ratios: Array
+    solves: int = 0
+    warnings: tuple[ResultWarning, ...] = ()
+
+    def films(self, formula: Array) -> Array:
+        """Solved films [m] from those by formula; beyond the table the ratio is that of its end."""
+        if not self.logs.size:
+            return formula
+        if self.logs.size == 1:
+            return formula * math.exp(float(self.ratios[0]))
+        at = np.clip(np.log(formula), self.logs[0], self.logs[-1])
+        films: Array = formula * np.exp(PchipInterpolator(self.logs, self.ratios)(at))
+        return films
+
+
+def contact_factors(
+    case: Case,
+    measured: Measurement,
+    *,
+    contacts: Contacts = "solved",
+    uncertainty: float | None = None,
+    progress: Progress = silent,
+) -> FilmFactors:
+    """Film factors of a contact: measured over computed central film thickness, row by row, and their mean.
+
+    Parameters
+    ----------
+    case : Case
+        Case of the contact. Its entrainment speed stands for those that the measurement does not have; its
+        surfaces are taken as smooth.
+    measured : Measurement
+        Rows with a film thickness.
+    contacts : str
+        "solved" for films that are solved at three to seven speeds and interpolated between them, "atlas" for
+        films from the atlas, and by formula where it has none, or "formula" for the formulas of Nijenbanning,
+        Venner and Moes (points) and of Moes (lines).
+    uncertainty : float, optional
+        Relative standard uncertainty of the film, where the measurement states none.
+    progress : callable, optional
+        Called with the number of solved films, the number of all films, and a text.
+
+    Returns
+    -------
+    FilmFactors
+        Rows, mean with its interval, and warnings.
+
+    Raises
+    ------
+    InputError
+        Where the measurement has no film, or too many different speeds; where the case moves.
+    ConvergenceError
+        Where a film does not converge.
+    """
+    if case.motion is not None:
+        raise InputError("motion", "is not used with a measurement", takes="a stationary contact")
+    if case.inlet is not None:
+        raise InputError("inlet", "is not used with a measurement", takes="a flooded contact")
+    if not measured.has("film"):
+        raise InputError.missing(
+            f"{measured.source}: film", "a column 'film [nm]' beside the entrainment speed"
+        )
+    if measured.has("speed") and not measured.has("entrainment_speed"):
+        raise InputError(
+            f"{measured.source}: speed", got="a rotational speed", takes="a column 'entrainment speed [m/s]'"
+        )
+    smooth = case.model_copy(update={"roughness": ()})
+    rows = _changes(smooth, measured)
+    formula = _formula_films(smooth, rows, measured)
+    table = _Table(np.zeros(0), np.zeros(0))
+    if contacts == "solved":
+        table = _solved(smooth, rows, formula, progress)
+    computed, error = table.films(formula), _FORMULA_ERROR if contacts == "formula" else None
+    if contacts == "atlas":
+        computed, error = _atlas_films(smooth, rows, formula)
+    return _result(case, measured, (contacts, error, uncertainty), (rows, formula, computed), table)
+
+
+def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]:
+    """Changes of the case that make each row; the slide-to-roll ratio stays that of the case."""
+    own = KINDS[case.contact.geometry].resolve(case)
+    speeds = measured.values.get("entrainment_speed", np.full(measured.size, own.entrainment_speed))
+    warm = measured.values.get("temperature", np.zeros(measured.size))
+    different = len(set(zip(speeds.tolist(), warm.tolist(), strict=True)))
+    if different > MOST_POINTS:
+        raise InputError(
+            measured.source,
+            f"has {different} different speeds and temperatures",
+            takes=f"at most {MOST_POINTS}; average neighbouring rows",
+        )
+    keys = {"contact.entrainment_speed": speeds}
+    keys["contact.slide_to_roll_ratio"] = np.full(measured.size, own.slide_to_roll_ratio)
+    if measured.has("temperature"):
+        keys["contact.temperature"] = warm
+    columns = (values.tolist() for values in keys.values())
+    return tuple(dict(zip(keys, row, strict=True)) for row in zip(*columns, strict=True))
+
+
+def _formula_films(case: Case, rows: Sequence[Mapping[str, Any]], measured: Measurement) -> Array:
+    """Central film by formula of each row [m], shape (n,).
+
+    Raises
+    ------
+    InputError
+        Where a row is no case, for example at a temperature for which the oil has no data; with its line.
+    """
+    kind, known = KINDS[case.contact.geometry], dict[tuple[Any, ...], float]()
+    formula = kind.formulas[FORMULA[case.contact.geometry]]
+    for row, line in zip(rows, measured.lines, strict=True):
+        key = tuple(row.values())
+        if key not in known:
+            try:
+                film = formula(kind.resolve(case.replace(row)).contact).central_thickness
+            except InputError as error:
+                raise error.retold(f"{measured.source}, line {line}", str(error)) from None
+            assert film is not None
+            known[key] = film
+    return np.array([known[tuple(row.values())] for row in rows])
+
+
+def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) -> tuple[Array, float]:
+    """Central film of each row from the atlas [m], shape (n,), or by formula, and the largest error."""
+    kind, known, worst = KINDS[case.contact.geometry], dict[tuple[Any, ...], float](), 0.0
+    for row, estimate in zip(rows, formula.tolist(), strict=True):
+        key = tuple(row.values())
+        if key in known:
+            continue
+        changed = case.replace(row)
+        oil = changed.lubricant.at(changed.contact.temperature)
+        contact = kind.resolve(changed).contact
+        try:
+            film = contact_film(contact, oil)
+        except InputError:
+            known[key], worst = estimate, max(worst, _FORMULA_ERROR)
+            continue
+        known[key], worst = film.central_thickness, max(worst, film.errors["central"])
+    return np.array([known[tuple(row.values())] for row in rows]), worst
+
+
+def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progress: Progress) -> _Table:
+    """Films solved at rows that are spread over the film thickness."""
+    logs, ratios = [], []
+    warnings: dict[str, ResultWarning] = {}
+    places = _spread(formula)
+    for number, place in enumerate(places):
+        progress(number, len(places), "films at the measured speeds")
+        result = solve(case.replace(rows[place]))
+        if not result.converged:
+            speed = rows[place]["contact.entrainment_speed"]
+            raise ConvergenceError(f"the film at {speed:.4g} m/s, {result.film.status}")
+        logs.append(math.log(formula[place]))
+        ratios.append(math.log(result.film.central_thickness / formula[place]))
+        for warning in result.warnings:
+            warnings.setdefault(warning.code, warning)
+    progress(len(places), len(places), "films at the measured speeds")
+    return _Table(np.array(logs), np.array(ratios), len(places), tuple(warnings.values()))
+
+
+def _spread(formula: Array) -> list[int]:
+    """Places of rows whose films are about evenly spaced in their logarithm, by increasing film."""
+    films, places = np.unique(formula, return_index=True)
+    logs = np.log(films)
+    number = min(_MOST, _LEAST + int((logs[-1] - logs[0]) / math.log(_RATIO)))
+    wanted = np.linspace(logs[0], logs[-1], number) if len(films) > number else logs
+    return [int(places[k]) for k in np.unique([int(np.argmin(np.abs(logs - at))) for at in wanted])]
+
+
+def _result(
+    case: Case,
+    measured: Measurement,
+    how: tuple[Contacts, float | None, float | None],
+    films: tuple[Sequence[Mapping[str, Any]], Array, Array],
+    table: _Table,
+) -> FilmFactors:
+    """Film factors with their mean and warnings."""
+    (contacts, error, relative), (rows, formula, computed) = how, films
+    film = measured.values["film"]
+    uncertainty = measured.uncertainties.get("film", None if relative is None else relative * film)
+    factors, stated = film / computed, None if uncertainty is None else uncertainty / film
+    speeds = np.array([row["contact.entrainment_speed"] for row in rows])
+    mean, trend = mean_factor(factors, stated), slope_of(speeds, factors, stated)
+    columns = {"line": np.array(measured.lines, dtype=float)}
+    columns |= {"time": measured.values["time"]} if measured.has("time") else {}
+    columns |= {"entrainment_speed": speeds}
+    columns |= {"temperature": measured.values["temperature"]} if measured.has("temperature") else {}
+    columns |= {"film": film}
+    columns |= {} if uncertainty is None else {"film_uncertainty": uncertainty}
+    columns |= {"computed": computed, "formula": formula, "film_factor": factors}
+    columns |= {} if stated is None else {"factor_uncertainty": stated * factors}
+    columns |= fitted_columns(film, factors, np.ones(len(factors)), mean)
+    reasons = ("",) * measured.size
+    return FilmFactors(
+        title=case.title,
+        source=measured.source,
+        quantity="film",
+        contacts=contacts,
+        solves=table.solves,
+        formula_error=error,
+        background=None,
+        columns=columns,
+        reasons=reasons,
+        mean=mean,
+        slope=trend,
+        warnings=(
+            *(
+                one
+                for one in _film_warnings(case, (contacts, error), table)
+                if one.code != "temperature-unused"
+            ),
+            *temperature_warnings(measured, case.lubricant),
+            *measurement_warnings(measured, reasons, mean, trend, "entrainment speed"),
+        ),
+    )
+
+
+def _film_warnings(
+    case: Case, how: tuple[Contacts, float | None], table: _Table
+) -> tuple[ResultWarning, ...]:
+    """Warnings about the computed films."""
+    contacts, error = how
+    if contacts == "solved":
+        return table.warnings
+    if contacts == "atlas":
+        off = f"{100.0 * (error or 0.0):.2g} %"
+        text = f"films from the atlas may be {off} off, and so may film factors"
+        return (ResultWarning("atlas-contacts", text),)
+    text = f"films by formula ({FORMULA[case.contact.geometry].replace('_', ' ')})"
+    return (ResultWarning("formula-films", f"{text} may be 40 % off, and so may film factors; solve them"),)

@@ -1,0 +1,133 @@
+"""Starved contacts: stored values of the supply of oil, and warnings about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ehlectric.cases.case import Case
+from ehlectric.cases.film_inputs import Inlet
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.problems import Setup
+from ehlectric.errors import ResultWarning
+from ehlectric.film.film_solver import Starvation
+from ehlectric.film.isothermal_film import Film, PointFilm, lost_film
+
+# Part of the flooded central film above which the layer of oil has no effect, and relative difference of the
+# ratio of films from the one asked for above which there is a warning.
+_FLOODED, _MISSED = 0.999, 0.01
+
+# Share by which a domain that is too small makes the flooded film beside too thin, above which there is a
+# warning: the film itself does not depend on it.
+_LOST = 0.05
+
+# Distance of the meniscus from the Hertz zone in half-widths, beside a grid spacing, up to which it is at the
+# edge of the zone.
+_AT_HERTZ = 0.01
+
+# Distance of the meniscus from the inlet edge, as a part of the length of the inlet, below which the domain
+# is too short for it.
+_AT_EDGE = 0.05
+
+
+def starvation_warnings(
+    setup: Case | Setup, conditions: Conditions | PointConditions, film: Film | PointFilm
+) -> Iterator[ResultWarning]:
+    """Warnings about the supply of oil of a film; none for a film without ``[inlet]``."""
+    found, inlet = film.starvation, setup.inlet
+    if found is None or inlet is None:
+        return
+    yield from _of_flooded(film, found, inlet)
+    if not film.converged:
+        return
+    if film.minimum_thickness < conditions.boundary_film:
+        yield ResultWarning(
+            "surfaces-touch",
+            f"the starved film is {1e9 * film.minimum_thickness:.2g} nm thick in places, thinner than the "
+            f"boundary film of {1e9 * conditions.boundary_film:.3g} nm: the surfaces would touch there, "
+            "which is not solved with [inlet]",
+        )
+    table = inlet.layer_table
+    if table is not None and isinstance(film, PointFilm):
+        side = film.semi_axis_y
+        if table.y[0] > -side or table.y[-1] < side:
+            yield ResultWarning(
+                "layer-table-short",
+                f"inlet.layer_table has the layer from y = {1e6 * table.y[0]:.3g} to {1e6 * table.y[-1]:.3g} "
+                f"µm, and the Hertz zone reaches from {-1e6 * side:.3g} to {1e6 * side:.3g} µm: its ends "
+                "are taken beyond",
+            )
+    asked, ratio = inlet.film_ratio, found.film_ratio
+    if asked is not None and ratio is not None and abs(ratio / asked - 1.0) > _MISSED:
+        yield ResultWarning(
+            "film-ratio-missed",
+            f"the film is {ratio:.3g} of the flooded one, not {asked:.3g} as inlet.film_ratio "
+            "asks for; give inlet.oil_layer",
+        )
+    nearly = ratio is not None and ratio > _FLOODED
+    if asked is None and (film.film_fraction is None or nearly):
+        flooded = "the film is flooded"
+        if film.film_fraction is not None:
+            flooded = f"the central film is {100.0 * (found.film_ratio or 1.0):.4g} % of the flooded one"
+        yield ResultWarning(
+            "oil-layer-thick", f"{_layer(inlet)} is thicker than what the contact takes: {flooded}"
+        )
+    if film.film_fraction is not None:
+        yield from _of_meniscus(setup, film, found, nearly=nearly)
+
+
+def _layer(inlet: Inlet) -> str:
+    """Name of a layer of oil that is given."""
+    if inlet.oil_layer is None:
+        return "the layer of oil of inlet.layer_table"
+    return f"the layer of oil of {1e6 * inlet.oil_layer:.3g} µm"
+
+
+def _of_flooded(film: Film | PointFilm, found: Starvation, inlet: Inlet) -> Iterator[ResultWarning]:
+    """Warning about a flooded film that is unknown or wrong.
+
+    Where the ratio of films is given, a domain that is too small for the flooded film is too small for the
+    film, whose warning says so.
+    """
+    upstream, sides = found.flooded_inlet_deficit, found.flooded_side_deficit
+    if upstream is None or found.flooded_central_thickness is None:
+        what = "there is no film_ratio"
+        if inlet.film_ratio is not None:
+            what = "there is no part of it, as inlet.film_ratio asks for"
+        yield ResultWarning(
+            "flooded-film-wrong", f"the flooded film beside did not converge: {what}; try more grid.nodes"
+        )
+    elif inlet.film_ratio is None and film.film_fraction is not None:
+        lost = upstream
+        if sides is not None:
+            flooded = found.flooded_central_thickness / film.scales.thickness
+            lost = lost_film(flooded, upstream, sides)
+        if lost > _LOST:
+            yield ResultWarning(
+                "flooded-film-wrong",
+                f"the domain is too small for the flooded film beside, which is too thin by about "
+                f"{100.0 * lost:.2g} %, and film_ratio too large; the starved film is not; lower grid.inlet"
+                + ("" if sides is None else " and raise grid.side"),
+            )
+
+
+def _of_meniscus(
+    setup: Case | Setup, film: Film | PointFilm, found: Starvation, *, nearly: bool
+) -> Iterator[ResultWarning]:
+    """Warning about a meniscus at the edge of the domain or of the Hertz zone.
+
+    Where the central film is ``nearly`` flooded, the place of a meniscus far upstream changes nothing.
+    """
+    b, place = film.scales.length, found.meniscus
+    if place is not None and place > -(1.0 + _AT_HERTZ) * b - float(film.x[1] - film.x[0]):
+        yield ResultWarning(
+            "meniscus-at-edge",
+            f"the oil fills the gap only from x/b = {place / b:.3g}, at the edge of the Hertz zone: the film "
+            "is about as thick as the layer of oil, whatever speed and viscosity are",
+        )
+    elif not nearly and (place is None or place < (1.0 - _AT_EDGE) * film.x[0] - _AT_EDGE * b):
+        where = "on y = 0 already" if place is None else f"from x/b = {place / b:.3g},"
+        yield ResultWarning(
+            "meniscus-at-edge",
+            f"the oil fills the gap {where} at the edge of the domain; lower grid.inlet from "
+            f"{setup.grid.ends[0]:g}",
+        )

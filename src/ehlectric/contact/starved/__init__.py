@@ -1,1 +1,0 @@
-"""Starved contacts: supply of oil of a film problem, keys of the summary, stored values and warnings."""

@@ -1,0 +1,1011 @@
+"""Spots in which the surfaces of a solved contact touch: load, area, oil, film around them, and electrical
+answer.
+
+Balance of the oil of a solved stationary contact: what its spots swallow, and what its valleys make.
+A film that forms again behind a cavity carries the content of oil through the cavity
+(``ehlectric.film.starved_solver``), and its residual is what is left over. Where no such film was found, a
+cavitated gap counts as full in the wedge term (``ehlectric.film.cavitation``). Where it ends at a node that
+oil fills, the oil that would fill the gap goes on, although less of it has come. The residual of the Reynolds
+equation of these nodes is the oil that appears.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import ndimage
+from scipy.constants import epsilon_0
+from scipy.special import ellipk
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.cases.case import Case
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.cases.grid_inputs import Electric
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.problems import SCHEMES, Setup, fluid_of
+from ehlectric.discharge.discharge_laws import WeakestLink
+from ehlectric.discharge.film_breakdown import dielectric_strength
+from ehlectric.discharge.film_verdict import Verdict, unusable
+from ehlectric.errors import ResultWarning
+from ehlectric.field.zones import areas, line_zone_areas, point_zone_areas
+from ehlectric.film.flow import Fluid, flow
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.reynolds import residual, wedge_stencil
+from ehlectric.formulas.asperities import cluster_resistance, film_resistance, greenwood_cluster
+from ehlectric.lubricant.oil import Oil
+from ehlectric.quantities.formats import formatted
+from ehlectric.runtime.stored import number
+from ehlectric.surfaces.profiles import FLAT
+
+
+@dataclass(frozen=True)
+class Spots:
+    """Spots of a contact, in the order of the nodes.
+
+    Two nodes are in one spot if they are neighbours along an axis of the grid. Nodes that are neighbours
+    along a diagonal only are two spots, as the film between them is connected. In a line contact a spot is a
+    strip that is as long as the contact.
+
+    Attributes
+    ----------
+    areas : ndarray, shape (n,)
+        Area of each spot [m^2]; of a line contact its width [m].
+    positions : ndarray, shape (n, d)
+        Centre of the area of each spot (x,) or (x, y) [m].
+    nodes : ndarray of int, shape (n,)
+        Number of nodes of each spot.
+    loads : ndarray, shape (n,)
+        Load that each spot carries [N]; of a line contact per length [N/m].
+    edge : float
+        Largest error of the total area because edges of spots lie somewhere between two nodes [m^2] or [m].
+    """
+
+    areas: Array
+    positions: Array
+    nodes: NDArray[np.int_]
+    loads: Array
+    edge: float
+
+    @classmethod
+    def of(cls, axes: tuple[Array, ...], contact: Mask, pressure: Array) -> Spots:
+        """Find the spots of a contact.
+
+        Parameters
+        ----------
+        axes : tuple of ndarray
+            Nodes along each axis [m].
+        contact : ndarray of bool, shape (nx,) or (nx, ny)
+            Nodes where the surfaces touch.
+        pressure : ndarray, shape of ``contact``
+            Contact pressure [Pa].
+
+        Examples
+        --------
+        Three nodes in a row and one at a corner of them are two spots:
+
+        >>> touching = np.array([[1, 1, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0]], dtype=bool)
+        >>> spots = Spots.of((np.arange(3.0), np.arange(4.0)), touching, 2.0 * touching)
+        >>> spots.nodes.tolist(), spots.areas.tolist(), spots.edge
+        ([3, 1], [1.25, 0.5], 2.5)
+        """
+        weights = areas(axes)
+        labels, count = ndimage.label(contact)
+        each = np.arange(1, count + 1)
+        own = _sum(weights, labels, each)
+        places = np.meshgrid(*axes, indexing="ij")
+        centres = [_sum(weights * place, labels, each) / own for place in places]
+        return cls(
+            areas=own,
+            positions=np.stack(centres, axis=-1),
+            nodes=_sum(contact.astype(float), labels, each).astype(int),
+            loads=_sum(weights * pressure, labels, each),
+            edge=_edge(axes, contact),
+        )
+
+    @property
+    def number(self) -> int:
+        """Number of spots."""
+        return int(self.areas.size)
+
+    @property
+    def area(self) -> float:
+        """Area of all spots [m^2]; of a line contact their width [m]."""
+        return float(np.sum(self.areas))
+
+    @property
+    def relative_edge(self) -> float | None:
+        """Largest relative error of ``area``; None without spots."""
+        return self.edge / self.area if self.number else None
+
+    @property
+    def radii(self) -> Array:
+        """Radii of circles with the areas of the spots of a point contact [m], shape (n,)."""
+        radii: Array = np.sqrt(self.areas / np.pi)
+        return radii
+
+
+def _sum(values: Array, labels: NDArray[Any], each: NDArray[Any]) -> Array:
+    return np.asarray(ndimage.sum_labels(values, labels, each), dtype=float).reshape(each.size)
+
+
+def _edge(axes: tuple[Array, ...], contact: Mask) -> float:
+    """Half the area of the cells between touching nodes and neighbours that do not touch [m^2] or [m]."""
+    total = 0.0
+    for k, axis in enumerate(axes):
+        inside = np.moveaxis(contact, k, 0)
+        crossed = (inside[1:] != inside[:-1]) * np.diff(axis).reshape(-1, *[1] * (contact.ndim - 1))
+        others = [other for j, other in enumerate(axes) if j != k]
+        weights = areas(tuple(others)) if others else np.float64(1.0)
+        total += 0.5 * float(np.sum(crossed * weights))
+    return total
+
+
+def weighted_percentiles(values: Array, weights: Array, shares: ArrayLike) -> Array:
+    """Values below which given shares of the weight lie.
+
+    Parameters
+    ----------
+    values, weights : ndarray, shape (...)
+        Values in any unit, and their weights, >= 0.
+    shares : array_like, shape (n,)
+        Shares from 0 to 1.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Smallest value up to which at least each share of the weight lies.
+
+    Examples
+    --------
+    >>> weighted_percentiles(np.array([3.0, 1.0, 2.0]), np.array([1.0, 1.0, 2.0]), [0.1, 0.5, 1.0]).tolist()
+    [1.0, 2.0, 3.0]
+    """
+    order = np.argsort(values, axis=None)
+    up_to = np.cumsum(weights.ravel()[order])
+    places = np.searchsorted(up_to, np.asarray(shares) * up_to[-1] * (1.0 - 1e-12))
+    found: Array = values.ravel()[order][np.minimum(places, order.size - 1)]
+    return found
+
+
+# Shares of the area around the spots up to which the film is as thin as its percentiles.
+THIN_SHARES = (0.01, 0.05, 0.5)
+
+
+@dataclass(frozen=True)
+class Coarser:
+    """Asperities of the same contact on a grid with half the nodes along each axis.
+
+    Attributes
+    ----------
+    load_share : float
+        Part of the load that asperities carry.
+    contact_area_share : float
+        Part of the area of the dry smooth contact in which the surfaces touch.
+    """
+
+    load_share: float = field(metadata=number("not negative"))
+    contact_area_share: float = field(metadata=number("not negative"))
+
+
+@dataclass(frozen=True)
+class Touching:
+    """Load and area of the spots of a solved contact, and the film around them, SI units.
+
+    Areas of a point contact [m^2] are widths of a line contact [m].
+
+    Attributes
+    ----------
+    boundary_film : float
+        Gap at which the surfaces touch [m].
+    load_share : float
+        Part of the load that the contact pressure of the asperities carries, from 0 to 1.
+    contact_area : float
+        Real area of contact: that of the nodes that touch.
+    contact_area_share : float
+        Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1.
+    contact_area_error : float or None
+        Relative error of ``contact_area``, the larger of two: the edges of spots lie between nodes, and the
+        area of the Hertz zone in contact changed from a grid with half the nodes. From 1 on, a fine grid may
+        have no spots at all. None without spots.
+    spots, spots_of_one_node : int
+        Number of spots, and of those that are a single node and so are not resolved.
+    mean_spot, largest_spot : float or None
+        Mean and largest area of a spot; None without spots.
+    mean_film, least_film : float or None
+        Mean and least film thickness in the Hertz zone outside of the spots [m]; None if they cover it.
+    film_1, film_5, film_50 : float or None
+        Film thickness below which 1, 5 and 50 % of the area of the Hertz zone outside of the spots lie [m].
+    rq_deformed : float or None
+        Root mean square of the film thickness less that of smooth surfaces, about its mean over the Hertz
+        zone [m]; None if the contact was not solved with smooth surfaces.
+    lambda_undeformed, lambda_deformed : float or None
+        Mean film thickness in the Hertz zone, spots included, over the combined Rq of the surfaces as they
+        are, and over ``rq_deformed``; None without such an Rq.
+    boundary_friction : float or None
+        Share of asperities in the friction coefficient of sliding, ``load_share`` times the coefficient of
+        the case; None if the case gives none.
+    """
+
+    boundary_film: float
+    load_share: float
+    contact_area: float
+    contact_area_share: float
+    contact_area_error: float | None
+    spots: int
+    spots_of_one_node: int
+    mean_spot: float | None
+    largest_spot: float | None
+    mean_film: float | None
+    least_film: float | None
+    film_1: float | None
+    film_5: float | None
+    film_50: float | None
+    rq_deformed: float | None
+    lambda_undeformed: float | None
+    lambda_deformed: float | None
+    boundary_friction: float | None
+
+
+def spots_of(film: Film | PointFilm) -> Spots:
+    """Spots of a film, none where its surfaces do not touch."""
+    pressure = np.zeros_like(film.thickness) if film.contact_pressure is None else film.contact_pressure
+    return Spots.of(film.axes, film.contact, pressure)
+
+
+def hertz_weights(film: Film | PointFilm, semi_axes: tuple[float, ...]) -> Array:
+    """Area [m^2] of each node's part of the Hertz ellipse, or width [m] of its part of the Hertz zone."""
+    zones = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
+    return zones(film.axes, *semi_axes)["hertz"]
+
+
+def load_of(conditions: Conditions | PointConditions) -> float:
+    """Load of a point contact [N], or load per length of a line contact [N/m]."""
+    if isinstance(conditions, PointConditions):
+        return conditions.load
+    return conditions.load_per_length
+
+
+def touching(
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    spots: Spots,
+    *,
+    rq: float,
+    smooth: Array | None,
+    friction: float | None,
+    coarser: Coarser | None = None,
+) -> Touching:
+    """Load, area and film of a contact whose surfaces touch in spots.
+
+    Parameters
+    ----------
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Solved film.
+    spots : Spots
+        Spots of the film.
+    rq : float
+        Combined Rq of the surfaces over the Hertz zone before they are deformed [m].
+    smooth : ndarray or None
+        Film thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved.
+    friction : float or None
+        Friction coefficient of sliding boundary films.
+    coarser : Coarser, optional
+        Asperities on a grid with half the nodes.
+
+    Returns
+    -------
+    Touching
+        Load share, areas, film around the spots, roughness and friction.
+    """
+    zone = hertz_weights(film, conditions.semi_axes)
+    touched = film.contact
+    around = ~touched & (zone > 0.0)
+    thickness, weights = film.thickness[around], zone[around]
+    thin = weighted_percentiles(thickness, weights, THIN_SHARES) if thickness.size else None
+    deformed = None if smooth is None else weighted_rms(film.thickness - smooth, zone)
+    mean = float(np.vdot(zone, film.thickness) / np.sum(zone))
+    share = float(np.sum(zone[touched]) / np.sum(zone))
+    load_share = float(np.sum(spots.loads)) / load_of(conditions)
+    return Touching(
+        boundary_film=conditions.boundary_film,
+        load_share=load_share,
+        contact_area=spots.area,
+        contact_area_share=share,
+        contact_area_error=_area_error(spots, share, coarser),
+        spots=spots.number,
+        spots_of_one_node=int(np.count_nonzero(spots.nodes == 1)),
+        mean_spot=spots.area / spots.number if spots.number else None,
+        largest_spot=float(np.max(spots.areas)) if spots.number else None,
+        mean_film=float(np.average(thickness, weights=weights)) if thickness.size else None,
+        least_film=float(np.min(thickness)) if thickness.size else None,
+        film_1=None if thin is None else float(thin[0]),
+        film_5=None if thin is None else float(thin[1]),
+        film_50=None if thin is None else float(thin[2]),
+        rq_deformed=deformed,
+        lambda_undeformed=mean / rq if rq >= FLAT else None,
+        lambda_deformed=mean / deformed if deformed is not None and deformed >= FLAT else None,
+        boundary_friction=None if friction is None else friction * load_share,
+    )
+
+
+def _area_error(spots: Spots, share: float, coarser: Coarser | None) -> float | None:
+    """Relative error of the real area of contact, by the edges of spots or by its change with the grid."""
+    edge = spots.relative_edge
+    if edge is None or coarser is None or share == 0.0:
+        return edge
+    return max(edge, abs(coarser.contact_area_share / share - 1.0))
+
+
+def weighted_rms(values: Array, weights: Array) -> float:
+    """Root mean square of values about their mean, both weighted."""
+    mean = float(np.vdot(weights, values) / np.sum(weights))
+    return float(np.sqrt(np.vdot(weights, (values - mean) ** 2) / np.sum(weights)))
+
+
+# Largest excess of the pressure of the oil over ambient by rounding, over p_h.
+_ROUNDING = 1e-9
+
+# Relative difference of the spacings of a uniform grid.
+_UNIFORM = 1e-6
+
+
+@dataclass(frozen=True)
+class OilBalance:
+    """Oil that a stationary film loses and makes, over the mean flow through its contact.
+
+    The mean flow is that of the mean mass of the oil in the Hertz zone at the entrainment speed, over the
+    width of the zone.
+
+    Attributes
+    ----------
+    mass_error : float
+        Sum of both parts.
+    oil_lost : float
+        Oil that enters nodes where the surfaces touch and does not leave them.
+    oil_made : float
+        Oil that leaves cavitated nodes in the Hertz zone or in a spot in excess of what enters them, where
+        oil fills the gap again further downstream within the zone. Each refilling along a streamline counts,
+        so that it may be above 1.
+    """
+
+    mass_error: float
+    oil_lost: float
+    oil_made: float
+
+
+def oil_balance(
+    case: Case | Setup, conditions: Conditions | PointConditions, film: Film | PointFilm
+) -> OilBalance | None:
+    """Balance of the oil of a converged stationary film, from its pressure and thickness.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact, for its oil and its scheme.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Converged film.
+
+    Returns
+    -------
+    OilBalance or None
+        Oil lost and made; None where the nodes are not equidistant, as those of a film with a patch.
+    """
+    if film.mass_residual is not None:
+        return OilBalance(film.mass_residual, oil_lost=0.0, oil_made=film.mass_residual)
+    if any(float(np.ptp(np.diff(axis))) > _UNIFORM * float(axis[1] - axis[0]) for axis in film.axes):
+        return None
+    order, law = SCHEMES[case.grid.wedge]
+    fluid = fluid_of(case.oil, conditions.max_pressure, conditions.velocity_parameter)
+    mesh = _mesh(conditions, film)
+    touching = 0.0 if film.contact_pressure is None else film.contact_pressure
+    oil = ((film.pressure - touching) / conditions.max_pressure).reshape(mesh.shape)
+    gap = np.where(film.contact, np.maximum(film.thickness, conditions.boundary_film), film.thickness)
+    thickness = (gap / conditions.thickness_scale).reshape(mesh.shape)
+    r = _residual(fluid, law, order, mesh, oil, thickness)
+    zone, contact = _in_zone(conditions, mesh), film.contact.reshape(mesh.shape)
+    full = oil - fluid.ambient_pressure > _ROUNDING
+    made = _refilled(full & zone) & (zone | contact) & (r > 0.0)
+    if film.heated is not None:
+        # The viscosity of a hot or sheared film is not that of the oil at rest; a cavity has no such flow.
+        made &= ~full
+    lost = contact & (r < 0.0)
+    carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
+    parts = [abs(float(np.vdot(mesh.weights, np.where(part, r, 0.0)))) / carried for part in (lost, made)]
+    return OilBalance(mass_error=sum(parts), oil_lost=parts[0], oil_made=parts[1])
+
+
+def _residual(fluid: Fluid, law: str, order: int, mesh: Mesh, oil: Array, thickness: Array) -> Array:
+    """Residual of the Reynolds equation at the nodes (nx, ny), dimensionless."""
+    named = Fluid(fluid.density, fluid.log_viscosity, fluid.velocity_parameter, fluid.ambient_pressure, law)
+    at_faces = flow(named, oil, thickness, mesh)
+    return residual(at_faces, wedge_stencil(mesh.shape, mesh.dx, order=order), thickness, mesh)
+
+
+def _mesh(conditions: Conditions | PointConditions, film: Film | PointFilm) -> Mesh:
+    """Nodes of a film, in half-widths."""
+    x, *y = (axis / conditions.half_width for axis in film.axes)
+    return Mesh(x, y[0] if y else np.zeros(1))
+
+
+def _in_zone(conditions: Conditions | PointConditions, mesh: Mesh) -> Mask:
+    """Nodes (nx, ny) within the Hertz zone."""
+    across = mesh.y / _width(conditions) * 2.0
+    inside: Mask = mesh.x[:, np.newaxis] ** 2 + across**2 < 1.0
+    return inside
+
+
+def _width(conditions: Conditions | PointConditions) -> float:
+    """Width of the Hertz zone across entrainment [half-widths]; of a line contact one."""
+    if isinstance(conditions, PointConditions):
+        return 2.0 * conditions.semi_axis_y / conditions.half_width
+    return 1.0
+
+
+def _refilled(full: Mask) -> Mask:
+    """Nodes (nx, ny) on whose line oil fills the gap of a node further downstream, or their own."""
+    refilled: Mask = np.logical_or.accumulate(full[::-1], axis=0)[::-1]
+    return refilled
+
+
+# Answer of a contact in one word.
+Behaviour: TypeAlias = Literal["resistive", "mixed", "capacitive"]
+
+# Frequency at which spots and film are compared [Hz]: the switching frequency of a usual inverter.
+PWM_FREQUENCY = 1e4
+
+# Ratio of the impedances of film and spots above which the spots short the film, and the reciprocal of that
+# below which they do not matter: one carries ten times the current of the other.
+SHORTED = 10.0
+
+# Share of the time with at least one spot from which a contact conducts always. Three small spots at one
+# instant give it, by the Poisson law.
+ALWAYS = 0.95
+
+# Shares of the area around the spots at which breakdown voltages are given.
+BREAKING_SHARES = (0.01, 0.05, 0.5)
+
+# Number of spots above which all have currents in proportion to their radii, an upper bound of the
+# resistance.
+_MOST_SOLVED = 2000
+
+
+@dataclass(frozen=True)
+class Electrical:
+    """Resistance of the spots of a contact, and capacitance and breakdown of the film around them, SI units.
+
+    Attributes
+    ----------
+    behaviour : str
+        "resistive", "mixed" or "capacitive"; see ``behaviour_of``.
+    time_share : float
+        Share of the time with at least one spot, if spots of moving surfaces come and go independently of
+        each other; see ``time_share``.
+    resistance : float or None
+        Resistance of all spots with their tribofilm [ohm]; of a line contact an upper bound for ridges along
+        the whole length. None without spots, or without the resistivity of the case or the length of a line
+        contact.
+    constriction_resistance, tribofilm_resistance : float or None
+        Its two parts, in series [ohm].
+    capacitance_outside : float
+        Capacitance of the film outside of the spots, over the whole domain, by a thin gap [F]; of a line
+        contact per length [F/m].
+    impedance_ratio : float or None
+        Impedance of this capacitance at 10 kHz over ``resistance``; None if that is unknown.
+    corner_frequency : float or None
+        Frequency above which more current takes the film than the spots [Hz].
+    breakdown_1, breakdown_5, breakdown_50 : float or None
+        Voltage at which 1, 5 and 50 % of the Hertz zone outside of the spots reach the dielectric strength
+        [V]; None if the case gives no strength.
+    breakdown_voltage : float or None
+        Voltage at which a film without its spots breaks down with a probability of 63.2 % by the Weibull law
+        of the case [V]; None without this law.
+    breakdown_probability : float or None
+        Probability that the film outside of the spots breaks down at the voltage of the case.
+    """
+
+    behaviour: Behaviour
+    time_share: float
+    resistance: float | None
+    constriction_resistance: float | None
+    tribofilm_resistance: float | None
+    capacitance_outside: float
+    impedance_ratio: float | None
+    corner_frequency: float | None
+    breakdown_1: float | None
+    breakdown_5: float | None
+    breakdown_50: float | None
+    breakdown_voltage: float | None
+    breakdown_probability: float | None
+
+
+def time_share(spots: int, area_share: float) -> float:
+    """Share of the time with at least one spot, if spots of moving surfaces come and go independently.
+
+    The Hertz zone has N/f sites of the mean size of N spots that cover its part f. Each is touched with the
+    probability f, so that the time share is 1 - (1 - f)^(N/f). For small spots it is Poisson's 1 - exp(-N).
+
+    Parameters
+    ----------
+    spots : int
+        Number N of spots at one instant.
+    area_share : float
+        Part f of the Hertz zone that they cover, from 0 to 1.
+
+    Examples
+    --------
+    >>> [round(time_share(spots, share), 2) for spots, share in ((0, 0.0), (1, 1e-6), (3, 0.01), (1, 0.99))]
+    [0.0, 0.63, 0.95, 0.99]
+    """
+    if spots == 0 or area_share == 0.0:
+        return 0.0
+    if area_share >= 1.0:
+        return 1.0
+    return float(-np.expm1(spots / area_share * np.log1p(-area_share)))
+
+
+def behaviour_of(
+    spots: int, always: float, impedance_ratio: float | None, area_error: float | None = None
+) -> Behaviour:
+    """Electrical behaviour of a contact in one word.
+
+    "capacitive": the contact has no spot, or the film takes ten times the current of its spots. "resistive":
+    the spots take ten times the current of the film, and at least one is there for 95 % of the time. "mixed":
+    all between, as a contact that conducts and insulates in turn, and one whose spots a finer grid may not
+    have.
+
+    Parameters
+    ----------
+    spots : int
+        Number of spots.
+    always : float
+        Share of the time with at least one spot.
+    impedance_ratio : float or None
+        Impedance of the film over that of the spots at 10 kHz. None if the resistance of the spots is
+        unknown: they are taken as metal, which shorts any film at this frequency.
+    area_error : float, optional
+        Relative error of the real contact area by the grid; from 1 on there may be no spot at all.
+
+    Examples
+    --------
+    >>> spots = ((0, 0.0, None), (1, 0.63, None), (5, 0.99, 1e5), (5, 0.99, 0.01), (5, 0.99, 1e5, 1.2))
+    >>> tuple(behaviour_of(*each) for each in spots)
+    ('capacitive', 'mixed', 'resistive', 'capacitive', 'mixed')
+    """
+    ratio = np.inf if impedance_ratio is None else impedance_ratio
+    if spots == 0 or ratio < 1.0 / SHORTED:
+        return "capacitive"
+    if ratio > SHORTED and always >= ALWAYS and (area_error or 0.0) < 1.0:
+        return "resistive"
+    return "mixed"
+
+
+def strip_resistance(width: float, length: float, resistivity: float) -> float:
+    """Constriction resistance of a strip between two half-spaces, as that of an ellipse with its axes.
+
+    R = rho K(1 - b^2/a^2)/(pi a) with the semi-axes a and b and the complete elliptic integral K of a
+    parameter; a circle gives rho/(2 a).
+
+    Parameters
+    ----------
+    width, length : float
+        Axes of the ellipse [m], > 0.
+    resistivity : float
+        Resistivity rho of the bodies [ohm m].
+
+    Returns
+    -------
+    float
+        Resistance [ohm].
+
+    Notes
+    -----
+    R. Holm, Electric Contacts, 4th ed., Springer 1967; it is the capacitance of an elliptical disc.
+
+    Examples
+    --------
+    >>> round(strip_resistance(2e-6, 2e-6, 2.2e-7), 6)
+    0.11
+    """
+    minor, major = sorted((0.5 * width, 0.5 * length))
+    return float(resistivity * ellipk(1.0 - (minor / major) ** 2) / (np.pi * major))
+
+
+def constriction(spots: Spots, electric: Electric, length: float | None) -> float | None:
+    """Constriction resistance of the spots [ohm]; None if there are none, or an input is missing.
+
+    Spots of a point contact are circles of their areas, with their effect on each other. In a line contact
+    the widest strip alone counts, which is an upper bound of all of them.
+    """
+    rho = electric.resistivity
+    if rho is None or not spots.number:
+        return None
+    if spots.positions.shape[1] == 1:
+        return None if length is None else strip_resistance(float(np.max(spots.areas)), length, rho)
+    if spots.number > _MOST_SOLVED:
+        return greenwood_cluster(spots.positions, spots.radii, rho)
+    return cluster_resistance(spots.positions, spots.radii, rho, electric.mean_free_path or 0.0)
+
+
+def electrical(
+    film: Film | PointFilm,
+    spots: Spots,
+    oil: Oil,
+    *,
+    electric: Electric,
+    discharge: Discharge | None,
+    semi_axes: tuple[float, ...],
+    area_error: float | None = None,
+) -> Electrical:
+    """Electrical answer of a contact whose surfaces touch in spots.
+
+    Parameters
+    ----------
+    film : Film or PointFilm
+        Solved film.
+    spots : Spots
+        Spots of the film.
+    oil : Oil
+        Oil, for its permittivity.
+    electric : Electric
+        Potentials, and resistivity of the bodies and of their tribofilm.
+    discharge : Discharge or None
+        Dielectric strength or Weibull law, and length of a line contact.
+    semi_axes : tuple of float
+        Half-width of a line contact, or semi-axes of a point contact [m].
+    area_error : float, optional
+        Relative error of the real contact area by the grid.
+
+    Returns
+    -------
+    Electrical
+        Resistance, capacitance, breakdown voltages, and the behaviour in one word.
+    """
+    length = 1.0 if len(semi_axes) == 2 else None if discharge is None else discharge.length
+    metal = constriction(spots, electric, length)
+    layer = None
+    if metal is not None and length is not None:
+        layer = float(film_resistance(spots.area * length, electric.tribofilm_resistance or 0.0))
+    resistance = None if metal is None or layer is None else metal + layer
+    permittivity = oil.permittivity(film.pressure, film.density)
+    outside = np.where(film.contact, 0.0, areas(film.axes))
+    capacitance = float(np.sum(outside * epsilon_0 * permittivity / film.thickness))
+    ratio = corner = None
+    if resistance is not None and length is not None:
+        corner = 1.0 / (2.0 * np.pi * resistance * capacitance * length)
+        ratio = corner / PWM_FREQUENCY
+    zone = hertz_weights(film, semi_axes)
+    always = time_share(spots.number, float(np.sum(zone[film.contact]) / np.sum(zone)))
+    thin = _thin_breakdown(film, zone, discharge)
+    weakest = _weakest(film, outside, electric.voltage, discharge)
+    return Electrical(
+        behaviour=behaviour_of(spots.number, always, ratio, area_error),
+        time_share=always,
+        resistance=resistance,
+        constriction_resistance=metal,
+        tribofilm_resistance=layer,
+        capacitance_outside=capacitance,
+        impedance_ratio=ratio,
+        corner_frequency=corner,
+        breakdown_1=thin[0],
+        breakdown_5=thin[1],
+        breakdown_50=thin[2],
+        breakdown_voltage=None if weakest is None else weakest.characteristic_voltage,
+        breakdown_probability=None if weakest is None else weakest.probability(electric.voltage),
+    )
+
+
+def _thin_breakdown(
+    film: Film | PointFilm, zone: Array, discharge: Discharge | None
+) -> tuple[float, ...] | tuple[None, ...]:
+    """Voltages at which shares of the Hertz zone outside of the spots reach the dielectric strength [V]."""
+    inside = ~film.contact & (zone > 0.0)
+    if discharge is None or not discharge.has_strength or not np.any(inside):
+        return (None,) * len(BREAKING_SHARES)
+    voltage = (film.thickness * dielectric_strength(discharge, film.pressure))[inside]
+    return tuple(float(each) for each in weighted_percentiles(voltage, zone[inside], BREAKING_SHARES))
+
+
+def _weakest(
+    film: Film | PointFilm, outside: Array, voltage: float, discharge: Discharge | None
+) -> WeakestLink | None:
+    """Weibull law of the film outside of the spots; None if the case gives none, or no length."""
+    if discharge is None or discharge.weibull is None:
+        return None
+    law, inside = discharge.weibull, outside > 0.0
+    length = 1.0 if film.thickness.ndim == 2 else discharge.length
+    assert length is not None
+    return WeakestLink.of(
+        voltage,
+        voltage / film.thickness[inside],
+        length * outside[inside],
+        law.scale,
+        law.shape,
+        law.reference_area,
+    )
+
+
+# Change of the load share from a grid with half the nodes, of the share itself or of the whole load, above
+# which the share is not resolved.
+UNRESOLVED_SHARE, UNRESOLVED_LOAD = 0.1, 0.005
+
+
+# Load share of asperities above which finer grids leave spots, however much their area changes.
+_NEARLY_ALL = 0.9
+
+
+@dataclass(frozen=True)
+class Asperities:
+    """Asperities of a solved contact.
+
+    Attributes
+    ----------
+    spots : Spots
+        Spots in which the surfaces touch.
+    touching : Touching
+        What they carry, and the film around them.
+    electrical : Electrical
+        What they conduct, and the capacitance and breakdown around them.
+    balance : OilBalance or None
+        Oil that the film loses and makes; None where it is not known.
+    coarser : Coarser or None
+        Load share and area on a grid with half the nodes; None if it was not solved.
+    """
+
+    spots: Spots
+    touching: Touching
+    electrical: Electrical
+    balance: OilBalance | None
+    coarser: Coarser | None
+
+    @property
+    def share_change(self) -> float | None:
+        """Change of the load share from the coarser grid; None without it."""
+        return None if self.coarser is None else self.touching.load_share - self.coarser.load_share
+
+    def summary(self) -> dict[str, Any]:
+        """Values of all parts, as in ``asperities`` of summary.json."""
+        coarser, balance = self.coarser, self.balance
+        return {
+            **asdict(self.touching),
+            "load_share_coarser": None if coarser is None else coarser.load_share,
+            "contact_area_share_coarser": None if coarser is None else coarser.contact_area_share,
+            "mass_error": None if balance is None else balance.mass_error,
+            "oil_lost": None if balance is None else balance.oil_lost,
+            "oil_made": None if balance is None else balance.oil_made,
+            **asdict(self.electrical),
+        }
+
+
+def asperities(
+    case: Case | Setup,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    *,
+    rq: float,
+    smooth: Array | None,
+    coarser: Coarser | None,
+) -> Asperities:
+    """Asperities of a converged film.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact, or its setup.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Converged film.
+    rq : float
+        Combined Rq of the surfaces over the Hertz zone before they are deformed [m].
+    smooth : ndarray or None
+        Film thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved.
+    coarser : Coarser or None
+        Asperities on a grid with half the nodes; None if it was not solved.
+
+    Returns
+    -------
+    Asperities
+        Spots, what they carry and conduct, and the film around them.
+
+    Examples
+    --------
+    >>> from ehlectric import solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa", "entrainment_speed": 0.005}
+    >>> wave = {"surface": 1, "generator": "sinusoid", "amplitude": "0.3 um", "wavelength": "20 um"}
+    >>> table = {"contact": contact | {"max_hertz_pressure": "0.5 GPa"}, "lubricant": {"base": "paper"}}
+    >>> result = solve(Case.from_dict(table | {"grid": {"nodes": 401}, "roughness": [wave]}))
+    >>> result.asperities.touching.spots > 0, result.asperities.electrical.behaviour
+    (True, 'resistive')
+    """
+    spots = spots_of(film)
+    friction = case.contact.boundary_friction if isinstance(case, Case) else None
+    carried = touching(conditions, film, spots, rq=rq, smooth=smooth, friction=friction, coarser=coarser)
+    return Asperities(
+        spots=spots,
+        touching=carried,
+        electrical=electrical(
+            film,
+            spots,
+            case.oil,
+            electric=case.electric,
+            discharge=case.discharge,
+            semi_axes=conditions.semi_axes,
+            area_error=None if carried.load_share > _NEARLY_ALL else carried.contact_area_error,
+        ),
+        balance=oil_balance(case, conditions, film),
+        coarser=coarser,
+    )
+
+
+# First words of a verdict, which are its heading, and what the contact does.
+_LEADS = {
+    "resistive": "The spots conduct",
+    "mixed": "Discharges expected",
+    "capacitive": "Breakdown possible",
+}
+_ANSWERS = {
+    "resistive": "the spots short the film at 10 kHz, and no voltage builds up while they are there",
+    "mixed": "it conducts and insulates in turn, and discharges as the spots open",
+    "capacitive": "only what lies on the spots insulates, and its own breakdown is not known",
+}
+
+
+def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWarning]) -> Verdict:
+    """Verdict on a contact whose surfaces touch under a voltage.
+
+    Parameters
+    ----------
+    found : Asperities
+        Asperities of the contact, with at least one spot.
+    voltage : float
+        Applied voltage [V].
+    warnings : iterable of ResultWarning
+        Warnings of the contact; a severe one leaves no verdict.
+
+    Returns
+    -------
+    Verdict
+        Red; yellow where a tribofilm insulates the spots; grey where the film must not be used.
+    """
+    refused = unusable(warnings)
+    if refused:
+        return Verdict("grey", refused)
+    answer, number = found.electrical, found.spots.number
+    spots = "1 spot" if number == 1 else f"{number} spots"
+    text = f"{_LEADS[answer.behaviour]}: the surfaces touch in {spots} "
+    text += f"at an applied voltage of {voltage:.3g} V. "
+    text += f"The contact is {answer.behaviour}, {_ANSWERS[answer.behaviour]}."
+    if answer.breakdown_5 is not None:
+        text += f" Around the spots 5 % of the Hertz zone would break down at {answer.breakdown_5:.2g} V."
+    if answer.breakdown_probability is not None:
+        text += (
+            " Around the spots the film would break down with a probability of "
+            f"{100.0 * answer.breakdown_probability:.2g} %."
+        )
+    return Verdict("yellow" if answer.behaviour == "capacitive" else "red", text)
+
+
+# Oil that a film may make or lose without a warning, over the mean flow through its contact.
+MASS_ERROR = 1e-3
+
+
+# Smallest load share, and smallest part of the mean flow of the oil, that a text states as a number.
+_LEAST_SHARE = 1e-4
+
+
+def share_text(share: float, coarser: float | None) -> str:
+    """Share in per cent, with no more digits than its change from a coarser grid leaves.
+
+    Examples
+    --------
+    >>> share_text(0.2369, 0.2371), share_text(0.2369, 0.21), share_text(0.0511, 0.12), share_text(4e-7, 0.0)
+    ('23.7', '24', '5', '< 0.01')
+    """
+    if 0.0 < share < _LEAST_SHARE:
+        return f"< {100.0 * _LEAST_SHARE:g}"
+    error = share if coarser is None else abs(share - coarser)
+    relative = error / share if share > 0.0 else 0.0
+    digits = 3 if relative < 0.01 else 2 if relative < 0.2 else 1
+    return f"{float(f'{100.0 * share:.{digits}g}'):g}"
+
+
+def about_share(share: float, coarser: float | None) -> str:
+    """Share in per cent within a sentence, with the digits of ``share_text``.
+
+    Examples
+    --------
+    >>> about_share(0.2369, 0.2371), about_share(4e-7, 0.03)
+    ('about 23.7 %', 'less than 0.01 %')
+    """
+    text = share_text(share, coarser)
+    return f"less than {text.removeprefix('< ')} %" if text.startswith("<") else f"about {text} %"
+
+
+def spot_warnings(
+    case: Case | Setup,
+    conditions: Conditions | PointConditions,
+    film: Film | PointFilm,
+    coarser: Coarser | None,
+) -> Iterator[ResultWarning]:
+    """Warnings about a converged film that is rough or touches: what it means, and what is not resolved.
+
+    Parameters
+    ----------
+    case : Case or Setup
+        Case of the contact.
+    conditions : Conditions or PointConditions
+        Operating conditions.
+    film : Film or PointFilm
+        Film; there are no warnings where it has not converged.
+    coarser : Coarser or None
+        Asperities on a grid with half the nodes; None if it was not solved.
+
+    Yields
+    ------
+    ResultWarning
+        That the surfaces touch at the edge of the domain; oil that appears; that they touch in the domain,
+        and where so a load share that depends on the grid.
+    """
+    if not film.converged:
+        return
+    if conditions.boundary_film > 0.0 and _edge_gap(film) <= (1.0 + _ROUNDING) * conditions.boundary_film:
+        yield ResultWarning(
+            "domain-too-small",
+            "the surfaces touch at the edge of the domain, where asperities carry nothing in this solution; "
+            "lower grid.inlet or raise grid.outlet" + (" or grid.side" if film.thickness.ndim == 2 else ""),
+        )
+    if case.roughness or np.any(film.contact):
+        balance = oil_balance(case, conditions, film)
+        if balance is not None and balance.mass_error > MASS_ERROR:
+            yield _not_conserved(balance)
+    if not np.any(film.contact):
+        return
+    spots = spots_of(film)
+    share = float(np.sum(spots.loads)) / load_of(conditions)
+    before = None if coarser is None else coarser.load_share
+    what = "spot, which carries" if spots.number == 1 else "spots, which carry"
+    yield ResultWarning(
+        "asperities-touch",
+        f"the surfaces touch in {spots.number} {what} {about_share(share, before)} of "
+        "the load: the film conducts there, and the minimum film, the maximum field, the capacitance and a "
+        "breakdown voltage are those of the boundary film; use the values of asperities, around the spots",
+    )
+    if before is None:
+        grids = "is not known on a coarser grid"
+    elif abs(share - before) > max(UNRESOLVED_SHARE * share, UNRESOLVED_LOAD):
+        grids = f"was {about_share(before, share)} on a grid with half the nodes"
+    else:
+        return
+    yield ResultWarning(
+        "load-share-unresolved",
+        f"the load share of the asperities depends on the grid: it {grids}; use more grid.nodes and compare",
+    )
+
+
+def _edge_gap(film: Film | PointFilm) -> float:
+    """Least gap on the edges of the domain [m]."""
+    edges = (film.thickness[[0, -1]], film.thickness[..., [0, -1]])
+    return min(float(np.min(edge)) for edge in edges)
+
+
+def _not_conserved(balance: OilBalance) -> ResultWarning:
+    made, lost = (
+        f"{formatted(100.0 * each, '.2g')} %" if each >= _LEAST_SHARE else "none"
+        for each in (balance.oil_made, balance.oil_lost)
+    )
+    return ResultWarning(
+        "oil-not-conserved",
+        f"the film does not keep its oil: {made} of the mean flow through the contact appears where "
+        f"cavitated gaps fill again, and {lost} is lost in spots, since cavities count as full where a line "
+        "contact touches, or no film that carries its oil was found; the film is rather too thick and the "
+        "load share of the asperities too low; use more grid.nodes, or [motion]",
+    )

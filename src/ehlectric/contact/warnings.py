@@ -1,0 +1,449 @@
+"""Warnings about a contact: about its operating conditions before it is solved, and about its film and
+field.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ehlectric.cases import library
+from ehlectric.cases.case import Case
+from ehlectric.cases.case_oil import viscosity_over_temperature
+from ehlectric.cases.contact_inputs import modulus_doubt, radius_doubt
+from ehlectric.cases.film_inputs import CONSTANTS
+from ehlectric.cases.grid_inputs import MOST_DEGREE, Grid
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.contact_heat import unconverged_heat
+from ehlectric.contact.problems import Setup
+from ehlectric.errors import ResultWarning
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.field.poisson import ATOM
+from ehlectric.film.film_error import UNRESOLVED
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.formulas import film_line as film_formulas
+from ehlectric.formulas import film_point as point_formulas
+from ehlectric.lubricant.oil import Oil
+
+# Hertz pressure at which bearing steel deforms permanently in line contacts (ISO 76) [Pa].
+LINE_PERMANENT = 4e9
+
+# The film between rigid bodies builds up over a length of about 10 sqrt(2 R h). In half-widths of a line
+# contact, this length is the following number divided by Moes' M.
+_RIGID_INLET = 14.0
+
+# Hertz pressure at which bearing steel deforms permanently in point contacts (ISO 76) [Pa].
+POINT_PERMANENT = 4.2e9
+
+
+def line_case_warnings(setup: Case | Setup, conditions: Conditions) -> Iterator[ResultWarning]:
+    """Warnings about the operating conditions of a line contact, known before it is solved."""
+    yield from unit_warnings("reduced_radius", conditions.reduced_radius, conditions.reduced_modulus)
+    yield from temperature_warnings(setup)
+    yield from rheology_warnings(setup)
+    yield from regime_warnings(conditions)
+    width = setup.grid.length / (0.5 * np.pi)
+    yield from pressure_warnings(setup.oil, conditions.max_pressure, width, "line", LINE_PERMANENT)
+    yield from hardness_warnings(conditions)
+
+
+def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
+    """Note about a temperature of the contact on which the oil of its case does not depend."""
+    if not isinstance(setup, Case) or setup.contact.temperature is None:
+        return
+    if viscosity_over_temperature(setup.lubricant) is None:
+        celsius = f"{setup.contact.temperature - 273.15:.4g} °C"
+        yield ResultWarning(
+            "temperature-unused",
+            f"the viscosity of {1e3 * setup.oil.viscosity:.4g} mPa s is a given one, and contact.temperature "
+            f"does not change it: it must be that at {celsius}; give [lubricant.temperature] or "
+            "lubricant.atmospheric_law for a viscosity that follows the temperature",
+        )
+
+
+def rheology_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
+    """Note about constants of another law between shear stress and shear rate than that of the film.
+
+    Constants of the library's oil are no choice of the case, and a Newtonian film may stand for comparison.
+    """
+    if not isinstance(setup, Case) or setup.film is None or setup.film.rheology == "newtonian":
+        return
+    oil, rheology = setup.lubricant, setup.film.rheology
+    base = library.tables("lubricant", oil.base)["lubricant"] if oil.base else {}
+    for other, keys in CONSTANTS.items():
+        given = [key for key in keys if getattr(oil, key) is not None and key not in base]
+        if other != rheology and given:
+            names = " and ".join(f"lubricant.{key}" for key in given)
+            yield ResultWarning(
+                "shear-constant-unused",
+                f"{names} {'are' if len(given) > 1 else 'is'} not used: film.rheology is {rheology!r}, not "
+                f"{other!r}; change it or leave them out",
+            )
+
+
+def hardness_warnings(conditions: Conditions | PointConditions) -> Iterator[ResultWarning]:
+    """Warning about a hardness below the Hertz pressure: bodies would yield, not only asperities."""
+    hardness, pressure = conditions.hardness, conditions.max_pressure
+    if hardness is not None and hardness < pressure:
+        yield ResultWarning(
+            "hardness-low",
+            f"contact.hardness is {hardness / 1e9:.3g} GPa, below the Hertz pressure of "
+            f"{pressure / 1e9:.3g} GPa: smooth surfaces alone would yield where they touch, and the film "
+            "will probably not converge; hardened bearing steel has about 7 GPa",
+        )
+
+
+def unit_warnings(key: str, radius: float, modulus: float) -> Iterator[ResultWarning]:
+    """Warnings about a reduced radius [m], with its key, or modulus [Pa] that no machine part has."""
+    yield from (ResultWarning("radius-large", text) for text in radius_doubt(key, radius))
+    yield from (ResultWarning("modulus-low", text) for text in modulus_doubt(modulus))
+
+
+def regime_warnings(conditions: Conditions) -> Iterator[ResultWarning]:
+    """Warning about a line contact in a regime for which the film formulas were not made."""
+    regime = film_formulas.regime(conditions.contact)
+    if regime == "isoviscous-rigid":
+        yield rigid_warning("half-width", "half-widths", _RIGID_INLET / conditions.contact.moes_m)
+    elif regime != "piezoviscous-elastic":
+        yield ResultWarning(
+            "regime",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Moes; use the solved film",
+        )
+
+
+def rigid_warning(length: str, lengths: str, reach: float) -> ResultWarning:
+    """Warning about a contact in the isoviscous-rigid regime.
+
+    The film builds up over ``reach`` half-widths or semi-axes; ``length`` and ``lengths`` are the name of
+    this unit in singular and plural.
+    """
+    return ResultWarning(
+        "regime",
+        f"the contact is in the isoviscous-rigid regime: the bodies hardly deform, and {length} and Hertz "
+        f"pressure are not meaningful scales; the film builds up over about {reach:.2g} {lengths}: "
+        f"where grid.inlet is given it should be at most {-reach:.2g}",
+    )
+
+
+def pressure_warnings(
+    oil: Oil, pressure: float, domain: float, kind: str, permanent: float
+) -> Iterator[ResultWarning]:
+    """Warnings that follow from the Hertz pressure of a contact and from its oil.
+
+    ``pressure`` is the Hertz pressure [Pa]. ``domain`` is the load that the Hertz pressure would
+    carry if it acted on the whole domain, divided by the load of the contact. ``permanent`` is the Hertz
+    pressure above which bearing steel deforms permanently in contacts of this ``kind`` [Pa].
+    """
+    ambient_load = oil.ambient_pressure / pressure * domain
+    if ambient_load > 0.01:
+        yield ResultWarning(
+            "ambient-pressure",
+            f"the ambient pressure carries {100 * ambient_load:.1f} % of the load on this domain; set "
+            "lubricant.ambient_pressure to 0 to leave it out",
+        )
+    if pressure > permanent:
+        yield ResultWarning(
+            "plastic-deformation",
+            f"the Hertz pressure is {pressure / 1e9:.3g} GPa, but bearing steel deforms permanently above "
+            f"{permanent / 1e9:g} GPa in {kind} contacts, and the model is elastic; check load and radii",
+        )
+    yield from oil.warnings(pressure)
+
+
+def point_case_warnings(setup: Case | Setup, conditions: PointConditions) -> Iterator[ResultWarning]:
+    """Warnings about the operating conditions of a point contact, known before it is solved."""
+    yield from unit_warnings("radius_x", conditions.radius_x, conditions.reduced_modulus)
+    yield from temperature_warnings(setup)
+    yield from rheology_warnings(setup)
+    yield from point_regime_warnings(conditions)
+    area = setup.grid.length * 2.0 * conditions.side
+    domain = area / (2.0 * np.pi / 3.0)
+    yield from pressure_warnings(setup.oil, conditions.max_pressure, domain, "point", POINT_PERMANENT)
+    yield from hardness_warnings(conditions)
+
+
+def point_regime_warnings(conditions: PointConditions) -> Iterator[ResultWarning]:
+    """Warning about a point contact in a regime for which the film formulas were not made."""
+    contact = conditions.contact
+    regime = point_formulas.regime(contact)
+    if regime == "isoviscous-rigid":
+        film = point_formulas.nijenbanning_venner_moes(contact).central_thickness
+        # The film between rigid bodies builds up over about 10 sqrt(2 R h).
+        reach = 10.0 * float(np.sqrt(2.0 * contact.radius_x * film)) / conditions.semi_axis_x
+        yield rigid_warning("semi-axis", "semi-axes", reach)
+    elif regime == "isoviscous-elastic":
+        yield ResultWarning(
+            "regime",
+            f"the contact is in the {regime} regime, outside the range of all film formulas but that of "
+            "Nijenbanning, Venner and Moes; use the solved film",
+        )
+
+
+# Estimated relative error of the maximum field above which there is a warning.
+FIELD_ERROR = 0.02
+
+# Maximum number of positions that the warning about touching surfaces lists.
+_NAMED = 8
+
+# Newton steps that films at high L may need.
+_MANY_STEPS = 200
+
+# Relative loss of film thickness, caused by a domain that is too small, above which a point contact gets a
+# warning. The loss in the default domain is about 0.01.
+_LOSS = 0.02
+
+# Share of the estimated error of the maximum pressure that is added to it for the warning about yielding
+# steel. On 692 grids of random rough contacts it missed 4 of 48 films above the limit, and warned of 17
+# others.
+_LIKELY_RISE = 1.0 / 3.0
+
+# Share of the pressure that builds up upstream of the domain, above which a line contact gets a warning.
+_DEFICIT = 0.01
+
+
+def film_warnings(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
+    """Warnings about the film of a line or point contact."""
+    if not film.converged:
+        yield ResultWarning(
+            "not-converged",
+            f"do not use this film: the iteration did not converge ({film.status} at a residual of "
+            f"{film.residual:.1e}); {_advice(setup, film)}",
+        )
+    places = film.collapsed_positions / film.scales.length
+    # A film with heat or shear has a warning of its own: its surfaces must not touch at all.
+    if len(places) and film.heated is None:
+        where = "x/b" if places.ndim == 1 else "(x/b, y/b)"
+        named = (", ".join(f"{place:.3f}" for place in np.atleast_1d(p)) for p in places[:_NAMED])
+        yield ResultWarning(
+            "surfaces-touch",
+            f"the surfaces would touch at {where} = "
+            + ", ".join(name if places.ndim == 1 else f"({name})" for name in named)
+            + (f" and {len(places) - _NAMED} more nodes" if len(places) > _NAMED else "")
+            + ": there is no full film there; lower the load or the roughness, or raise speed or viscosity",
+        )
+    if film.minimum_thickness < ATOM:
+        yield ResultWarning(
+            "thinner-than-atom",
+            "the film is thinner than an atom in places: there is no full film there, and the field is that "
+            "of a gap of 0.1 nm",
+        )
+    for check in setup.oil.film_checks:
+        yield from check(film.max_pressure)
+    yield from _local_pressure(film, rough=bool(setup.roughness))
+    if not film.cavitates:
+        yield ResultWarning(
+            "outlet-too-short", "the film does not cavitate before the end of the domain; raise grid.outlet"
+        )
+    # The minimum of a film whose surfaces touch is the boundary film, whatever the grid.
+    if film.contact_pressure is None:
+        yield from _discretisation(setup, film)
+
+
+def _discretisation(setup: Case | Setup, film: Film | PointFilm) -> Iterator[ResultWarning]:
+    """Warnings about the discretisation error of a film."""
+    error = film.discretisation_error
+    if film.converged and error is None and setup.roughness:
+        yield ResultWarning(
+            "error-unknown",
+            "the discretisation error of the film is unknown, because the roughness was raised in steps; "
+            "solve again with more grid.nodes and compare",
+        )
+    elif film.converged and error is None:
+        yield ResultWarning(
+            "coarser-grid-unsolved",
+            "do not use this film: the next coarser grid was not solved"
+            + (", or not with the third-order wedge" if setup.grid.wedge == "first-order" else "")
+            + ", so the discretisation error is unknown and probably large; use more grid.nodes",
+        )
+    elif error is not None and error > max(0.01, setup.grid.target or 0.0):
+        code, advice = "grid-too-coarse", ""
+        if error > 0.1:
+            code, advice = "grid-far-too-coarse", "do not use this film, "
+        text = f"the discretisation error of the film is estimated at {100 * error:.2g} % and may be larger"
+        yield ResultWarning(code, f"{text}; {advice}use more grid.nodes")
+
+
+def _advice(setup: Case | Setup, film: Film | PointFilm) -> str:
+    """Advice about a film that did not converge.
+
+    A film thicker than the grid spacing, both in dimensionless units, is resolved. At high L, Newton's
+    method needs more steps for such a film. Thinner films need a finer grid.
+    """
+    if setup.roughness:
+        hardness = setup.contact.hardness if isinstance(setup, Case) else None
+        soft = "" if hardness is None else "raise contact.hardness or leave it out, "
+        return (
+            f"{soft}lower the roughness, or raise speed or viscosity; more grid.nodes help only if they are "
+            "too few for the roughness"
+        )
+    if film.heated is not None and film.heated.thermal:
+        return unconverged_heat(film.heated, film.scales.pressure)
+    spacing = float(film.x[1] - film.x[0]) / film.scales.length
+    resolved = film.central_thickness > spacing * film.scales.thickness
+    if film.status == "stalled" and resolved and setup.solver.max_iterations < _MANY_STEPS:
+        return f"try solver.max_iterations = {_MANY_STEPS}"
+    return "try more grid.nodes, a lower grid.inlet, or more solver.max_iterations"
+
+
+def _local_pressure(film: Film | PointFilm, *, rough: bool) -> Iterator[ResultWarning]:
+    """Warning about a local pressure at which bearing steel deforms permanently.
+
+    Steel begins to yield below a smooth contact at a maximum pressure of 0.6 times its hardness
+    (K. L. Johnson, Contact Mechanics, 1985, sect. 6.2), which is 4.2 GPa for the 7 GPa of hardened bearing
+    steel. The limits of ISO 76 for the Hertz pressure are about the same. The peak pressure of a rough film
+    may lie between the nodes, so a share of its estimated error is added. A Hertz pressure above the limit
+    has its own warning.
+    """
+    limit = LINE_PERMANENT if film.thickness.ndim == 1 else POINT_PERMANENT
+    error = (film.max_pressure_error or 0.0) if rough else 0.0
+    largest = film.max_pressure * (1.0 + error)
+    likely = film.max_pressure * (1.0 + _LIKELY_RISE * error)
+    if not film.converged or film.scales.pressure > limit or likely <= limit:
+        return
+    what, advice = "the pressure spike", "check load and radii"
+    if rough:
+        what = "the local pressure of the rough film"
+        advice = "asperities would be flattened; use a surface after running-in, or a longer cutoff_short"
+    reach = f", or about {largest / 1e9:.2g} GPa between the nodes," if error > 0.01 else ""
+    if error > UNRESOLVED:
+        reach = ", or several times more, as the grid does not resolve it,"
+    yield ResultWarning(
+        "local-plastic-deformation",
+        f"{what} is {film.max_pressure / 1e9:.3g} GPa{reach} at a Hertz pressure of "
+        f"{film.scales.pressure / 1e9:.3g} GPa: bearing steel yields above about {limit / 1e9:g} GPa, but "
+        f"the model is elastic; {advice}",
+    )
+
+
+def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Iterator[ResultWarning]:
+    """Warnings about the inlet of a line contact and about the grid and range of its field."""
+    deficit = film.domain_loss
+    if deficit is not None and deficit > _DEFICIT:
+        inlet, _ = setup.grid.ends
+        code, effect = "inlet-too-short", "the film is wrong by about as much"
+        if deficit > 0.2:
+            code, effect = "inlet-far-too-short", "do not use this film"
+        yield ResultWarning(
+            code,
+            f"the inlet is too short: {100 * deficit:.2g} % of the pressure, or of the load, is missing "
+            f"upstream of it; {effect}; lower grid.inlet from {inlet:g} to about "
+            f"{_longer_inlet(inlet, deficit):g}",
+        )
+    inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
+    if setup.grid.field_nodes is not None and setup.grid.field_nodes < inside:
+        yield ResultWarning(
+            "field-grid-too-coarse",
+            f"grid.field_nodes is {setup.grid.field_nodes}, but the film has {inside} nodes in the field "
+            f"range: high-field zone and capacitance are less accurate; use at least {inside}",
+        )
+    if not np.any(field.inner & (field.x == field.max_strength_position)):
+        yield ResultWarning(
+            "field-range-too-narrow", "the maximum field is at an end of grid.field_range; widen this range"
+        )
+
+
+def _longer_inlet(inlet: float, deficit: float) -> float:
+    """Inlet in half-widths at which no more than 1 % of the pressure builds up upstream, a multiple of 0.5.
+
+    Far upstream the gap is a parabola, the gradient of the reduced pressure falls with the fourth power of
+    the distance, and so the missing pressure falls with its cube.
+
+    Parameters
+    ----------
+    inlet : float
+        Inlet of the case in half-widths, negative.
+    deficit : float
+        Share of the reduced pressure that is missing with this inlet, from 0 to 1.
+    """
+    return -math.ceil(-2.0 * inlet * math.cbrt(deficit / _DEFICIT)) / 2.0
+
+
+def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:
+    """Warnings about the domain of a point contact and about the grid and range of its field."""
+    loss, before, beside = film.domain_loss, film.inlet_deficit, film.side_deficit
+    if loss is not None and before is not None and beside is not None and loss > _LOSS:
+        code, effect = "domain-too-small", ""
+        if loss > 0.2:
+            code, effect = "domain-far-too-small", "do not use this film, "
+        yield ResultWarning(
+            code,
+            f"the domain is too small: {100 * before:.2g} % of the pressure would build up upstream of it "
+            f"and {100 * beside:.2g} % is cut off at its sides, so the film is too thin by about "
+            f"{100 * loss:.2g} %; {effect}lower grid.inlet and raise grid.side",
+        )
+    for key, of_field, of_film in (("field_nodes", field.x, film.x), ("field_nodes_y", field.y, film.y)):
+        inside = int(np.count_nonzero((of_film >= of_field[0]) & (of_film <= of_field[-1])))
+        columns = getattr(setup.grid, key)
+        if columns is not None and columns < inside:
+            yield ResultWarning(
+                "field-grid-too-coarse",
+                f"grid.{key} is {columns}, but the film has {inside} nodes in the field range: high-field "
+                f"zone and capacitance are less accurate; use at least {inside}",
+            )
+    x, y = field.max_strength_position
+    if not field.inner[field.x == x][:, field.y == y].any():
+        yield ResultWarning(
+            "field-range-too-narrow",
+            "the maximum field is at an edge of grid.field_range or grid.field_side; widen this range",
+        )
+
+
+def accuracy_warnings(
+    grid: Grid, field: Field | PointField, *, estimated: bool = True
+) -> Iterator[ResultWarning]:
+    """Warning about a maximum field whose estimated error is large, or unknown after an attempt.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the film and of the field.
+    field : Field or PointField
+        Solved field.
+    estimated : bool
+        Whether the solver of the field estimates its error. The paper's solver does not.
+    """
+    if field.strength_error is not None and field.strength_error > FIELD_ERROR:
+        yield inaccurate_field(grid, field.strength_error, field.s.size - 1, field.sufficient_degree)
+    if field.strength_error is None and estimated:
+        yield unknown_error()
+
+
+def unknown_error(where: str = "") -> ResultWarning:
+    """Warning about a maximum field whose error is not known, ``where`` of several fields."""
+    return ResultWarning(
+        "field-unresolved",
+        f"the error of the maximum field is not known{where}, because a finer solution near the maximum did "
+        "not converge; a breakdown voltage may be too high; check the slopes of the surfaces, or use more "
+        "grid.nodes and compare",
+    )
+
+
+def inaccurate_field(
+    grid: Grid, error: float, degree: int | None = None, sufficient: int | None = None
+) -> ResultWarning:
+    """Warning about an error of the maximum field.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the film and of the field.
+    error : float
+        Estimated relative error of the maximum field.
+    degree, sufficient : int, optional
+        Polynomial degree of the field across the film, and the one that would be sufficient.
+    """
+    advice = "use more grid.nodes" if grid.field_nodes is None else "use more grid.nodes and grid.field_nodes"
+    if degree is not None and sufficient is not None and sufficient > degree:
+        advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"
+        if degree >= MOST_DEGREE:
+            advice = "the waves are far shorter than the film is thick"
+    return ResultWarning(
+        "field-unresolved",
+        f"the error of the maximum field is estimated at {100 * error:.2g} %, because the grid of the field "
+        "does not resolve the waves of the surfaces; a breakdown voltage is off by as much, and probably "
+        f"too high; {advice}",
+    )

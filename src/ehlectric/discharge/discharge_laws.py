@@ -1,0 +1,420 @@
+"""Laws of a discharge: breakdown voltage and probability, energy, pit size, current density, and charge
+relaxation.
+
+Laws of a discharge: breakdown voltage and probability, energy, pit size, and charge relaxation time.
+All quantities are in SI units. The field is proportional to the voltage, so one solution serves all voltages.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.constants import epsilon_0
+
+from ehlectric.arrays import Array
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.field.zones import areas
+from ehlectric.film.isothermal_film import Film, PointFilm
+from ehlectric.lubricant.oil import Oil
+
+# Lateral size of the pits that discharges leave in bearings: maximum and mean [m].
+LARGEST_PIT, MEAN_PIT = 4.0e-6, 1.7e-6
+
+# Film thickness below which electrons tunnel through the film in large numbers [m].
+TUNNELLING = 2e-9
+
+# Published limits of the apparent current density, peak current over Hertz area, above which bearings are
+# damaged [A/m^2].
+CURRENT_DENSITY_LIMITS = (1e5, 3e5, 8e5)
+_PITS = "Plazenet et al., as quoted by Morris et al. (2022), doi:10.3390/lubricants10050087"
+
+# Sources and assumptions of those values of a summary that do not follow from case and solution alone.
+SOURCES = {
+    "zone_size": "assumption: zone in which field / dielectric strength is at least 95 % of its maximum",
+    "zone_area": "assumption: as zone_size",
+    "zone_over_half_width": "assumption: as zone_size",
+    "zone_over_largest_pit": f"4 µm: {_PITS}; assumption: as zone_size",
+    "zone_over_mean_pit": f"1.7 µm: {_PITS}; assumption: as zone_size",
+    "capacitance": "of the computed domain only; of a point contact it grows with the log of the domain size",
+    "capacitance_plate": (
+        "assumption: parallel plates of the Hertz area at the distance h(0), with the permittivity at "
+        "ambient pressure"
+    ),
+    "capacitance_ratio": "assumption: as capacitance_plate",
+    "outlet": "assumption: filling of the gap behind the exit; the limiting cases are given, too",
+    "capacitance_outlet_full": "assumption: only oil behind the exit, even if there is not enough oil",
+    "capacitance_outlet_fingers": "assumption: oil from wall to wall beside gas; the oil mass is conserved",
+    "capacitance_outlet_layers": "assumption: oil on both walls with gas between; the oil mass is conserved",
+    "discharge_energy": "assumption: one spark discharges all of the charge",
+    "breakdown_energy": "assumption: one spark discharges all of the charge",
+    "pit_volume": "assumption: energy at the voltage of the case; efficiency and melting energy as given",
+    "pit_diameter": "assumption: hemispherical pit",
+    "current_density_limits": (
+        "0.1 to 0.3 A/mm^2: Lubricants 12 (2024) 148, doi:10.3390/lubricants12050148; 0.8 A/mm^2: Busse et "
+        "al. (1997), as quoted by Morris et al. (2022), who print it in A/m^2"
+    ),
+    "relaxation_time": "assumption: permittivity at ambient pressure; the same conductivity at any pressure; "
+    "in a film with heat, the mean conductivity of the Hertz zone at the mid-film temperature",
+    "corner_frequency": "assumption: as relaxation_time",
+}
+
+# Utilisation is the ratio of field strength to dielectric strength. The zone that breaks down first is where
+# the utilisation is at least this part of its maximum.
+BREAKING = 0.95
+
+
+def breakdown_voltage(voltage: float, strength: Array, dielectric_strength: Array | float) -> float:
+    """Voltage at which the field first reaches the dielectric strength: V_b = V/max(E/E_b).
+
+    Parameters
+    ----------
+    voltage : float
+        Voltage V at which the field was solved [V].
+    strength : ndarray, shape (...)
+        Field strength E [V/m].
+    dielectric_strength : ndarray, shape (...), or float
+        Dielectric strength E_b at the same positions [V/m].
+
+    Returns
+    -------
+    float
+        Breakdown voltage V_b [V].
+
+    Examples
+    --------
+    >>> breakdown_voltage(2.0, np.array([5e6, 10e6]), 15e6)
+    3.0
+    """
+    return float(voltage / np.max(strength / dielectric_strength))
+
+
+@dataclass(frozen=True)
+class WeakestLink:
+    """Weibull law of breakdown for a solved field: P(V) = 1 - exp(-(V/V_0)^m).
+
+    The exponent (V/V_0)^m is the integral of (E/E_0)^m dA/A_0. The field strength E is proportional to the
+    voltage V, so V_0 describes the whole field. A larger stressed area is more likely to break down.
+
+    W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
+
+    Attributes
+    ----------
+    shape : float
+        Weibull shape m, dimensionless.
+    characteristic_voltage : float
+        Voltage V_0 at which the probability of breakdown is 1 - 1/e, 63.2 % [V].
+
+    Examples
+    --------
+    A uniform field of half the scale E_0 over four reference areas, with m = 2, gives the exponent 1:
+
+    >>> law = WeakestLink.of(10.0, np.full(4, 5e6), np.full(4, 1e-6), 10e6, 2.0, 1e-6)
+    >>> law.characteristic_voltage, round(law.probability(10.0), 4)
+    (10.0, 0.6321)
+    """
+
+    shape: float
+    characteristic_voltage: float
+
+    @classmethod
+    def of(
+        cls, voltage: float, strength: Array, areas: Array, scale: float, shape: float, reference_area: float
+    ) -> WeakestLink:
+        """Weibull law of a solved field.
+
+        Parameters
+        ----------
+        voltage : float
+            Voltage at which the field was solved [V].
+        strength, areas : ndarray, shape (...)
+            Field strength E [V/m], and the area on which it acts [m^2].
+        scale, shape, reference_area : float
+            Scale E_0 [V/m], shape m, and reference area A_0 [m^2] of the Weibull law.
+        """
+        largest = float(np.max(strength))
+        # The field strength is divided by its maximum, as a high power of the strength alone would overflow.
+        area = float(np.vdot((strength / largest) ** shape, areas))
+        return cls(shape, voltage * scale / largest * (reference_area / area) ** (1.0 / shape))
+
+    def probability(self, voltage: float) -> float:
+        """Probability of breakdown at a voltage [V], from 0 to 1."""
+        with np.errstate(over="ignore", under="ignore"):
+            exponent = np.power(voltage / self.characteristic_voltage, self.shape)
+        return float(-np.expm1(-exponent))
+
+    def voltage(self, probability: float) -> float:
+        """Voltage [V] at which breakdown has a given probability, above 0 and below 1."""
+        exponent = -np.log1p(-probability)
+        return float(self.characteristic_voltage * exponent ** (1.0 / self.shape))
+
+
+def stored_energy(capacitance: float, voltage: float) -> float:
+    """Energy stored in a capacitance C [F] at a voltage V [V], C V^2/2 [J].
+
+    Examples
+    --------
+    >>> round(stored_energy(1e-9, 20.0) * 1e9, 9)
+    200.0
+    """
+    return 0.5 * capacitance * voltage**2
+
+
+def melted_volume(energy: float, efficiency: float, melting_energy: float) -> float:
+    """Volume of one surface that a discharge melts: efficiency times energy over melting energy.
+
+    Parameters
+    ----------
+    energy : float
+        Energy of the discharge [J].
+    efficiency : float
+        Part of the energy that melts one surface, from 0 to 1, dimensionless.
+    melting_energy : float
+        Energy to heat and melt the material, per volume [J/m^3].
+
+    Returns
+    -------
+    float
+        Melted volume [m^3].
+
+    Examples
+    --------
+    >>> round(melted_volume(1e-6, 0.2, 1e10) * 1e18, 9)
+    20.0
+    """
+    return efficiency * energy / melting_energy
+
+
+def pit_diameter(volume: float) -> float:
+    """Diameter d of a hemispherical pit [m] from its volume V = pi d^3/12 [m^3].
+
+    Examples
+    --------
+    >>> round(pit_diameter(np.pi / 12.0), 12)
+    1.0
+    """
+    return float(np.cbrt(12.0 * volume / np.pi))
+
+
+def relaxation_time(relative_permittivity: float, conductivity: float) -> float:
+    """Charge relaxation time of a dielectric, eps0 eps_r/sigma [s], with the conductivity sigma [S/m].
+
+    Above the frequency 1/(2 pi tau), where tau is this time, the film is a capacitor; below it, a resistor.
+
+    Examples
+    --------
+    >>> round(relaxation_time(2.4, 1e-12), 2)
+    21.25
+    """
+    return epsilon_0 * relative_permittivity / conductivity
+
+
+def beside_limits(density: float) -> str:
+    """Text that tells above which of the published limits an apparent current density [A/m^2] lies.
+
+    Examples
+    --------
+    >>> beside_limits(0.364e6)
+    'above 2 of the published limits for bearings, 0.1, 0.3 and 0.8 A/mm²'
+    """
+    *first, last = (f"{1e-6 * limit:g}" for limit in CURRENT_DENSITY_LIMITS)
+    above = sum(density > limit for limit in CURRENT_DENSITY_LIMITS)
+    part = "all" if above == len(CURRENT_DENSITY_LIMITS) else str(above) if above else "none"
+    return f"above {part} of the published limits for bearings, {', '.join(first)} and {last} A/mm²"
+
+
+@dataclass(frozen=True)
+class Size:
+    """Size of the dry contact.
+
+    Attributes
+    ----------
+    half_width : float
+        Half-width of a line contact, or semi-axis of a point contact along entrainment [m].
+    hertz : float
+        Width of a dry line contact [m], or area of a dry point contact [m^2].
+    length : float or None
+        Length of a line contact [m], None if the case does not give it; 1 for a point contact.
+    line : bool
+        Whether the contact is a line contact.
+    """
+
+    half_width: float
+    hertz: float
+    length: float | None
+    line: bool
+
+    @classmethod
+    def of(cls, semi_axes: tuple[float, ...], discharge: Discharge) -> Size:
+        """Size of a dry contact from its half-width [m], or from its two semi-axes [m]."""
+        b = semi_axes[0]
+        if len(semi_axes) == 1:
+            return cls(b, 2.0 * b, discharge.length, line=True)
+        return cls(b, np.pi * b * semi_axes[1], 1.0, line=False)
+
+    def total(self, per_length: float) -> float | None:
+        """Value of the whole contact from a value per length; None for a line contact of unknown length.
+
+        A value of a point contact is returned unchanged.
+        """
+        return None if self.length is None else self.length * per_length
+
+
+@dataclass(frozen=True)
+class DischargeCosts:
+    """Energy of a discharge, size of the pit that it melts, and current density.
+
+    A value is None if the case lacks an input that it needs.
+
+    Attributes
+    ----------
+    contact_energy : float or None
+        Energy C V^2/2 stored in the contact at the voltage of the case [J].
+    discharge_energy : float or None
+        Energy C V^2/2 stored in the contact and in the external capacitance, at the voltage of the case [J].
+    breakdown_energy : float or None
+        Energy C V^2/2 stored in the contact and in the external capacitance, at the breakdown voltage [J].
+    pit_volume : float or None
+        Volume of one surface that ``discharge_energy`` melts [m^3].
+    pit_diameter : float or None
+        Diameter of a hemisphere of that volume [m].
+    current_density : float or None
+        Peak current over the area of the dry contact [A/m^2].
+    current_density_limits : tuple of float or None
+        Published limits of the current density [A/m^2].
+    """
+
+    contact_energy: float | None = None
+    discharge_energy: float | None = None
+    breakdown_energy: float | None = None
+    pit_volume: float | None = None
+    pit_diameter: float | None = None
+    current_density: float | None = None
+    current_density_limits: tuple[float, ...] | None = None
+
+
+def discharge_costs(
+    discharge: Discharge, capacitance: float, voltage: float, breaking_voltage: float | None, size: Size
+) -> DischargeCosts:
+    """Energy of a discharge, size of the pit that it melts, and apparent current density.
+
+    Parameters
+    ----------
+    discharge : Discharge
+        Inputs of the discharge, with external capacitance, pit and peak current.
+    capacitance : float
+        Capacitance per length of a line contact [F/m], or of a point contact [F].
+    voltage : float
+        Voltage of the case [V].
+    breaking_voltage : float or None
+        Breakdown voltage [V]; None if it is unknown.
+    size : Size
+        Size of the dry contact.
+
+    Returns
+    -------
+    DischargeCosts
+        Values in SI units; None if the case lacks an input that a value needs.
+    """
+    total, external = size.total(capacitance), discharge.external_capacitance
+    together = None if total is None or external is None else total + external
+    energy = _energy(together, voltage)
+    volume = (
+        None
+        if discharge.pit is None or energy is None
+        else melted_volume(energy, discharge.pit.efficiency, discharge.pit.melting_energy)
+    )
+    current = discharge.peak_current
+    area = None if current is None else size.total(size.hertz)
+    return DischargeCosts(
+        contact_energy=_energy(total, voltage),
+        discharge_energy=energy,
+        breakdown_energy=_energy(together, breaking_voltage),
+        pit_volume=volume,
+        pit_diameter=None if volume is None else pit_diameter(volume),
+        current_density=None if current is None or area is None else current / area,
+        current_density_limits=None if area is None else CURRENT_DENSITY_LIMITS,
+    )
+
+
+def _energy(capacitance: float | None, voltage: float | None) -> float | None:
+    return None if capacitance is None or voltage is None else stored_energy(capacitance, voltage)
+
+
+@dataclass(frozen=True)
+class Leakage:
+    """Leakage of charge through the oil at ambient pressure; None if the conductivity is unknown.
+
+    Attributes
+    ----------
+    relaxation_time : float or None
+        Charge relaxation time eps0 eps_r/sigma [s].
+    corner_frequency : float or None
+        Frequency above which the film is a capacitor, 1/(2 pi ``relaxation_time``) [Hz].
+    """
+
+    relaxation_time: float | None = None
+    corner_frequency: float | None = None
+
+
+def conductivity_of(discharge: Discharge | None, oil: Oil) -> float | None:
+    """Electrical conductivity [S/m] of the table ``discharge``, or else of the oil; None without one."""
+    given = None if discharge is None else discharge.conductivity
+    return oil.conductivity if given is None else given
+
+
+def leakage(
+    discharge: Discharge,
+    oil: Oil,
+    film: Film | PointFilm | None = None,
+    semi_axes: tuple[float, ...] = (),
+) -> Leakage:
+    """Leakage of charge through an oil at ambient pressure.
+
+    Parameters
+    ----------
+    discharge : Discharge
+        Inputs of the discharge; its conductivity, if it has one, holds at any temperature.
+    oil : Oil
+        Oil at the temperature of the inlet.
+    film : Film or PointFilm, optional
+        Film. In a film with heat, the conductivity is the mean over its Hertz zone.
+    semi_axes : tuple of float, optional
+        Half-width or semi-axes of the Hertz zone of the film [m].
+
+    Returns
+    -------
+    Leakage
+        Relaxation time and corner frequency.
+    """
+    conductivity = conductivity_of(discharge, oil)
+    if conductivity is None:
+        return Leakage()
+    over = None if discharge.conductivity is not None else oil.conductivity_over
+    if over is not None and film is not None and film.temperature is not None:
+        conductivity = mean_conductivity(film, over(film.temperature), semi_axes)
+    time = relaxation_time(oil.relative_permittivity, conductivity)
+    return Leakage(relaxation_time=time, corner_frequency=1.0 / (2.0 * np.pi * time))
+
+
+def mean_conductivity(film: Film | PointFilm, conductivity: Array, semi_axes: tuple[float, ...]) -> float:
+    """Mean conductivity of the oil in the Hertz zone, weighted by the conductance of the film.
+
+    Parameters
+    ----------
+    film : Film or PointFilm
+        Film.
+    conductivity : ndarray, shape (nx,) or (nx, ny)
+        Electrical conductivity of the oil at the nodes [S/m].
+    semi_axes : tuple of float
+        Half-width or semi-axes of the Hertz zone [m].
+
+    Returns
+    -------
+    float
+        Int sigma/h dA over Int 1/h dA [S/m]: the oil columns of the zone lie side by side between the walls.
+    """
+    places = np.meshgrid(*film.axes, indexing="ij")
+    zone = sum((at / half) ** 2 for at, half in zip(places, semi_axes, strict=True)) <= 1.0
+    weights = np.where(zone, areas(film.axes) / film.thickness, 0.0)
+    return float(np.sum(weights * conductivity) / np.sum(weights))

@@ -1,0 +1,288 @@
+"""Breakdown of a film: voltage, probability and place, use of the dielectric strength, and fields that no
+film carries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.discharge_laws import (
+    BREAKING,
+    LARGEST_PIT,
+    MEAN_PIT,
+    Size,
+    WeakestLink,
+    breakdown_voltage,
+)
+from ehlectric.discharge.film_capacitance import at_columns
+from ehlectric.errors import ResultWarning
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.field.poisson import ATOM
+from ehlectric.field.zones import areas
+from ehlectric.film.isothermal_film import Film, PointFilm
+
+# Field strength that no film of a liquid between rough metals carries [V/m]. By Fowler and Nordheim's law of
+# field emission, in the form of Proc. R. Soc. A 124 (1929) 699, a metal with a work function of 4.5 eV emits
+# 0.003 A/mm^2 at 3000 V/um, and 40 A/mm^2 at 5000 V/um. Asperities raise a field at least threefold.
+MOST_OF_LIQUIDS = 1e9
+
+
+def field_warnings(max_strength: float | None, check: str) -> Iterator[ResultWarning]:
+    """Warning of a maximum field strength that no film of a liquid carries.
+
+    Parameters
+    ----------
+    max_strength : float or None
+        Maximum field strength at the applied voltage [V/m]; None where there is none.
+    check : str
+        Inputs to check, which give this voltage.
+    """
+    if max_strength is not None and max_strength > MOST_OF_LIQUIDS:
+        yield ResultWarning(
+            "field-above-insulators",
+            f"the maximum field is {max_strength / 1e6:.3g} V/µm, but no insulator withstands more than "
+            f"about {MOST_OF_LIQUIDS / 1e6:g} V/µm, above which metals emit electrons: the film breaks down "
+            f"at a lower voltage; check {check}",
+        )
+
+
+def strength_warnings(discharge: Discharge | None) -> Iterator[ResultWarning]:
+    """Warning of a dielectric strength above the field that any film of a liquid carries."""
+    if discharge is None:
+        return
+    table, law = discharge.strength_table, discharge.weibull
+    strengths = [discharge.dielectric_strength, None if law is None else law.scale]
+    most = max([value for value in strengths if value is not None], default=0.0)
+    if table is not None:
+        most = max(table.strength)
+    if most > MOST_OF_LIQUIDS:
+        yield ResultWarning(
+            "strength-above-liquids",
+            f"the dielectric strength is {most / 1e6:.3g} V/µm, but no film of a liquid carries more than "
+            f"about {MOST_OF_LIQUIDS / 1e6:g} V/µm, above which metals emit electrons: breakdown voltages "
+            "are far too high; check the unit of the strength",
+        )
+
+
+@dataclass(frozen=True)
+class FieldUtilisation:
+    """Utilisation of the dielectric strength: the ratio of field strength to dielectric strength.
+
+    Attributes
+    ----------
+    strength : ndarray, shape (nx,) or (nx, ny)
+        Largest field strength of each column of the solved field, on either wall or at mid-film [V/m].
+    dielectric_strength : ndarray, shape (nx,) or (nx, ny)
+        Dielectric strength at each column [V/m]; 1 V/m if the case gives none, or gives a Weibull law.
+    position : tuple of float
+        Position of the largest utilisation, (x,) or (x, y) [m].
+    extent : float
+        Width [m], or area [m^2] for a point contact, of the zone around ``position`` where the utilisation
+        is at least 95 % of its maximum.
+    over_domain : ndarray, shape (n,)
+        Field strength over the whole domain of the film [V/m]; outside the field range that of a thin gap.
+    areas : ndarray, shape (n,)
+        Area that each value of ``over_domain`` stands for [m^2]; for a line contact the width [m].
+    """
+
+    strength: Array
+    dielectric_strength: Array
+    position: tuple[float, ...]
+    extent: float
+    over_domain: Array
+    areas: Array
+
+    @property
+    def dielectric_strength_there(self) -> float:
+        """Dielectric strength at the position of the largest utilisation [V/m]."""
+        return float(self.dielectric_strength.flat[np.argmax(self.strength / self.dielectric_strength)])
+
+    @classmethod
+    def of(cls, discharge: Discharge, film: Film | PointFilm, field: Field | PointField) -> FieldUtilisation:
+        """Utilisation of the dielectric strength in a solved contact."""
+        strength, columns = field.column_strength, field.axes
+        warm = None if film.temperature is None else at_columns(film, field, film.temperature)
+        limit = dielectric_strength(discharge, at_columns(film, field, film.pressure), warm)
+        utilisation = strength / limit
+        place = np.unravel_index(np.argmax(utilisation), utilisation.shape)
+        thin = field.voltage / np.maximum(film.thickness, ATOM)
+        around = areas(film.axes) - areas(film.axes, columns)
+        return cls(
+            strength=strength,
+            dielectric_strength=limit,
+            position=tuple(float(axis[k]) for axis, k in zip(columns, place, strict=True)),
+            extent=field.extent_above(utilisation, BREAKING * float(np.max(utilisation))),
+            over_domain=np.concatenate([strength.ravel(), thin.ravel()]),
+            areas=np.concatenate([areas(columns).ravel(), around.ravel()]),
+        )
+
+
+def dielectric_strength(discharge: Discharge, pressure: Array, temperature: Array | None = None) -> Array:
+    """Dielectric strength of a film at given pressures.
+
+    Parameters
+    ----------
+    discharge : Discharge
+        Inputs of the discharge: a constant strength, a table over pressure or temperature, or neither.
+    pressure : ndarray, shape (...)
+        Pressure in the film [Pa].
+    temperature : ndarray, shape (...), optional
+        Temperature in a film with heat [K], in place of that of the discharge.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Dielectric strength [V/m]. A table is interpolated linearly, and its end values hold beyond its ends.
+        If the case gives neither a constant nor a table, it is 1 V/m.
+
+    Examples
+    --------
+    >>> table = {"pressure": ["0 GPa", "1 GPa"], "strength": ["15 V/um", "25 V/um"]}
+    >>> discharge = Discharge.from_dict({"strength_table": table})
+    >>> dielectric_strength(discharge, np.array([0.0, 0.5e9, 2e9])).tolist()
+    [15000000.0, 20000000.0, 25000000.0]
+    """
+    table = discharge.strength_table
+    if table is None:
+        constant = discharge.dielectric_strength
+        return np.full_like(pressure, 1.0 if constant is None else constant)
+    warm = np.full_like(pressure, discharge.temperature) if temperature is None else temperature
+    at = pressure if table.over == "pressure" else warm
+    strength: Array = np.interp(at, table.places, table.strength)
+    return strength
+
+
+@dataclass(frozen=True)
+class Breakdown:
+    """Breakdown voltage of a film and probability of breakdown.
+
+    All values are None if the case gives neither a dielectric strength nor a Weibull law.
+
+    Attributes
+    ----------
+    strength_law : str or None
+        "constant", "table over pressure", "table over temperature" or "weibull".
+    dielectric_strength : float or None
+        Dielectric strength in the zone that breaks down first [V/m]; None for a Weibull law.
+    breakdown_voltage : float or None
+        Breakdown voltage [V]; for a Weibull law at a probability of 63.2 %.
+    breakdown_voltage_low, breakdown_voltage_high : float or None
+        Breakdown voltage of a Weibull law at probabilities of 5 % and 95 % [V]; None for other laws.
+    margin : float or None
+        Breakdown voltage over the voltage of the case, dimensionless.
+    probability : float or None
+        Probability of breakdown at the voltage of the case; 0 or 1 unless the law is a Weibull law.
+    breakdown_field_error : float or None
+        Estimated relative error of the breakdown voltage that is due to the field, the error of the largest
+        field strength. The error of the film comes on top. None if it is not known.
+    """
+
+    strength_law: str | None = None
+    dielectric_strength: float | None = None
+    breakdown_voltage: float | None = None
+    breakdown_voltage_low: float | None = None
+    breakdown_voltage_high: float | None = None
+    margin: float | None = None
+    probability: float | None = None
+    breakdown_field_error: float | None = None
+
+
+def breakdown(discharge: Discharge, utilisation: FieldUtilisation, voltage: float, size: Size) -> Breakdown:
+    """Breakdown of a film by a Weibull law, a constant dielectric strength, or a table of it.
+
+    Parameters
+    ----------
+    discharge : Discharge
+        Inputs of the discharge, with the dielectric strength or the Weibull law.
+    utilisation : FieldUtilisation
+        Field strength and dielectric strength of the film.
+    voltage : float
+        Voltage of the field [V].
+    size : Size
+        Size of the dry contact.
+
+    Returns
+    -------
+    Breakdown
+        Breakdown voltage and probability; all None if the case gives neither a strength nor a Weibull law.
+    """
+    if discharge.weibull is not None:
+        return _weibull_breakdown(discharge, utilisation, voltage, size)
+    if not discharge.has_strength:
+        return Breakdown()
+    table = discharge.strength_table
+    breaking_voltage = breakdown_voltage(voltage, utilisation.strength, utilisation.dielectric_strength)
+    return Breakdown(
+        strength_law="constant" if table is None else f"table over {table.over}",
+        dielectric_strength=utilisation.dielectric_strength_there,
+        breakdown_voltage=breaking_voltage,
+        margin=breaking_voltage / voltage,
+        probability=float(voltage >= breaking_voltage),
+    )
+
+
+def _weibull_breakdown(
+    discharge: Discharge, utilisation: FieldUtilisation, voltage: float, size: Size
+) -> Breakdown:
+    law = discharge.weibull
+    assert law is not None and size.length is not None
+    areas, strength = size.length * utilisation.areas, utilisation.over_domain
+    weakest = WeakestLink.of(voltage, strength, areas, law.scale, law.shape, law.reference_area)
+    breaking_voltage = weakest.characteristic_voltage
+    return Breakdown(
+        strength_law="weibull",
+        breakdown_voltage=breaking_voltage,
+        breakdown_voltage_low=weakest.voltage(0.05),
+        breakdown_voltage_high=weakest.voltage(0.95),
+        margin=breaking_voltage / voltage,
+        probability=weakest.probability(voltage),
+    )
+
+
+@dataclass(frozen=True)
+class BreakdownZone:
+    """Zone of a film that breaks down first.
+
+    Utilisation is the ratio of field strength to dielectric strength.
+
+    Attributes
+    ----------
+    zone_position : float or tuple of float
+        Position of the largest utilisation, x or (x, y) [m].
+    zone_size : float
+        Width of the zone around this position where the utilisation is at least 95 % of its maximum [m]; for
+        a point contact the diameter of a circle with the area of the zone.
+    zone_area : float or None
+        Area of the zone [m^2]; for a line contact its width times the length, None if the length is unknown.
+    zone_over_half_width : float
+        ``zone_size`` over the half-width of the dry contact, or over its semi-axis along entrainment.
+    zone_over_largest_pit, zone_over_mean_pit : float
+        ``zone_size`` over the largest and over the mean published size of a pit, 4 um and 1.7 um.
+    """
+
+    zone_position: float | tuple[float, ...]
+    zone_size: float
+    zone_area: float | None
+    zone_over_half_width: float
+    zone_over_largest_pit: float
+    zone_over_mean_pit: float
+
+
+def breakdown_zone(utilisation: FieldUtilisation, size: Size) -> BreakdownZone:
+    """Zone of a film that breaks down first, where the utilisation is largest."""
+    extent = utilisation.extent
+    across = extent if size.line else float(np.sqrt(4.0 * extent / np.pi))
+    return BreakdownZone(
+        zone_position=utilisation.position[0] if size.line else utilisation.position,
+        zone_size=across,
+        zone_area=size.total(extent),
+        zone_over_half_width=across / size.half_width,
+        zone_over_largest_pit=across / LARGEST_PIT,
+        zone_over_mean_pit=across / MEAN_PIT,
+    )

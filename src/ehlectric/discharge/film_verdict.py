@@ -1,0 +1,275 @@
+"""Verdict on a film: whether breakdown is expected, in sentences and as a colour."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from ehlectric.cases.discharge_inputs import Discharge
+from ehlectric.discharge.film_breakdown import Breakdown
+from ehlectric.errors import CODES, ResultWarning
+
+# "green": no breakdown expected; "yellow": breakdown possible within what is uncertain; "red": breakdown
+# expected, or surfaces that touch under a voltage; "grey": nothing to compare the breakdown voltage with.
+Level = Literal["green", "yellow", "red", "grey"]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Answer to the question whether a film breaks down.
+
+    Attributes
+    ----------
+    level : str
+        "green": no breakdown expected; "yellow": breakdown is possible within what is uncertain; "red":
+        breakdown expected, or surfaces that touch under a voltage; "grey": there is no voltage or no
+        strength to judge by.
+    text : str
+        The answer in whole sentences, with the numbers that decide and the assumptions behind them.
+    margin : float or None
+        Breakdown voltage / applied voltage, dimensionless; None where there is none.
+
+    Examples
+    --------
+    >>> Verdict("green", "No breakdown expected: margin 1.44.", 1.44).level
+    'green'
+    """
+
+    level: Level
+    text: str
+    margin: float | None = None
+
+    def __str__(self) -> str:
+        return self.text
+
+
+# Probability below which a voltage of a Weibull law counts as safe.
+UNLIKELY = 0.05
+
+# Part of a dielectric strength by which it may be wrong either way where no range of it is stated:
+# engineering judgement.
+STRENGTH_UNKNOWN = 0.2
+
+# Warnings of results whose margin may be lower than computed: no verdict is green with one of them.
+DOUBTS = (
+    "surfaces-touch",
+    "asperities-touch",
+    "thinner-than-atom",
+    "tunnelling",
+    "error-unknown",
+    "field-range-too-narrow",
+    "strength-table-exceeded",
+    "shoulder-reached",
+    "temperature-low",
+    "viscosity-of-base",
+    "estimated-alpha",
+    "load-low",
+    "field-above-insulators",
+    "strength-above-liquids",
+)
+
+
+def level_of(low: float, high: float) -> Level:
+    """Level of a verdict from the smallest and the largest margin that are possible.
+
+    Examples
+    --------
+    >>> level_of(1.1, 1.5), level_of(0.8, 1.5), level_of(0.5, 0.8)
+    ('green', 'yellow', 'red')
+    """
+    return "green" if low >= 1.0 else "red" if high < 1.0 else "yellow"
+
+
+def lead_of(level: Level, margin: float) -> str:
+    """First words of a verdict with this level and margin, dimensionless."""
+    if level == "yellow":
+        return "Breakdown possible" if margin >= 1.0 else "Breakdown likely"
+    return "No breakdown expected" if level == "green" else "Breakdown expected"
+
+
+def ratio_text(ratio: float) -> str:
+    """Ratio as text with two digits behind the point; more where it would be rounded to 1.
+
+    Examples
+    --------
+    >>> ratio_text(1.4432), ratio_text(0.9981), ratio_text(0.0123), ratio_text(2345.6)
+    ('1.44', '0.9981', '0.012', '2.3e+03')
+    """
+    if not 0.1 <= ratio < 100.0:
+        return f"{ratio:.2g}"
+    text = f"{ratio:.2f}"
+    return f"{ratio:.4g}" if text == "1.00" else text
+
+
+def assumption_of(discharge: Discharge, stated: tuple[float, float] | None = None) -> str:
+    """Clause that says which dielectric strength is assumed.
+
+    Parameters
+    ----------
+    discharge : Discharge
+        Inputs of the discharge, with a strength.
+    stated : tuple of float, optional
+        Range of a constant strength [V/m].
+    """
+    strength, table = discharge.dielectric_strength, discharge.strength_table
+    if strength is not None:
+        between = "" if stated is None else f" ({stated[0] / 1e6:.3g} to {stated[1] / 1e6:.3g} V/µm)"
+        return f"dielectric strength {strength / 1e6:.3g} V/µm{between} is an assumption"
+    if table is not None:
+        return f"the table of dielectric strength over {table.over} is an assumption"
+    return "the Weibull law of the dielectric strength is an assumption"
+
+
+def strength_interval(margin: float) -> tuple[float, float]:
+    """Margins at the smallest and the largest strength that is possible where no range of it is stated.
+
+    Every breakdown voltage is proportional to the strength.
+    """
+    return (1.0 - STRENGTH_UNKNOWN) * margin, (1.0 + STRENGTH_UNKNOWN) * margin
+
+
+def strength_doubt(discharge: Discharge, margin: float) -> str:
+    """Sentence for a margin that a change of the strength takes across 1; empty where none does.
+
+    Examples
+    --------
+    >>> law = Discharge.from_dict({"dielectric_strength": "15 V/um"})
+    >>> strength_doubt(law, 1.1), strength_doubt(law, 1.3)
+    ('At a strength of 12 V/µm (20 % lower) the margin is 0.88.', '')
+    """
+    low, high = strength_interval(margin)
+    if level_of(low, high) != "yellow":
+        return ""
+    above, strength = margin >= 1.0, discharge.dielectric_strength
+    end, way = (low, "lower") if above else (high, "higher")
+    change = f"{100.0 * STRENGTH_UNKNOWN:.0f} % {way}"
+    at = f"strength that is {change}"
+    if strength is not None:
+        at = f"strength of {strength * end / margin / 1e6:.3g} V/µm ({change})"
+    return f"At a {at} the margin is {ratio_text(end)}."
+
+
+def doubts_of(warnings: Iterable[ResultWarning]) -> list[str]:
+    """Sentences of warnings for which the margin may be lower than computed, each once."""
+    codes = {warning.code for warning in warnings}
+    return [CODES[code].meaning for code in DOUBTS if code in codes]
+
+
+def unusable(warnings: Iterable[ResultWarning]) -> str:
+    """Sentence that says why the numbers must not be used; empty where they may be used."""
+    severe = [warning.code for warning in warnings if warning.severity == "severe"]
+    return "" if not severe else f"No verdict: the numbers must not be used. {CODES[severe[0]].meaning}"
+
+
+def contact_verdict(
+    discharge: Discharge,
+    breakdown: Breakdown,
+    voltage: float,
+    *,
+    warnings: Iterable[ResultWarning],
+    error: float | None,
+    flooded: bool,
+    isothermal: bool = True,
+    field_error: float | None = None,
+) -> Verdict:
+    """Verdict on a solved contact.
+
+    Parameters
+    ----------
+    discharge : Discharge
+        Inputs of the discharge.
+    breakdown : Breakdown
+        Breakdown voltage and margin of the contact.
+    voltage : float
+        Applied voltage [V].
+    warnings : iterable of ResultWarning
+        Warnings of the contact; a severe one leaves no verdict.
+    error : float or None
+        Estimated discretisation error of the film, relative; None where it is not known.
+    flooded : bool
+        Whether the film is that of fully flooded oil.
+    isothermal : bool
+        Whether the heating of the oil is left out.
+    field_error : float or None
+        Estimated error of the largest field strength by the grid of the field, relative; None where it is
+        not known.
+
+    Returns
+    -------
+    Verdict
+        Grey without a strength, or where the film must not be used. Yellow where the discretisation
+        error, a strength that differs by 20 %, or a probability of 5 % with a Weibull law takes the margin
+        across 1.
+    """
+    warnings = tuple(warnings)
+    refused = unusable(warnings)
+    if refused:
+        return Verdict("grey", refused)
+    margin, at = breakdown.margin, breakdown.breakdown_voltage
+    if margin is None or at is None:
+        return Verdict(
+            "grey",
+            "No verdict: no dielectric strength given, no breakdown voltage. "
+            f"The applied voltage is {voltage:.3g} V.",
+        )
+    of_film, of_field = error or 0.0, field_error or 0.0
+    off = of_film + of_field
+    low, doubts = margin * (1.0 - off), doubts_of(warnings)
+    span, spread = "", ""
+    lowest, highest = breakdown.breakdown_voltage_low, breakdown.breakdown_voltage_high
+    if lowest is not None and highest is not None:
+        low *= lowest / at
+        span = f" at a probability of 63.2 %, {lowest:.3g} to {highest:.3g} V from 5 to 95 %"
+        spread = f", {ratio_text(margin * lowest / at)} to {ratio_text(margin * highest / at)}"
+    weakest, strongest = strength_interval(margin)
+    level = level_of(min(low, weakest), max(margin * (1.0 + off), strongest))
+    doubts += filter(None, [strength_doubt(discharge, margin)])
+    if doubts and level == "green":
+        level = "yellow"
+    if level == "yellow" and off > 0.0 and abs(margin - 1.0) <= off:
+        part, name = (of_film, "film") if of_film >= of_field else (of_field, "maximum field")
+        doubts.insert(0, f"The {name} may be {100.0 * part:.2g} % off on this grid.")
+    bound = f"Upper bound: {'isothermal, ' if isothermal else ''}fully flooded film; " if flooded else ""
+    last = f"{bound}{assumption_of(discharge)}."
+    text = (
+        f"{lead_of(level, margin)}: applied voltage {voltage:.3g} V, breakdown voltage {at:.3g} V{span} "
+        f"(margin {ratio_text(margin)}{spread})."
+    )
+    return Verdict(level, " ".join([text, *doubts, last[0].upper() + last[1:]]), margin)
+
+
+def weibull_part(shape: float, probability: float) -> float:
+    """Voltage of a Weibull law at a probability divided by that at 63.2 %, dimensionless.
+
+    Examples
+    --------
+    >>> round(weibull_part(10.0, 0.05), 3)
+    0.743
+    """
+    return math.pow(-math.log1p(-probability), 1.0 / shape)
+
+
+def breakdown_warning(
+    kind: str, voltage: float, at: str, margin: float, *, field: float | None = None
+) -> ResultWarning:
+    """Warning of a margin below 1.
+
+    Parameters
+    ----------
+    kind : str
+        Name of the voltage on the film, "applied voltage" or "shaft voltage".
+    voltage : float
+        This voltage [V].
+    at : str
+        Clause with the voltage at which the film breaks down.
+    margin : float
+        Margin, dimensionless.
+    field : float, optional
+        Maximum field strength at this voltage [V/m], which exceeds the dielectric strength.
+    """
+    text = f"breakdown is expected: {kind} {voltage:.3g} V, {at} (margin {ratio_text(margin)})"
+    if field is not None:
+        text += f"; the maximum field of {field / 1e6:.3g} V/µm exceeds the dielectric strength"
+    return ResultWarning("breakdown-expected", text)

@@ -1,1 +1,0 @@
-"""Capacitance of the gap between two whole bodies, outside the domain of the solved film."""

@@ -1,0 +1,146 @@
+"""Bearings as elements of a circuit: what a solved bearing says of its capacitance and its breakdown."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.bearing_discharges import conducting_areas, oil_conductance
+from ehlectric.bearing.bearing_touching import duty_of
+from ehlectric.bearing.circuit import Path
+from ehlectric.bearing.impedance import oil_relaxation_time, shaft_path
+from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.drive_inputs import Breakdown
+from ehlectric.errors import InputError
+from ehlectric.runtime.stored import stored
+
+# Contacts in series between both rings, which a touching element closes.
+_IN_SERIES = 2.0
+
+# Share of time with metallic contact below which it is left out: a second in a week.
+_NEVER = 1e-6
+
+# Values at each position of the elements, in a file.
+_at_positions = partial(stored, "position", count="position_count")
+
+
+@dataclass(frozen=True, eq=False)
+class BearingElement:
+    """Bearing between the shaft and its housing, over the positions of its elements.
+
+    Attributes
+    ----------
+    capacitance : ndarray, shape (p,)
+        Capacitance of the films at each position [F].
+    conductance : float
+        Conductance of the oil of the films, mean over the positions [S].
+    breakdown : ndarray, shape (p,)
+        Voltage across the films at which one element breaks down from ring to ring [V]; infinite for
+        ceramic elements.
+    shape : float
+        Shape of Weibull's law of that voltage; infinite for a voltage without scatter.
+    step : float
+        Time from one position to the next [s].
+    path : Path
+        Coating, and capacitance beside the films.
+    touching : float
+        Share of time in which asperities close the films.
+    touch_resistance : float
+        Resistance of the elements that touch both rings, mean number of them while any does [Ohm]; infinite
+        where the bearing has no resistance of a closed contact.
+    hertz_area : float
+        Sum of the dry contact areas that conduct [m^2].
+    largest_area : float
+        The largest of them [m^2].
+    transit : float
+        Time in which oil passes the most loaded contact with the inner ring [s].
+    real_area : float
+        Real area of contact of all elements that touch both rings, while any does [m^2]; 0 where it is not
+        known, or nothing touches.
+    """
+
+    capacitance: Array = field(
+        metadata=stored("position", "F", "positive", name="position_capacitance", count="position_count")
+    )
+    conductance: float = field(metadata=stored("", "S", "not negative"))
+    breakdown: Array = field(
+        metadata=stored(
+            "position", "V", "positive or infinite", name="position_breakdown", count="position_count"
+        )
+    )
+    shape: float = field(metadata=stored("", "", "positive or infinite"))
+    step: float = field(metadata=stored("", "s", "positive"))
+    path: Path
+    touching: float = field(metadata=stored("", "", "not negative"))
+    touch_resistance: float = field(metadata=stored("", "ohm", "positive or infinite"))
+    hertz_area: float = field(metadata=stored("", "m**2", "not negative"))
+    largest_area: float = field(metadata=stored("", "m**2", "not negative"))
+    transit: float = field(metadata=stored("", "s", "positive"))
+    real_area: float = field(default=0.0, metadata=stored("", "m**2", "not negative"))
+
+    @property
+    def mean_capacitance(self) -> float:
+        """Mean capacitance of the films over the positions [F]."""
+        return float(np.mean(self.capacitance))
+
+
+def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> BearingElement:
+    """Element of the circuit that a solved bearing is.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Solved bearing.
+    breakdown : Breakdown
+        Table ``breakdown`` of the drive.
+    end : str
+        Table of the bearing in the drive file, for messages.
+
+    Returns
+    -------
+    BearingElement
+        Element.
+
+    Raises
+    ------
+    InputError
+        Where the bearing has no dielectric strength, or touches and has no ``contact_resistance``.
+    """
+    solution = result.solution
+    bearing, ceramic = solution.case.bearing, solution.conditions.ceramic
+    duty = duty_of(solution)
+    touching = duty.contact_time_share if duty.contact_time_share > _NEVER else 0.0
+    if touching and bearing.contact_resistance is None:
+        raise InputError(
+            f"{end}.bearing.contact_resistance",
+            f"missing; asperities close the films of this bearing for {100.0 * touching:.3g} % of the time",
+            takes="the resistance of one closed contact; about 0.1 to 1 ohm",
+        )
+    circuits = solution.circuits()
+    strengths = np.array([circuit.through_breakdown for circuit in circuits])
+    if not ceramic and not np.all(np.isfinite(strengths)):
+        raise InputError.missing(f"{end}.discharge.dielectric_strength", "the strength of the oil")
+    films = np.array([circuit.capacitance for circuit in circuits])
+    if bearing.element_capacitance is not None:
+        films = np.full(films.size, bearing.elements * bearing.element_capacitance)
+    count, tau = films.size, oil_relaxation_time(solution)
+    areas = conducting_areas(solution)
+    first = solution.positions[0]
+    return BearingElement(
+        capacitance=films,
+        conductance=0.0 if ceramic or tau is None else oil_conductance(solution, tau),
+        breakdown=np.full(count, math.inf) if ceramic else strengths,
+        shape=breakdown.weibull_shape or circuits[0].shape or math.inf,
+        step=2.0 * math.pi / (bearing.elements * first.equilibrium.cage_speed * count),
+        path=shaft_path(solution),
+        touching=touching,
+        touch_resistance=_IN_SERIES * (bearing.contact_resistance or math.inf) / max(duty.closed, 1.0),
+        hertz_area=float(np.sum(areas)),
+        largest_area=float(np.max(areas)),
+        transit=2.0 * float(np.max(first.inner.values.semi_axis_x)) / solution.inner.speed,
+        real_area=(duty.real_area or 0.0) if touching else 0.0,
+    )

@@ -1,0 +1,271 @@
+"""Netlist of a whole drive: subcircuits of both bearings, and the machine with its inverter around them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.drive_inputs import Source
+from ehlectric.drive.inverter import steps_of
+from ehlectric.drive.measured_source import measured_source
+from ehlectric.drive.motor_circuit import (
+    EARTH,
+    FRAME,
+    ROTOR,
+    SOURCE,
+    WINDING,
+    Element,
+    motor_elements,
+    source_nodes,
+)
+from ehlectric.drive.netlist import (
+    SIGNATURE,
+    Arc,
+    Parameter,
+    Subcircuit,
+    check_strength,
+    comment,
+    number,
+    subcircuit_of,
+)
+from ehlectric.drive.netlist_files import check_targets, write_lines
+from ehlectric.drive.source_pieces import edges
+from ehlectric.drive.waveform_file import Waveform
+from ehlectric.errors import InputError
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.version import __version__
+
+# Periods of the carrier, or of the fundamental in six-step operation, and samples of a measured voltage that
+# the bench simulates.
+_PERIODS, _SAMPLES = 4.0, 4000
+
+# Rise time in place of a jump [s], and steps in an edge and in the whole time.
+_JUMP, _IN_EDGE, _IN_ALL = 1e-9, 20.0, 80_000.0
+
+# Points of the source on a line.
+_POINTS = 6
+
+_NODES = {FRAME: "0", ROTOR: "shaft", SOURCE: "inverter", WINDING: "winding", EARTH: "earth"}
+_KINDS = {"capacitor": ("C", "F"), "conductor": ("R", "Ohm"), "inductor": ("L", "H")}
+
+_LEFT_OUT = (
+    "left out beside ehlectric drive: the scatter of the thresholds and their renewal, the motion of the "
+    "elements, the time until a film insulates again, and the ringing of edges"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class DriveNetlist:
+    """Both bearings of a drive as subcircuits.
+
+    Attributes
+    ----------
+    case : DriveCase
+        Case.
+    bearings : tuple of Subcircuit
+        Subcircuits at the drive end and at the other end; the same one where the bearings are.
+    waveform : Waveform or None
+        Voltage of a measured source.
+    """
+
+    case: DriveCase
+    bearings: tuple[Subcircuit, Subcircuit]
+    waveform: Waveform | None
+
+    @property
+    def subcircuits(self) -> tuple[Subcircuit, ...]:
+        """Different subcircuits."""
+        first, second = self.bearings
+        return (first,) if first is second else (first, second)
+
+    def lines(self) -> Iterator[str]:
+        """Lines of the file of the subcircuits."""
+        for one in self.subcircuits:
+            yield from one.lines()
+
+    def bench(self, library: str) -> Iterator[str]:
+        """Lines of the test bench, which includes the file of the subcircuits.
+
+        Parameters
+        ----------
+        library : str
+            Path of the file of the subcircuits, relative to the test bench.
+        """
+        circuit, source = self.case.circuit, self.case.running_source
+        points, step = _points(source, self.waveform)
+        yield f"{SIGNATURE}test bench of a drive; ehlectric {__version__}"
+        yield from comment(f"title: {self.case.title or '(none)'}")
+        yield from comment(f"common-mode voltage: {_about(source)}, as points over time")
+        yield from comment(_LEFT_OUT)
+        yield f'.include "{library}"'
+        elements = tuple(_named(motor_elements(circuit)))
+        for name, one in elements:
+            yield from _parameters(name, one)
+        positive, negative = (_NODES[node] for node in source_nodes(circuit))
+        yield f"V_source {positive} {negative} PWL("
+        for k in range(0, len(points), _POINTS):
+            yield "+ " + " ".join(f"{time:.12g} {number(value)}" for time, value in points[k : k + _POINTS])
+        yield "+ )"
+        for name, one in elements:
+            yield from _element(name, one)
+        for end, bearing in zip(ENDS, self.bearings, strict=True):
+            yield f"V_{end} shaft {end} 0"
+            yield f"X_{end} {end} 0 {bearing.name}"
+        yield f".tran {number(step)} {points[-1][0]:.12g} 0 {number(step)}"
+        yield ".meas tran winding_peak_to_peak PP V(winding)"
+        yield ".meas tran shaft_peak_to_peak PP V(shaft)"
+        yield ".meas tran shaft_highest MAX V(shaft)"
+        yield ".meas tran shaft_lowest MIN V(shaft)"
+        for end in ENDS:
+            yield f".meas tran {end}_current_highest MAX I(V_{end})"
+            yield f".meas tran {end}_current_lowest MIN I(V_{end})"
+        yield ".end"
+
+
+def write_drive_netlist(
+    case: DriveCase,
+    path: str | Path,
+    *,
+    bench: str | Path | None = None,
+    progress: Progress = silent,
+    workers: int | None = None,
+) -> list[Path]:
+    """Write the netlist of a drive for ngspice and LTspice: both bearings, and a bench with the machine.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Drive. The arc of the bearings is that of its table ``breakdown``.
+    path : str or Path
+        File of the subcircuits, such as bearings.lib. An existing file is replaced if ehlectric wrote it.
+    bench : str or Path, optional
+        File of a test bench: the inverter's voltage over four periods of its carrier, or the first 4000
+        samples of a measured one, the circuit of the machine, and both bearings.
+    progress : callable, optional
+        Called with the number of solved contacts, the number of all contacts, and a text.
+    workers : int, optional
+        Number of processes that solve the contacts of the bearings.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        If a bearing cannot be solved or lacks an input of its arc, the source cannot be read, or a file
+        cannot be written.
+    """
+    path, bench = Path(path), None if bench is None else Path(bench)
+    check_targets(path, bench)
+    return write_both(drive_netlist(case, progress, workers=workers), path, bench)
+
+
+def drive_netlist(
+    case: DriveCase, progress: Progress = silent, *, workers: int | None = None
+) -> DriveNetlist:
+    """Solve the bearings of a drive, and make its netlist.
+
+    Raises
+    ------
+    InputError
+        As ``write_drive_netlist`` raises it.
+    """
+    first, second = case.bearings
+    for end, one in zip(ENDS, (first, second), strict=True):
+        try:
+            check_strength(one)
+        except InputError as error:
+            raise error.under(end) from None
+    waveform, _ = measured_source(case.source, None)
+    drive_end = solve_bearing(first, progress=progress, workers=workers)
+    if second == first:
+        own = _subcircuit(case, ENDS[0], drive_end)
+        return DriveNetlist(case, (own, own), waveform)
+    other = solve_bearing(second, progress=progress, workers=workers)
+    ends = zip(ENDS, (drive_end, other), strict=True)
+    pair = tuple(replace(_subcircuit(case, end, result), suffix=end) for end, result in ends)
+    return DriveNetlist(case, (pair[0], pair[1]), waveform)
+
+
+def _subcircuit(case: DriveCase, end: str, result: BearingResult) -> Subcircuit:
+    """Subcircuit of the bearing at one end, with the arc of the drive."""
+    breakdown = case.breakdown
+    try:
+        return subcircuit_of([result], Arc(breakdown.arc_resistance, breakdown.lowest_voltage))
+    except InputError as error:
+        if error.key == "extinction_voltage":
+            raise error.retold(f"breakdown.{breakdown.extinction_key}", f"{error.text} of {end}") from None
+        raise error.under(end) from None
+
+
+def write_both(netlist: DriveNetlist, path: Path, bench: Path | None) -> list[Path]:
+    """Write the file of the subcircuits, and that of the test bench if there is one."""
+    return write_lines(netlist.lines(), path, netlist.bench, bench)
+
+
+def _about(source: Source) -> str:
+    """Words for the source."""
+    if source.measured:
+        return f"measured, {source.file}"
+    assert source.dc_link is not None and source.fundamental_frequency is not None
+    carrier = "" if source.switching_frequency is None else f" at {source.switching_frequency:g} Hz"
+    fundamental = f"fundamental {source.fundamental_frequency:g} Hz"
+    return f"{source.modulation}{carrier}, {source.dc_link:g} V, {fundamental}"
+
+
+def _points(source: Source, waveform: Waveform | None) -> tuple[list[tuple[float, float]], float]:
+    """Times [s] and voltages [V] of the source, and the largest step of the simulation [s]."""
+    if waveform is not None:
+        values = waveform.values[: _SAMPLES + 1]
+        sampled = waveform.step * np.arange(values.size)
+        return list(zip(sampled.tolist(), values.tolist(), strict=True)), 0.5 * waveform.step
+    assert source.rise_time is not None and source.fundamental_frequency is not None
+    duration, rise = _PERIODS / (source.switching_frequency or source.fundamental_frequency), source.rise_time
+    start, intervals = steps_of(source, duration)
+    chunks = list(edges(start, intervals, rise or _JUMP))
+    lasting, level, slope = (
+        np.concatenate([getattr(chunk, name) for chunk in chunks]) for name in ("duration", "level", "slope")
+    )
+    times: Array = np.append(0.0, np.cumsum(lasting))
+    levels = np.append(level, level[-1] + slope[-1] * lasting[-1])
+    kept = np.append(np.diff(times) > 0.0, True)
+    points = list(zip(times[kept].tolist(), levels[kept].tolist(), strict=True))
+    return points, max((rise or _JUMP) / _IN_EDGE, duration / _IN_ALL)
+
+
+def _named(elements: Iterator[Element]) -> Iterator[tuple[str, Element]]:
+    """Elements with names after their nodes; a second one between two nodes has a number."""
+    seen: Counter[str] = Counter()
+    for one in elements:
+        name = f"{_KINDS[one.kind][0]}_{one.first}_{one.second}"
+        seen[name] += 1
+        yield name if seen[name] == 1 else f"{name}_{seen[name]}", one
+
+
+def _parameters(name: str, one: Element) -> Iterator[str]:
+    """Lines of the parameters of an element."""
+    letter, unit = _KINDS[one.kind]
+    value = 1.0 / one.value if letter == "R" else one.value
+    yield f".param {Parameter(name, value, unit, f'{one.first} to {one.second}').line}"
+    if one.kind == "inductor" and one.resistance:
+        yield f".param {Parameter(f'R{name}', one.resistance, 'Ohm', 'in series with it').line}"
+
+
+def _element(name: str, one: Element) -> Iterator[str]:
+    """Lines of an element; an inductor has its resistance behind it."""
+    first, second = _NODES[one.first], _NODES[one.second]
+    if one.kind != "inductor" or not one.resistance:
+        yield f"{name} {first} {second} {{{name}}}"
+        return
+    yield f"{name} {first} inner_{name} {{{name}}}"
+    yield f"R{name} inner_{name} {second} {{R{name}}}"

@@ -1,0 +1,212 @@
+"""Record of a simulated time: events, histograms and spectrum, rates and distributions with their
+uncertainty.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy import stats
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.errors import ResultWarning
+from ehlectric.runtime.stored import stored
+
+# Columns of an event: begin and end [s], number of the film, voltage at breakdown [V], charge [C], energy
+# [J], largest current [A], and position of the elements.
+ON, OFF, FILM, VOLTAGE, CHARGE, ENERGY, PEAK, PLACE = range(8)
+COLUMNS = 8
+
+# Events that are kept one by one; of all others only counts and sums are.
+KEPT = 200_000
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """Record of a simulated time.
+
+    Attributes
+    ----------
+    duration : float
+        Time that was measured [s].
+    events : ndarray, shape (m, 8)
+        The first events of both films, a row for each with the columns above; times from the begin of
+        the measured time.
+    counts : ndarray of int, shape (2, blocks)
+        Number of events of each film in equal blocks of time.
+    sums, largest : ndarray, shape (2, 8)
+        Sums, and largest absolute values, of the columns of the events of each film.
+    edges : ndarray, shape (bins + 1,)
+        Edges of the bins of the histogram [V].
+    histogram : ndarray, shape (2, bins)
+        Time at the voltages of each bin [s].
+    limits : ndarray, shape (l,)
+        Limits of the voltage [V].
+    above : ndarray, shape (2, l)
+        Time above each limit [s].
+    peak, rms : ndarray, shape (2,)
+        Largest and root mean square voltage across each film [V].
+    spectrum : ndarray, shape (lines,)
+        Absolute mean of the shaft voltage, and amplitudes of its lines at whole multiples of one over the
+        duration [V]; empty where a file of version 1.0.0 has none.
+    touching : ndarray, shape (2,)
+        Largest voltage across each film while its asperities touch [V].
+    burning : ndarray, shape (2,)
+        Time for which an arc burnt in each film, with arcs that burnt before and after [s].
+    trace : ndarray, shape (m, 4)
+        Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
+        stretch; straight between the rows.
+    """
+
+    duration: float = field(metadata=stored("", "s", "positive"))
+    events: Array
+    counts: np.ndarray = field(metadata=stored("bearing block", None, "whole", name="block_events"))
+    sums: Array = field(metadata=stored("bearing column", None, "not negative", name="event_sum"))
+    largest: Array = field(metadata=stored("bearing column", None, "not negative", name="event_largest"))
+    edges: Array = field(metadata=stored("edge", "V", "increasing", name="voltage_edge"))
+    histogram: Array = field(metadata=stored("bearing bin", "s", "not negative", name="time_at_voltage"))
+    limits: Array
+    above: Array = field(metadata=stored("bearing limit", "s", "not negative", name="time_above"))
+    peak: Array = field(metadata=stored("bearing", "V", "not negative", name="peak_voltage"))
+    rms: Array = field(metadata=stored("bearing", "V", "not negative", name="rms_voltage"))
+    spectrum: Array = field(
+        metadata=stored("line", "V", "not negative", name="line_amplitude", count="line_count", needed=False)
+    )
+    touching: Array = field(metadata=stored("bearing", "V", "not negative", name="touching_voltage"))
+    burning: Array = field(metadata=stored("bearing", "s", "not negative", name="burning_time"))
+    trace: Array
+
+
+# Probability that a rate lies within its bounds.
+CONFIDENCE = 0.95
+
+# Events below which a rate is called uncertain.
+FEW = 20
+
+
+@dataclass(frozen=True)
+class Rate:
+    """Rate of events and its bounds [1/s]."""
+
+    mean: float
+    low: float
+    high: float
+
+
+def event_rate(counts: Array, duration: float) -> Rate:
+    """Rate of events with bounds of 95 % probability, from their numbers in equal blocks of time.
+
+    Parameters
+    ----------
+    counts : ndarray of int, shape (blocks,)
+        Numbers of events in the blocks.
+    duration : float
+        Length of all blocks together [s].
+
+    Returns
+    -------
+    Rate
+        Mean and bounds.
+
+    Notes
+    -----
+    The bounds are the wider ones of two: those of a Poisson process with this number of events (F. Garwood,
+    Biometrika 28 (1936) 437, doi:10.1093/biomet/28.3-4.437), which hold for no event too, and those of
+    Student's distribution of the blocks, which hold for events that follow from each other.
+
+    Examples
+    --------
+    No event in 2 s: the rate is less than 1.84/s, as -ln(0.025) = 3.69.
+
+    >>> rate = event_rate(np.zeros(10), 2.0)
+    >>> rate.mean, rate.low, round(rate.high, 2)
+    (0.0, 0.0, 1.84)
+    """
+    total, blocks, outside = float(np.sum(counts)), counts.size, 0.5 * (1.0 - CONFIDENCE)
+    low = float(stats.chi2.ppf(outside, 2.0 * total)) / 2.0 if total else 0.0
+    high = float(stats.chi2.ppf(1.0 - outside, 2.0 * total + 2.0)) / 2.0
+    error = float(np.std(counts, ddof=1)) / math.sqrt(blocks) if blocks > 1 else 0.0
+    student = float(stats.t.ppf(1.0 - outside, max(blocks - 1, 1))) * error * blocks
+    return Rate(
+        mean=total / duration,
+        low=max(min(low, total - student), 0.0) / duration,
+        high=max(high, total + student) / duration,
+    )
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Mean, median, 95th percentile and largest value; None without an event that tells it."""
+
+    mean: float | None
+    median: float | None
+    high: float | None
+    largest: float | None
+
+
+def spread(values: Array, mean: float | None, largest: float | None) -> Spread:
+    """Spread of the values of events.
+
+    Parameters
+    ----------
+    values : ndarray, shape (m,)
+        Values of events, or of a part of them, from which the percentiles follow.
+    mean, largest : float or None
+        Mean and largest value of all events; None without an event.
+
+    Examples
+    --------
+    >>> spread(np.array([1.0, 2.0, 3.0]), 2.0, 3.0)
+    Spread(mean=2.0, median=2.0, high=2.9, largest=3.0)
+    """
+    if values.size == 0:
+        return Spread(mean, None, None, largest)
+    median, high = (float(value) for value in np.percentile(values, [50.0, 95.0]))
+    return Spread(mean, median, high, largest)
+
+
+@dataclass(frozen=True, eq=False)
+class DriveSolution:
+    """Solved drive.
+
+    Attributes
+    ----------
+    case : DriveCase
+        Case that was solved.
+    elements : tuple of BearingElement
+        Bearings at the drive end and at the other end, as elements of the circuit.
+    record : Record
+        What happened over time.
+    divider : tuple of float
+        Voltage across the films of each bearing per volt of the source, right after an edge.
+    highest_source : float
+        Largest absolute voltage of the source [V].
+    converged : bool
+        Whether the films of both bearings are converged.
+    told : tuple of ResultWarning
+        Warnings about the file of a measured source, and of the bearings.
+    bearings : tuple of BearingResult
+        Solved bearings at both ends; none in a loaded result, whose file does not hold them.
+    """
+
+    case: DriveCase
+    elements: tuple[BearingElement, BearingElement]
+    record: Record
+    divider: tuple[float, float] = field(metadata=stored("bearing", "", "not negative"))
+    highest_source: float = field(metadata=stored("", "V", "not negative"))
+    converged: bool = field(default=True, metadata=stored("", None, "0 or 1", dtype="i1"))
+    told: tuple[ResultWarning, ...] = ()
+    bearings: tuple[BearingResult, ...] = field(default=(), compare=False)
+
+    def contact_current(self, b: int) -> float:
+        """Largest current through asperities of a bearing that touch [A]."""
+        return float(self.record.touching[b]) / self.elements[b].touch_resistance
+
+    def largest_current(self, b: int) -> float:
+        """Largest current through the films of a bearing, by an arc or through asperities [A]."""
+        return max(float(self.record.largest[b, PEAK]), self.contact_current(b))

@@ -1,0 +1,230 @@
+"""Verdict on a drive: whether its bearings discharge, as sentences and as a colour."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from ehlectric.bearing.quick_contacts import formula_factor
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.discharge.discharge_laws import beside_limits
+from ehlectric.discharge.film_verdict import DOUBTS, STRENGTH_UNKNOWN, Level, Verdict, assumption_of, unusable
+from ehlectric.drive.drive_record import FEW
+from ehlectric.drive.warnings import MOSTLY
+from ehlectric.errors import CODES, ResultWarning
+from ehlectric.quantities.drive_results import NAMES_OF_ENDS
+from ehlectric.quantities.formats import amount, number_text
+from ehlectric.quantities.inputs import ENDS
+
+# Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,
+# where a drive that discharges does so thousands of times in a second.
+SELDOM = 1.0 / 60.0
+
+# Warnings for which a film may break down at a lower voltage.
+_DOUBTS = (*DOUBTS, "partial-film")
+
+_UNSOLVED = "No verdict: a film is not converged, and the numbers must not be used."
+_HARM = "How much currents damage raceways and oil is not computed."
+_OPENING = "contacts discharge as they open, which is not computed"
+_LEADS = {
+    "green": "No discharge expected",
+    "yellow": "Discharges possible",
+    "red": "Discharges expected",
+}
+_ORDER: tuple[Level, ...] = ("green", "yellow", "red")
+
+
+def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterable[ResultWarning]) -> Verdict:
+    """Verdict on a solved drive.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Case of the drive.
+    summary : mapping
+        Summary of the drive, with ``converged`` and the tables of ``drive.summary.drive_summary``.
+    warnings : iterable of ResultWarning
+        Warnings of the drive; a severe one leaves no verdict.
+
+    Returns
+    -------
+    Verdict
+        Red where a bearing discharges at least twenty times in the simulated time, or its films conduct for
+        a fifth of that time after breakdowns. Green where no bearing discharges, none could more than once a
+        minute with a strength that is 20 % lower, by the law of its threshold at the largest voltage, and no
+        warning says that films may break down at lower voltages. Yellow between both, and where a strength
+        that is 20 % higher would end the discharges, as it may where thresholds hardly scatter. Grey where
+        the numbers must not be used. It has no margin.
+    """
+    warnings = tuple(warnings)
+    codes = {warning.code for warning in warnings}
+    refused = unusable(warnings) or ("" if summary["converged"] else _UNSOLVED)
+    if refused:
+        return Verdict("grey", refused)
+    part = 1.0 - STRENGTH_UNKNOWN
+    if "formula-contacts" in codes:
+        # Films of the atlas and solved ones are far more exact than the strength is known.
+        part /= max(formula_factor(one.bearing.kind) for one in case.bearings)
+    ends = [summary[end] for end in ENDS]
+    levels = [_level(end, summary["source"]["peak"], part) for end in ends]
+    events, arcs = sum(end["events"] for end in ends), any(end["burning_time_share"] for end in ends)
+    doubts = [] if events else [CODES[code].meaning for code in _DOUBTS if code in codes]
+    level: Level = max(["yellow", *levels] if doubts else levels, key=_ORDER.index)
+    if events or arcs:
+        lead = "Discharges likely" if level == "yellow" and events >= FEW else _LEADS[level]
+        sentences = [f"{lead}: {_rates(summary)}.", *_doubts_of_rates(ends, level)]
+        sentences += [*_touching(ends), *_harm(case, ends)]
+    else:
+        sentences = [f"{_LEADS[level]}: {_none(summary, part)}.", *_touching(ends), *_harm(case, ends)]
+        sentences += doubts
+    if any(end["breakdown_voltage"] is not None for end in ends):
+        sentences += [*([] if events or arcs else [_bound(codes)]), _assumption(case)]
+    return Verdict(level, " ".join(filter(None, sentences)))
+
+
+def _level(end: Mapping[str, Any], source: float, part: float) -> Level:
+    """Level of one bearing, with films that break down at a part of their voltage."""
+    if end["events"] >= FEW or end["burning_time_share"] > MOSTLY:
+        # The voltage that films would see without discharges: thresholds that scatter are reached all the
+        # same, others only below it.
+        reach = max(end["peak_voltage"], end["voltage_ratio"] * source)
+        stronger = most_by_law({**end, "peak_voltage": reach}, 1.0 + STRENGTH_UNKNOWN)
+        return "red" if stronger > SELDOM else "yellow"
+    if end["events"] or end["burning_time_share"] or end["touching_time_share"]:
+        return "yellow"
+    return "green" if most_by_law(end, part) <= SELDOM else "yellow"
+
+
+def most_by_law(end: Mapping[str, Any], part: float = 1.0) -> float:
+    """Discharges in a second if the largest voltage lasted, by the law of the threshold [1/s].
+
+    Parameters
+    ----------
+    end : mapping
+        Summary of one bearing.
+    part : float
+        Strength over that of the case, dimensionless.
+
+    Returns
+    -------
+    float
+        Upper bound of the rate for films that are renewed: the probability that a new film breaks down at
+        the largest voltage, over the time between new films. 0 or infinite for a threshold without scatter.
+
+    Examples
+    --------
+    One of a million films breaks down at 1 V, and 10 000 films are new in a second:
+
+    >>> end = {"peak_voltage": 1.0, "breakdown_voltage": 10.0, "weibull_shape": 6.0, "renewal_time": 1e-4}
+    >>> round(most_by_law(end), 5)
+    0.01
+    """
+    at = end["breakdown_voltage"]
+    if at is None:
+        return 0.0
+    ratio = end["peak_voltage"] / (part * at)
+    if end["weibull_shape"] is None:
+        return math.inf if ratio >= 1.0 else 0.0
+    # A threshold that is reached at all is reached in each new film from some voltage on.
+    return float(-math.expm1(-(min(ratio, 1e3) ** end["weibull_shape"]))) / float(end["renewal_time"])
+
+
+def _rates(summary: Mapping[str, Any]) -> str:
+    """Clause: how often each bearing discharges, with bounds, and with which energy."""
+    duration = amount(summary["drive"]["duration"], "s")
+    clauses = []
+    for key, name in NAMES_OF_ENDS.items():
+        end = summary[key]
+        high = number_text(end["events_per_second_high"])
+        if end["events"]:
+            low = number_text(end["events_per_second_low"])
+            clauses.append(
+                f"{number_text(end['events_per_second'])} a second ({low} to {high} at 95 %) at the {name}, "
+                f"with {_rounded(end['energy_mean'], 'J')} on average"
+            )
+        else:
+            clauses.append(f"none in {duration} at the {name}, at most {high} a second at 95 %")
+    return "; ".join(clauses)
+
+
+def _doubts_of_rates(ends: Iterable[Mapping[str, Any]], level: Level) -> Iterator[str]:
+    """Sentences: why discharges are not sure, and arcs that burn on."""
+    ends = list(ends)
+    if level == "yellow" and any(end["events"] >= FEW for end in ends):
+        yield f"A strength that is {100.0 * STRENGTH_UNKNOWN:.0f} % higher would end them."
+    elif level == "yellow":
+        yield "So few discharges give no certain rate."
+    burning = max(end["burning_time_share"] for end in ends)
+    if burning > MOSTLY:
+        yield f"After breakdowns the films conduct for {100.0 * burning:.3g} % of the time."
+
+
+def _harm(case: DriveCase, ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
+    """Sentences: current density beside its published limits, what it rests on, and that harm is unknown."""
+    ends = list(ends)
+    densities = [end["current_density"] for end in ends if end["current_density"]]
+    if not densities:
+        return
+    most = max(densities)
+    text = f"The largest current over the Hertz areas is {1e-6 * most:.3g} A/mm², {beside_limits(most)}"
+    if any(end["events"] for end in ends):
+        arc = amount(case.breakdown.arc_resistance, "Ω")
+        text += f"; energies and currents follow from an arc of {arc}, which is an assumption"
+    yield f"{text}."
+    yield _HARM
+
+
+def _none(summary: Mapping[str, Any], part: float) -> str:
+    """Clause: that nothing discharged, the bound of the rate, and how far the voltage is from the films'."""
+    ends = [summary[end] for end in ENDS]
+    high = max(end["events_per_second_high"] for end in ends)
+    peak = max(end["peak_voltage"] for end in ends)
+    known = [end["breakdown_voltage"] for end in ends if end["breakdown_voltage"] is not None]
+    text = (
+        f"none in {amount(summary['drive']['duration'], 's')}, so that there are at most {number_text(high)} "
+        f"a second in each bearing at 95 %; the largest voltage is {_rounded(peak, 'V')}"
+    )
+    if not known:
+        return f"{text}, and the elements are ceramic"
+    text += f", and the films break down at {min(known):.3g} V"
+    if all(end["weibull_shape"] is None for end in ends):
+        return text
+    most = sum(most_by_law(end, part) for end in ends)
+    weaker = f"{100.0 * (1.0 - part):.0f} % weaker"
+    return f"{text}. With films that are {weaker}, Weibull's law allows {_seldom(most)} of both bearings"
+
+
+def _rounded(value: float, unit: str) -> str:
+    """Value with three digits in a unit that suits it."""
+    return amount(float(f"{value:.3g}"), unit)
+
+
+def _seldom(rate: float) -> str:
+    """Rate of rare discharges as text, such as "at most 3 an hour"."""
+    for name, seconds in (("a second", 1.0), ("an hour", 3600.0), ("a year", 3.156e7)):
+        if rate * seconds >= 1.0:
+            return f"at most {number_text(rate * seconds)} discharges {name}"
+    return "less than one discharge a year"
+
+
+def _touching(ends: Iterable[Mapping[str, Any]]) -> Iterator[str]:
+    share = max(end["touching_time_share"] for end in ends)
+    if share:
+        yield f"Asperities close the films for {100.0 * share:.3g} % of the time: {_OPENING}."
+
+
+def _bound(codes: set[str]) -> str:
+    films = "isothermal, fully flooded, smooth films" if "isothermal-film" in codes else "smooth films"
+    return f"Upper bound: the voltages at which films break down are those of {films}."
+
+
+def _assumption(case: DriveCase) -> str:
+    """Sentence about the strength of the oil; empty where no bearing has one, as with ceramic elements."""
+    told = dict.fromkeys(
+        assumption_of(one.discharge)
+        for one in case.bearings
+        if one.discharge is not None and one.discharge.has_strength
+    )
+    text = "; ".join(told)
+    return f"{text[0].upper()}{text[1:]}." if text else ""

@@ -1,0 +1,489 @@
+"""Circuit of a motor around its bearings: capacitive divider, state equations, and modes in each state. SI
+units.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlectric.arrays import Array
+from ehlectric.cases.drive_inputs import Breakdown, Circuit
+from ehlectric.drive.drive_bearings import BearingElement
+from ehlectric.quantities.inputs import ENDS
+
+
+def capacitive_divider(circuit: Circuit, bearings: Sequence[BearingElement]) -> tuple[float, float]:
+    """Voltage across the films of each bearing per volt of the source, right after an edge.
+
+    Inductances are left out: they have the whole edge at first, and the capacitances share it later. The
+    rolling elements are at their first position.
+
+    Parameters
+    ----------
+    circuit : Circuit
+        Table ``circuit`` of the drive.
+    bearings : sequence of BearingElement
+        Bearings at both ends.
+
+    Returns
+    -------
+    tuple of float
+        Share of each bearing, dimensionless, from 0 to 1.
+    """
+    plain = circuit.model_copy(update={"common_mode_inductance": None, "ground_inductance": None})
+    nodes = film_nodes(bearings)
+    elements = list(motor_elements(plain))
+    for one, ends in zip(bearings, nodes, strict=True):
+        elements += bearing_elements(one, ends, 0, 0.0)
+    first, second = modes_of([state_space(elements, source_nodes(plain))], nodes, None).films_source[0]
+    return abs(float(first)), abs(float(second))
+
+
+# The node whose potential is zero.
+FRAME = "frame"
+
+
+@dataclass(frozen=True)
+class Element:
+    """Element of a circuit between two nodes.
+
+    Attributes
+    ----------
+    kind : str
+        "capacitor", "conductor" or "inductor".
+    first, second : str
+        Names of its nodes; the potential of "frame" is zero.
+    value : float
+        Capacitance [F], conductance [S] or inductance [H].
+    resistance : float
+        Resistance in series with an inductor [Ohm].
+    """
+
+    kind: Literal["capacitor", "conductor", "inductor"]
+    first: str
+    second: str
+    value: float
+    resistance: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class StateSpace:
+    r"""Equations x' = A x + B u of a circuit with the source voltage u.
+
+    The states are those that are continuous where u has a jump: for each free node the potential p + k u, and
+    the currents of the inductors.
+
+    Attributes
+    ----------
+    nodes : tuple of str
+        Free nodes, whose potentials p the first states give.
+    rates : ndarray, shape (n, n)
+        Matrix A [1/s].
+    force : ndarray, shape (n,)
+        Vector B.
+    jump : ndarray, shape (n,)
+        Vector k; 0 for the currents of inductors.
+    capacitance : ndarray, shape (n, n)
+        Matrix C of the free nodes, so that C p and the part of the source are the charges of the nodes [F];
+        the inductances for the currents of inductors [H].
+    """
+
+    nodes: tuple[str, ...]
+    rates: Array
+    force: Array
+    jump: Array
+    capacitance: Array
+
+    def potential(self, node: str) -> Array:
+        """Row that takes the potential of a node out of p, shape (n,); zeros for the frame."""
+        row = np.zeros(len(self.force))
+        if node != FRAME:
+            row[self.nodes.index(node)] = 1.0
+        return row
+
+
+def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSpace:
+    """State equations of a circuit.
+
+    Parameters
+    ----------
+    elements : sequence of Element
+        Elements. Every node but "frame" and the positive node of the source needs a path of capacitors to
+        "frame" or to the source.
+    source : tuple of str
+        Positive and negative node of the voltage source. The positive one is no free node: its potential is
+        that of the negative one plus u.
+
+    Returns
+    -------
+    StateSpace
+        Equations.
+
+    Raises
+    ------
+    ValueError
+        If a free node has no path of capacitors.
+
+    Notes
+    -----
+    With the potentials v = T p + s u of all nodes, Kirchhoff's current law at the free nodes is
+    T'(C v' + G v + N i) = 0 with the inductors' currents i, and L i' = N' v - R i. With
+    k = (T'C T)^-1 T'C s the states p + k u have no derivative of u in their equations.
+
+    Examples
+    --------
+    A step of 1 V on 1 kOhm and 1 nF: the potential rises with the rate 1/(R C) = 1e6/s.
+
+    >>> low_pass = [Element("conductor", "in", "out", 1e-3), Element("capacitor", "out", "frame", 1e-9)]
+    >>> system = state_space(low_pass, ("in", "frame"))
+    >>> round(float(system.rates[0, 0])), round(float(system.force[0]))
+    (-1000000, 1000000)
+    """
+    nodes = sorted({node for one in elements for node in (one.first, one.second)} - {FRAME})
+    positive, negative = source
+    free = tuple(node for node in nodes if node != positive)
+    into = _free_into_all(nodes, free, positive, negative)
+    drive = np.array([float(node == positive) for node in nodes])
+    c, g, n = _matrices(elements, nodes)
+    inductors = [one for one in elements if one.kind == "inductor"]
+    inductance = np.array([one.value for one in inductors])
+    resistance = np.array([one.resistance for one in inductors])
+    own, charge = into.T @ c @ into, into.T @ c @ drive
+    if np.linalg.matrix_rank(own, tol=1e-12 * np.max(np.abs(own), initial=1e-300)) < len(free):
+        raise ValueError("a node has no path of capacitors to the frame or the source")
+    leak, through = into.T @ g @ into, into.T @ n
+    k = np.linalg.solve(own, charge)
+    rates = np.block(
+        [
+            [-np.linalg.solve(own, leak), -np.linalg.solve(own, through)],
+            [through.T / inductance[:, None], -np.diag(resistance / inductance)],
+        ]
+    )
+    force = np.concatenate(
+        [
+            np.linalg.solve(own, leak @ k - into.T @ g @ drive),
+            (n.T @ drive - through.T @ k) / inductance,
+        ]
+    )
+    capacitance = np.block(
+        [
+            [own, np.zeros((len(free), len(inductors)))],
+            [np.zeros((len(inductors), len(free))), np.diag(inductance)],
+        ]
+    )
+    return StateSpace(
+        nodes=free,
+        rates=rates,
+        force=force,
+        jump=np.concatenate([k, np.zeros(len(inductors))]),
+        capacitance=capacitance,
+    )
+
+
+def _free_into_all(nodes: Sequence[str], free: Sequence[str], positive: str, negative: str) -> Array:
+    """Matrix T from the potentials of the free nodes to those of all nodes but the frame."""
+    into = np.zeros((len(nodes), len(free)))
+    for column, node in enumerate(free):
+        into[nodes.index(node), column] = 1.0
+        if node == negative:
+            into[nodes.index(positive), column] = 1.0
+    return into
+
+
+def _matrices(elements: Sequence[Element], nodes: Sequence[str]) -> tuple[Array, Array, Array]:
+    """Capacitances and conductances of all nodes but the frame, and the nodes of the inductors."""
+    count = len(nodes)
+    inductors = [one for one in elements if one.kind == "inductor"]
+    matrices = {"capacitor": np.zeros((count, count)), "conductor": np.zeros((count, count))}
+    for one in elements:
+        if one.kind != "inductor":
+            across = _ends(one, nodes)
+            matrices[one.kind] += one.value * np.outer(across, across)
+    currents = np.array([_ends(one, nodes) for one in inductors]).reshape(len(inductors), count).T
+    return matrices["capacitor"], matrices["conductor"], currents
+
+
+def _ends(element: Element, nodes: Sequence[str]) -> Array:
+    """Ends of an element, 1 at its first and -1 at its second node, shape (nodes,)."""
+    ends = np.zeros(len(nodes))
+    for node, sign in ((element.first, 1.0), (element.second, -1.0)):
+        if node != FRAME:
+            ends[nodes.index(node)] += sign
+    return ends
+
+
+# Nodes. The frame is the node of reference; earth is another one where the frame has an inductance to it.
+SOURCE, WINDING, ROTOR, EARTH = "source", "winding", "rotor", "earth"
+
+
+# Nodes of the capacitances of the machine, by their keys.
+_PLATES = {
+    "winding_rotor_capacitance": (WINDING, ROTOR),
+    "rotor_frame_capacitance": (ROTOR, FRAME),
+    "winding_frame_capacitance": (WINDING, FRAME),
+}
+
+
+def film_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
+    """Nodes between which the films of each bearing lie: a coating lies between them and the frame."""
+    return [
+        (ROTOR, f"ring_{end}" if one.path.coated else FRAME) for end, one in zip(ENDS, elements, strict=True)
+    ]
+
+
+def voltage_nodes(elements: Sequence[BearingElement]) -> list[tuple[str, str]]:
+    """Nodes of the voltages that are measured: across the films of each bearing, and of the shaft."""
+    return [*film_nodes(elements), (ROTOR, FRAME)]
+
+
+def source_nodes(circuit: Circuit) -> tuple[str, str]:
+    """Positive and negative node of the inverter's common-mode voltage."""
+    return SOURCE if _reactor(circuit) else WINDING, EARTH if _parted(circuit) else FRAME
+
+
+def _parted(circuit: Circuit) -> bool:
+    """Whether earth and frame are two nodes: something is parallel to the inductance between them."""
+    beside = circuit.cable_capacitance or circuit.frame_earth_capacitance
+    return circuit.ground_inductance is not None and beside is not None
+
+
+def _reactor(circuit: Circuit) -> bool:
+    """Whether an inductance lies between inverter and winding; that to earth is in series without cable."""
+    alone = circuit.ground_inductance is not None and not _parted(circuit)
+    return circuit.common_mode_inductance is not None or alone
+
+
+def motor_elements(circuit: Circuit) -> Iterator[Element]:
+    """Elements of the motor and of its connection to the inverter, without bearings."""
+    for key, value in circuit.capacitances.items():
+        yield Element("capacitor", *_PLATES[key], value)
+    if circuit.grounding_ring_resistance is not None:
+        yield Element("conductor", ROTOR, FRAME, 1.0 / circuit.grounding_ring_resistance)
+    own, ground = circuit.common_mode_inductance or 0.0, circuit.ground_inductance or 0.0
+    if _parted(circuit):
+        if own:
+            yield Element("inductor", SOURCE, WINDING, own, circuit.common_mode_resistance)
+        yield Element("inductor", FRAME, EARTH, ground, circuit.ground_resistance)
+        if circuit.cable_capacitance is not None:
+            yield Element("capacitor", WINDING, EARTH, circuit.cable_capacitance)
+        if circuit.frame_earth_capacitance is not None:
+            yield Element("capacitor", FRAME, EARTH, circuit.frame_earth_capacitance)
+        return
+    if own or ground:
+        resistance = circuit.common_mode_resistance + circuit.ground_resistance
+        yield Element("inductor", SOURCE, WINDING, own + ground, resistance)
+    if circuit.cable_capacitance is not None:
+        yield Element("capacitor", WINDING, FRAME, circuit.cable_capacitance)
+
+
+def bearing_elements(
+    one: BearingElement, nodes: tuple[str, str], place: int, conductance: float
+) -> Iterator[Element]:
+    """Elements of a bearing with its elements at a place, and a conductance of its films beside that of oil.
+
+    Parameters
+    ----------
+    one : BearingElement
+        Bearing.
+    nodes : tuple of str
+        Nodes between which its films lie.
+    place : int
+        Number of the position of its elements.
+    conductance : float
+        Conductance of an arc or of touching asperities [S].
+    """
+    yield Element("capacitor", *nodes, float(one.capacitance[place]))
+    if one.conductance + conductance > 0.0:
+        yield Element("conductor", *nodes, one.conductance + conductance)
+    if one.path.coated:
+        yield Element("capacitor", nodes[1], FRAME, one.path.coating)
+        if math.isfinite(one.path.resistance):
+            yield Element("conductor", nodes[1], FRAME, 1.0 / one.path.resistance)
+    if one.path.parallel:
+        yield Element("capacitor", ROTOR, FRAME, one.path.parallel)
+
+
+def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[tuple[float, float]]:
+    """Frequency [Hz] and quality factor of each oscillation of the circuit with films that insulate.
+
+    Parameters
+    ----------
+    circuit : Circuit
+        Table ``circuit`` of the drive.
+    bearings : sequence of BearingElement
+        Bearings at both ends; their elements are at their first position.
+
+    Returns
+    -------
+    list of tuple of float
+        The least damped oscillation first; none in a circuit without inductances. With a rate s of the
+        circuit the frequency is Im s/(2 pi), and the quality factor is abs(s)/(-2 Re s), infinite without
+        damping.
+    """
+    if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
+        return []
+    elements = list(motor_elements(circuit))
+    for one, nodes in zip(bearings, film_nodes(bearings), strict=True):
+        elements += bearing_elements(one, nodes, 0, 0.0)
+    rates = np.linalg.eigvals(state_space(elements, source_nodes(circuit)).rates)
+    found = [
+        (float(rate.imag) / (2.0 * math.pi), abs(rate) / max(-2.0 * float(rate.real), 1e-300))
+        for rate in rates
+        if rate.imag > 0.0
+    ]
+    return sorted(found, key=lambda one: -one[1])
+
+
+def states_of(
+    circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, *, touches: bool
+) -> list[StateSpace]:
+    """State equations of the circuit in all of its states, in the order in which a march numbers them.
+
+    Parameters
+    ----------
+    circuit : Circuit
+        Table ``circuit`` of the drive.
+    bearings : sequence of BearingElement
+        Bearings at both ends.
+    breakdown : Breakdown
+        Table ``breakdown`` of the drive.
+    touches : bool
+        Whether films of a bearing touch, which is a third state of each.
+
+    Returns
+    -------
+    list of StateSpace
+        For each state of the first and the second film, and each position of the first and the second
+        bearing's elements.
+    """
+    arc = 1.0 / breakdown.arc_resistance
+    doing = [[0.0, arc, 1.0 / one.touch_resistance][: 3 if touches else 2] for one in bearings]
+    places = [range(one.capacitance.size) for one in bearings]
+    motor, nodes = list(motor_elements(circuit)), film_nodes(bearings)
+    return [
+        state_space(
+            [
+                *motor,
+                *bearing_elements(bearings[0], nodes[0], first, one),
+                *bearing_elements(bearings[1], nodes[1], second, other),
+            ],
+            source_nodes(circuit),
+        )
+        for one, other, first, second in product(doing[0], doing[1], places[0], places[1])
+    ]
+
+
+Complex = NDArray[np.complex128]
+
+# Condition number of the modes above which two of them are taken as one that has no diagonal form.
+_ALIKE = 1e9
+
+# Relative change of the rates that parts two modes of the same rate, with an effect of its own size.
+_APART = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Diagonal form of the state equations of several states of a circuit, one after the other.
+
+    Attributes
+    ----------
+    rates : ndarray of complex, shape (states, n)
+        Eigenvalues [1/s]; no real part is above zero.
+    shapes, inverse : ndarray of complex, shape (states, n, n)
+        Eigenvectors and their inverse.
+    force : ndarray of complex, shape (states, n)
+        Force of each mode per volt of the source.
+    films : ndarray of complex, shape (states, films, n)
+        Voltage across each film, and any other voltage that is asked for, per amplitude of each mode [V].
+    films_source : ndarray, shape (states, films)
+        Voltage across each film per volt of the source with all modes at zero.
+    ring_state : ndarray of complex, shape (states, n)
+        States per volt of a source exp(mu t).
+    ring_films : ndarray of complex, shape (states, films)
+        Voltage across each film per volt of a source exp(mu t).
+    jump : ndarray, shape (states, n)
+        Vector k of ``StateSpace``.
+    charge, uncharge : ndarray, shape (states, n, n)
+        Matrix C of ``StateSpace`` and its inverse.
+    """
+
+    rates: Complex
+    shapes: Complex
+    inverse: Complex
+    force: Complex
+    films: Complex
+    films_source: Array
+    ring_state: Complex
+    ring_films: Complex
+    jump: Array
+    charge: Array
+    uncharge: Array
+
+
+def modes_of(
+    systems: Sequence[StateSpace], films: Sequence[tuple[str, str]], ring: complex | None = None
+) -> Modes:
+    """Diagonal form of a circuit in all of its states.
+
+    Parameters
+    ----------
+    systems : sequence of StateSpace
+        State equations, all with the same nodes.
+    films : sequence of tuple of str
+        Upper and lower node of each film.
+    ring : complex, optional
+        Rate mu of the source's ringing [1/s]; without it the source does not ring.
+
+    Returns
+    -------
+    Modes
+        Rates, shapes and what follows from them.
+    """
+    first = systems[0]
+    rates = np.array([one.rates for one in systems])
+    charge = np.array([one.capacitance for one in systems])
+    own, shapes, inverse = _diagonal(rates, charge)
+    force = np.array([one.force for one in systems])
+    jump = np.array([one.jump for one in systems])
+    across = np.array([first.potential(upper) - first.potential(lower) for upper, lower in films])
+    ring_state = np.zeros(force.shape, dtype=complex)
+    if ring is not None:
+        identity = np.eye(rates.shape[1])
+        ring_state = np.linalg.solve(ring * identity - rates, force.astype(complex)[..., None])[..., 0]
+    return Modes(
+        rates=np.minimum(own.real, 0.0) + 1j * own.imag,
+        shapes=np.ascontiguousarray(shapes),
+        inverse=np.ascontiguousarray(inverse),
+        force=np.einsum("cij,cj->ci", inverse, force),
+        films=np.einsum("fi,cij->cfj", across, shapes),
+        films_source=-jump @ across.T,
+        ring_state=ring_state,
+        ring_films=(ring_state - jump) @ across.T,
+        jump=jump,
+        charge=charge,
+        uncharge=np.linalg.inv(charge),
+    )
+
+
+def _diagonal(rates: Array, charge: Array) -> tuple[Complex, Complex, Complex]:
+    """Eigenvalues, eigenvectors and their inverse; equal rates without a diagonal form are parted.
+
+    In states that are scaled by the root of their energy, losses make the matrices symmetric, and exchange
+    between capacitors and inductors makes them antisymmetric, so that the eigenvectors are well conditioned.
+    """
+    energy = np.sqrt(np.diagonal(charge, axis1=1, axis2=2))
+    scaled = energy[:, :, None] * rates / energy[:, None, :]
+    own, shapes = (part.astype(complex) for part in np.linalg.eig(scaled))
+    alike = np.linalg.cond(shapes) > _ALIKE
+    if np.any(alike):
+        order = np.arange(1, rates.shape[1] + 1)
+        own[alike], shapes[alike] = np.linalg.eig(scaled[alike] * (1.0 + _APART * order[:, None]))
+    return own, shapes / energy[:, :, None], np.linalg.inv(shapes) * energy[:, None, :]

@@ -1,0 +1,810 @@
+"""Netlist of a bearing for circuit simulators: its equivalent circuit over the speed, its subcircuit, and
+a test bench.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from ehlectric.bearing.bearing_discharges import breakdown_of, oil_conductance
+from ehlectric.bearing.bearing_touching import duty_of
+from ehlectric.bearing.circuit import Path
+from ehlectric.bearing.conditions import Solid
+from ehlectric.bearing.impedance import oil_relaxation_time, rough_capacitance, shaft_path
+from ehlectric.bearing.result import BearingResult, solve_bearing
+from ehlectric.bearing.solution import (
+    BearingSolution,
+    capacitance,
+    capacitance_is_bound,
+    lambda_text,
+    lubrication,
+)
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.bearing_inputs import Motor
+from ehlectric.cases.defaults import HOW
+from ehlectric.errors import InputError, ResultWarning, printable, shown
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.units import rpm, rpm_text
+from ehlectric.runtime.progress import Progress, silent
+from ehlectric.version import __version__
+
+# Beginning of the first line of every file that is written here, by which it is recognised.
+SIGNATURE = "* ehlectric "
+
+# Width of a comment [characters].
+_WIDTH = 100
+
+# Letters that texts of ehlectric have, in ASCII: not every simulator reads UTF-8.
+_LETTERS = str.maketrans(
+    {"µ": "u", "Ω": "Ohm", "°": "deg ", "≤": "<=", "≥": ">=", "×": "x", "–": "-", "²": "^2", "³": "^3"}
+)
+
+
+def ascii_of(text: str) -> str:
+    r"""Text on one line in printable ASCII; other letters are escaped.
+
+    Examples
+    --------
+    >>> print(ascii_of("film of 0.1 µm\nR1 1 0 5"))
+    film of 0.1 um\nR1 1 0 5
+    """
+    return printable(text).translate(_LETTERS).encode("ascii", "backslashreplace").decode("ascii")
+
+
+def comment(text: str) -> Iterator[str]:
+    """Lines of a comment with any text of a user, wrapped.
+
+    Every line begins with an asterisk and a space: ngspice takes ``*#`` for a command.
+
+    Examples
+    --------
+    >>> list(comment("a title"))
+    ['* a title']
+    """
+    for line in textwrap.wrap(ascii_of(text), _WIDTH) or [""]:
+        yield f"* {line}".rstrip()
+
+
+def number(value: float) -> str:
+    """Number with nine digits; it has no suffix, since "M" is a thousandth in SPICE.
+
+    Examples
+    --------
+    >>> number(1.2e-10), number(3000.0)
+    ('1.2e-10', '3000')
+    """
+    return f"{value:.9g}"
+
+
+def name_of(text: str) -> str:
+    """Name of a subcircuit or a file: lower-case letters, digits and underscores.
+
+    Examples
+    --------
+    >>> name_of("NU-205")
+    'nu_205'
+    """
+    return re.sub(r"[^a-z0-9]+", "_", ascii_of(text).lower()).strip("_")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """Parameter of a netlist.
+
+    Attributes
+    ----------
+    name : str
+        Name in the netlist.
+    value : float
+        Value in ``unit``.
+    unit : str
+        Unit, in ASCII.
+    meaning : str
+        Words for the quantity.
+    """
+
+    name: str
+    value: float
+    unit: str
+    meaning: str
+
+    @property
+    def line(self) -> str:
+        """Assignment with the unit and the meaning as a comment.
+
+        Examples
+        --------
+        >>> Parameter("C_films", 1.2e-10, "F", "films").line
+        'C_films=1.2e-10 ; F, films'
+        """
+        return f"{self.name}={number(self.value)} ; {self.unit}, {ascii_of(self.meaning)}"
+
+
+# Resistance in place of an insulator [Ohm]. It has no effect on a drive: with the capacitance of a bearing it
+# has a time constant of minutes. Without it, a node between capacitors has no voltage before the first step.
+OPEN = 1e12
+
+# What lies between the rings: films of oil, ceramic elements, or contacts of metal.
+State = Literal["films", "ceramic", "metal"]
+
+
+@dataclass(frozen=True)
+class Equivalent:
+    """Equivalent circuit of what lies between the rings of a bearing, at one speed.
+
+    Attributes
+    ----------
+    speed : float
+        Speed of the inner ring [rad/s].
+    state : str
+        "films"; "ceramic" for elements that insulate; "metal" where the surfaces touch.
+    capacitance : float
+        Capacitance with smooth films, mean over the positions of the cage [F].
+    resistance : float or None
+        Resistance parallel to it, of the oil or of contacts of metal [Ohm]; None for oil without a
+        conductivity and for ceramic elements.
+    threshold : float or None
+        Smallest voltage from ring to ring at which an element breaks down [V]; None where there is none.
+    """
+
+    speed: float
+    state: State
+    capacitance: float
+    resistance: float | None
+    threshold: float | None
+
+
+def equivalent_of(solution: BearingSolution) -> Equivalent:
+    """Equivalent circuit of what lies between the rings of a solved bearing.
+
+    Parameters
+    ----------
+    solution : BearingSolution
+        Solved bearing.
+
+    Returns
+    -------
+    Equivalent
+        Values in SI units.
+
+    Raises
+    ------
+    InputError
+        Where the surfaces touch, and the case has no ``bearing.contact_resistance``.
+
+    Notes
+    -----
+    Where the surfaces touch, an element conducts while both of its contacts are closed, by two contact
+    resistances in series. The conductance is the mean over time of that of all elements.
+    """
+    speed, own = solution.case.bearing.inner_speed, capacitance(solution)
+    if solution.conditions.ceramic:
+        return Equivalent(speed, "ceramic", own, None, None)
+    if lubrication(solution) == "conducting":
+        return Equivalent(speed, "metal", own, _metal_resistance(solution), None)
+    tau, breakdown = oil_relaxation_time(solution), breakdown_of(solution)
+    return Equivalent(
+        speed,
+        "films",
+        own,
+        None if tau is None else 1.0 / oil_conductance(solution, tau),
+        None if breakdown is None else breakdown.through_breakdown,
+    )
+
+
+def _metal_resistance(solution: BearingSolution) -> float:
+    """Reciprocal mean conductance of contacts that close at times [Ohm]."""
+    resistance = solution.case.bearing.contact_resistance
+    if resistance is None:
+        raise InputError.missing(
+            "bearing.contact_resistance",
+            f"a value: at {rpm_text(solution.case.bearing.inner_speed)} rpm the surfaces touch (lambda ratio "
+            f"{lambda_text(solution)}), so that the bearing is a resistance; or a film that parts them",
+        )
+    shares = [
+        float(np.sum(inner.contact_time_share * outer.contact_time_share))
+        for inner, outer in duty_of(solution).rings
+    ]
+    mean = float(np.mean(shares))
+    return OPEN if mean * OPEN <= 2.0 * resistance else 2.0 * resistance / mean
+
+
+# Largest number of speeds in a range, and the smallest ratio of two speeds: the logarithm of their ratio, to
+# nine digits, is divided by.
+_MOST, _APART = 99, 1.001
+
+_RANGE = re.compile(r"\s*(?P<low>[^:]+):(?P<high>[^:]+):\s*(?P<count>\d{1,4})\s*")
+_TAKES = "speeds with units, as '500 rpm, 1000 rpm', or a range with its number, as '500 rpm : 3000 rpm : 7'"
+
+# Number of factors on a line of an expression.
+_FACTORS = 4
+
+
+def speeds_of(case: BearingCase, text: str) -> tuple[float, ...]:
+    """Speeds of the inner ring from the text of an option.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case whose speed they replace.
+    text : str
+        Speeds with units, separated by commas, or a range "LOW : HIGH : NUMBER" in a geometric series.
+
+    Returns
+    -------
+    tuple of float
+        Speeds [rad/s].
+
+    Raises
+    ------
+    InputError
+        If a part is no speed that the case takes, or the range is none.
+    """
+    found = _RANGE.fullmatch(text)
+    if found is None:
+        return tuple(_speed(case, part) for part in text.split(","))
+    low, high, count = _speed(case, found["low"]), _speed(case, found["high"]), int(found["count"])
+    if not (2 <= count <= _MOST and 0.0 < low < high):
+        raise InputError(
+            "--speeds",
+            got=shown(text),
+            takes=f"a range from a lower to a higher speed in 2 to {_MOST} speeds",
+        )
+    return tuple(float(speed) for speed in np.geomspace(low, high, count))
+
+
+def _speed(case: BearingCase, text: str) -> float:
+    try:
+        return case.replace({"bearing.inner_speed": text.strip()}).bearing.inner_speed
+    except InputError as error:
+        if error.key != "bearing.inner_speed":
+            raise
+        raise InputError("--speeds", got=error.got or shown(text.strip()), takes=_TAKES) from None
+
+
+def solve_at_speeds(
+    case: BearingCase, speeds: Sequence[float], progress: Progress = silent, *, workers: int | None = None
+) -> list[BearingResult]:
+    """Solve a bearing at its own speed and at others, all at the same temperature.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing; its ``contacts`` says how it is solved.
+    speeds : sequence of float
+        Other speeds of the inner ring [rad/s].
+    progress : callable, optional
+        Called with the numbers of solved and of all contacts of one speed, and a text.
+    workers : int, optional
+        Number of processes.
+
+    Returns
+    -------
+    list of BearingResult
+        Results at different speeds; the first one is at the speed of the case.
+
+    Raises
+    ------
+    InputError, LostError, ConvergenceError
+        As ``solve_bearing`` raises them.
+    """
+    own = case.bearing.inner_speed
+    others = [speed for speed in dict.fromkeys(speeds) if not _same(speed, own)]
+    results = []
+    for speed in (own, *others):
+
+        def tell(done: int, of: int, text: str, at: str = rpm_text(speed)) -> None:
+            progress(done, of, f"{text}, {at} rpm")
+
+        changed = case if speed == own else case.replace({"bearing.inner_speed": speed})
+        results.append(solve_bearing(changed, progress=tell, workers=workers))
+    return results
+
+
+def _same(first: float, second: float) -> bool:
+    return bool(np.isclose(first, second, rtol=1e-9, atol=0.0))
+
+
+def check_table(results: Sequence[BearingResult]) -> None:
+    """Refuse several results that are no table over the speed.
+
+    Raises
+    ------
+    InputError
+        If they differ in more than the speed, two have nearly the same speed, or surfaces touch at some.
+    """
+    if len(results) == 1:
+        return
+    own = results[0].case.bearing.inner_speed
+    inputs = [result.case.replace({"bearing.inner_speed": own}).to_dict() for result in results]
+    if any(one != inputs[0] for one in inputs):
+        raise InputError("result", got="bearings that differ in other inputs", takes="one bearing, at speeds")
+    for low, high in pairwise(sorted(result.case.bearing.inner_speed for result in results)):
+        if high < low * _APART:
+            told = f"{rpm(low):.6g} rpm and {rpm(high):.6g} rpm"
+            raise InputError("bearing.inner_speed", got=told, takes="speeds that differ by 0.1 % or more")
+    touching = [
+        result.case.bearing.inner_speed for result in results if lubrication(result.solution) == "conducting"
+    ]
+    if touching:
+        told = ", ".join(f"{rpm_text(speed)} rpm" for speed in sorted(touching))
+        raise InputError(
+            "bearing.inner_speed",
+            got=f"{told}, where surfaces touch (lambda ratio below 1),",
+            takes="in a table over the speed, speeds at which films part the surfaces",
+        )
+
+
+def nodes(found: Sequence[Equivalent], *, leaks: bool, breaks: bool) -> Iterator[Parameter]:
+    """Parameters of a table: speeds [rpm], and the quantities at them, by increasing speed."""
+    for k, one in enumerate(found, 1):
+        at = f"at n_{k}"
+        yield Parameter(f"n_{k}", rpm(one.speed), "rpm", f"speed {k} of the table")
+        yield Parameter(f"C_{k}", one.capacitance, "F", f"capacitance of the films {at}")
+        if leaks and one.resistance is not None:
+            yield Parameter(f"R_{k}", one.resistance, "Ohm", f"leak of the films {at}")
+        if breaks and one.threshold is not None:
+            yield Parameter(f"V_{k}", one.threshold, "V", f"breakdown voltage of the films {at}")
+
+
+def parts(count: int) -> Iterator[str]:
+    """Expressions of the logarithms by which the speed has passed through each interval, over its length.
+
+    They use functions that ngspice and LTspice both have: 0 below the interval and 1 above it.
+    """
+    for k in range(1, count):
+        low, high = f"n_{k}", f"n_{k + 1}"
+        yield f"x_{k}={{ln(min(max(speed,{low}),{high})/{low})/ln({high}/{low})}}"
+
+
+def interpolated(name: str, letter: str, count: int) -> Iterator[str]:
+    """Lines of a quantity that is a power of the speed between two nodes, and constant outside of all.
+
+    Examples
+    --------
+    >>> list(interpolated("C_films", "C", 3))
+    ['C_films={C_1', '+ *pow(C_2/C_1,x_1)*pow(C_3/C_2,x_2)}']
+    """
+    factors = [f"*pow({letter}_{k + 1}/{letter}_{k},x_{k})" for k in range(1, count)]
+    lines = ["".join(factors[at : at + _FACTORS]) for at in range(0, len(factors), _FACTORS)]
+    yield f"{name}={{{letter}_1" + "}" * (not lines)
+    for at, line in enumerate(lines, 1):
+        yield f"+ {line}" + "}" * (at == len(lines))
+
+
+# Resistance of an open switch over that of the leak beside it.
+_OPEN_SWITCH = 1e6
+
+_CELSIUS = 273.15
+
+_CIRCUIT = (
+    "circuit from shaft to housing: the films (C_films, R_leak and, where there is one, the arc) are "
+    "parallel to each other; the coating of a ring (C_coat, R_coat), where there is one, is in series with "
+    "them; the capacitance of cage, shields and wiring (C_par), where there is one, is parallel to all"
+)
+
+
+@dataclass(frozen=True)
+class Arc:
+    """Arc across the films of a bearing.
+
+    Attributes
+    ----------
+    resistance : float
+        Resistance of the arc [Ohm].
+    extinction : float
+        Voltage across the films below which it goes out [V].
+    """
+
+    resistance: float
+    extinction: float
+
+
+@dataclass(frozen=True)
+class Subcircuit:
+    """Subcircuit of a bearing.
+
+    Attributes
+    ----------
+    results : tuple of BearingResult
+        Results at one speed or several; the first one is at the speed that is the default.
+    found : tuple of Equivalent
+        Equivalent circuits of the results, by increasing speed.
+    arc : Arc or None
+        Arc across the films; None for a subcircuit without a switch.
+    notes : tuple of str
+        What the circuit leaves out, or stands for.
+    suffix : str
+        End of the name, of one of several bearings in a file.
+    """
+
+    results: tuple[BearingResult, ...]
+    found: tuple[Equivalent, ...]
+    arc: Arc | None
+    notes: tuple[str, ...]
+    suffix: str = ""
+
+    @property
+    def case(self) -> BearingCase:
+        """Case at the speed that is the default."""
+        return self.results[0].case
+
+    @property
+    def path(self) -> Path:
+        """Circuit beside the films."""
+        return shaft_path(self.results[0].solution)
+
+    @property
+    def name(self) -> str:
+        """Name of the subcircuit."""
+        base = name_of(self.case.bearing.base or "")
+        return "_".join(filter(None, ["bearing", base, self.suffix]))
+
+    @property
+    def default(self) -> Equivalent:
+        """Equivalent circuit at the speed that is the default."""
+        return next(one for one in self.found if one.speed == self.case.bearing.inner_speed)
+
+    @property
+    def tabulated(self) -> bool:
+        """Whether the speed is a parameter."""
+        return len(self.found) > 1
+
+    def parameters(self) -> Iterator[Parameter]:
+        """Parameters that an instance may change."""
+        one = self.found[0]
+        if self.tabulated:
+            speed = rpm(self.case.bearing.inner_speed)
+            yield Parameter("speed", speed, "rpm", "speed of the inner ring")
+        else:
+            yield Parameter("C_films", one.capacitance, "F", _CAPACITANCES[one.state])
+        if not self.tabulated or one.resistance is None:
+            meaning = _LEAKS[one.state] if one.resistance is not None else "stands for an insulator"
+            yield Parameter("R_leak", OPEN if one.resistance is None else one.resistance, "Ohm", meaning)
+        if self.arc is not None:
+            if not self.tabulated and one.threshold is not None:
+                yield Parameter("V_break", one.threshold, "V", "voltage across the films at which they break")
+            yield Parameter(
+                "V_ext", self.arc.extinction, "V", "voltage across the films below which an arc ends"
+            )
+            yield Parameter("R_arc", self.arc.resistance, "Ohm", "resistance of the arc")
+        path = self.path
+        if path.coated:
+            resistance = min(path.resistance, OPEN)
+            yield Parameter("C_coat", path.coating, "F", "capacitance of the coating")
+            yield Parameter("R_coat", resistance, "Ohm", _insulation(path))
+        if path.parallel > 0.0:
+            yield Parameter("C_par", path.parallel, "F", "capacitance of cage, shields and wiring")
+
+    def lines(self) -> Iterator[str]:
+        """Lines of the file."""
+        yield f"{SIGNATURE}netlist of a bearing from shaft to housing; ehlectric {__version__}"
+        for text in self._header():
+            yield from comment(text)
+        yield "*"
+        yield f".subckt {self.name} shaft housing"
+        for parameter in self.parameters():
+            yield f"+ {parameter.line}"
+        if self.tabulated:
+            yield from self._table()
+        yield from self._elements()
+        yield f".ends {self.name}"
+
+    def _header(self) -> Iterator[str]:
+        """Comments: bearing, operating point, how it was solved, notes and warnings."""
+        case, bearing, solution = self.case, self.case.bearing, self.results[0].solution
+        yield f"title: {case.title or '(none)'}"
+        yield f"bearing: {bearing.base or 'own dimensions'}, {bearing.kind}, {bearing.elements} elements"
+        yield (
+            f"operating point: {rpm_text(bearing.inner_speed)} rpm, "
+            f"{bearing.oil_temperature - _CELSIUS:.4g} degC, radial load {amount(bearing.radial_load, 'N')}, "
+            f"axial load {amount(bearing.axial_load, 'N')}; lambda ratio {lambda_text(solution)}, "
+            f"{lubrication(solution)}"
+        )
+        if self.tabulated:
+            speeds = ", ".join(rpm_text(one.speed) for one in self.found)
+            yield (
+                f"table over the speed at this temperature: {speeds} rpm; between two speeds each quantity "
+                "is a power of the speed, below and above the table it is constant"
+            )
+        converged = all(result.converged for result in self.results)
+        yield f"contacts: {HOW[case.contacts]}, {'converged' if converged else 'NOT CONVERGED'}"
+        rough = rough_capacitance(solution)
+        if rough is not None:
+            yield f"C_films is that of smooth films; with roughness in their Hertz areas: {rough:.4g} F"
+        yield _CIRCUIT
+        yield from (f"note: {text}" for text in self.notes)
+        yield from (f"{warning.severity}: {warning}" for warning in self.warnings())
+
+    def warnings(self) -> Iterator[ResultWarning]:
+        """Warnings at the speed that is the default, and those of further codes with their speed."""
+        codes: set[str] = set()
+        for result in self.results:
+            new = [warning for warning in result.warnings if warning.code not in codes]
+            codes.update(warning.code for warning in new)
+            at = rpm_text(result.case.bearing.inner_speed)
+            for warning in new:
+                own = result is self.results[0]
+                yield warning if own else ResultWarning(warning.code, f"at {at} rpm: {warning}")
+
+    def _table(self) -> Iterator[str]:
+        """Nodes over the speed, and the quantities at the speed of the instance."""
+        count, one = len(self.found), self.found[0]
+        leaks, breaks = one.resistance is not None, self.arc is not None
+        for parameter in nodes(self.found, leaks=leaks, breaks=breaks):
+            yield f".param {parameter.line}"
+        yield "* part of each interval that the speed has passed, from 0 to 1"
+        yield from (f".param {line}" for line in parts(count))
+        quantities = [
+            ("C_films", "C", "F", True),
+            ("R_leak", "R", "Ohm", leaks),
+            ("V_break", "V", "V", breaks),
+        ]
+        for name, letter, unit, wanted in quantities:
+            if wanted:
+                yield f"* {name} in {unit}, at the speed"
+                first, *others = interpolated(name, letter, count)
+                yield from (f".param {first}", *others)
+
+    def _elements(self) -> Iterator[str]:
+        """Capacitors, resistors and the switches of the arc: one for each sign of the voltage."""
+        path, node = self.path, "ring" if self.path.coated else "shaft"
+        if path.coated:
+            yield f"C_coat shaft {node} {{C_coat}}"
+            yield f"R_coat shaft {node} {{R_coat}}"
+        yield f"C_films {node} housing {{C_films}}"
+        yield f"R_leak {node} housing {{R_leak}}"
+        if path.parallel > 0.0:
+            yield "C_par shaft housing {C_par}"
+        if self.arc is not None:
+            yield f"S_positive {node} housing {node} housing arc OFF"
+            yield f"S_negative {node} housing housing {node} arc OFF"
+            yield "* closes above Vt + Vh = V_break and opens below Vt - Vh = V_ext"
+            yield f".model arc SW(Ron={{R_arc}} Roff={{{_OPEN_SWITCH:g}*R_leak}}"
+            yield "+ Vt={(V_break+V_ext)/2} Vh={(V_break-V_ext)/2})"
+
+
+_CAPACITANCES = {
+    "films": "capacitance of the smooth films, mean over the positions of the cage",
+    "ceramic": "capacitance of the ceramic elements",
+    "metal": "capacitance of the smooth films, beside contacts of metal",
+}
+_LEAKS = {
+    "films": "leak through the oil of the films",
+    "metal": "contacts of metal, reciprocal mean conductance over time",
+}
+
+
+def _insulation(path: Path) -> str:
+    return "insulation of the coating" if path.resistance < OPEN else "stands for an insulator"
+
+
+def subcircuit_of(results: Sequence[BearingResult], arc: Arc | None) -> Subcircuit:
+    """Subcircuit of a bearing at one speed, or over several.
+
+    Parameters
+    ----------
+    results : sequence of BearingResult
+        Results of one bearing at different speeds; the speed of the first one is the default.
+    arc : Arc or None
+        Arc across the films; None for a subcircuit without a switch.
+
+    Returns
+    -------
+    Subcircuit
+        Subcircuit with its notes. It has no arc where there is no film that breaks down.
+
+    Raises
+    ------
+    InputError
+        If the results are no table over the speed, the surfaces touch without ``bearing.contact_resistance``,
+        or the arc has no breakdown voltage above that of its extinction.
+    """
+    check_table(results)
+    found = sorted((equivalent_of(result.solution) for result in results), key=lambda one: one.speed)
+    films = found[0].state == "films"
+    if films and arc is not None:
+        check_strength(results[0].case)
+        _check_arc(found, arc)
+    return Subcircuit(
+        tuple(results), tuple(found), arc if films else None, tuple(_notes(results[0], found, arc))
+    )
+
+
+def check_strength(case: BearingCase) -> None:
+    """Refuse a switch without a dielectric strength, before anything is solved.
+
+    Raises
+    ------
+    InputError
+        If steel elements have no dielectric strength of the film.
+    """
+    known = case.discharge.has_strength or case.discharge.weibull is not None
+    if Solid.of(case.bearing.element_material).conducting and not known:
+        raise InputError.missing(
+            "discharge.dielectric_strength", "a value, for the breakdown voltage of the switch"
+        )
+
+
+def _check_arc(found: Sequence[Equivalent], arc: Arc) -> None:
+    """Refuse an arc without a breakdown voltage, or that would go out above it."""
+    least = min(one.threshold for one in found if one.threshold is not None)
+    if arc.extinction >= least:
+        raise InputError(
+            "extinction_voltage",
+            got=f"{arc.extinction:.4g} V",
+            takes=f"less than {least:.4g} V, the smallest breakdown voltage of the films",
+        )
+
+
+def _notes(result: BearingResult, found: Sequence[Equivalent], arc: Arc | None) -> Iterator[str]:
+    """Notes about the limits of the circuit: effects that it leaves out, and values that are bounds."""
+    one, case, path = found[0], result.case, shaft_path(result.solution)
+    if one.state == "ceramic":
+        bound = capacitance_is_bound(result.solution)
+        known = "an upper bound of it, since bearing.element_capacitance is missing" if bound else "C_films"
+        yield f"ceramic elements insulate: the subcircuit is their capacitance, {known}; it has no switch"
+    elif one.state == "metal":
+        yield (
+            "the surfaces touch: the subcircuit is the resistance of contacts of metal, reciprocal mean "
+            "conductance over time, parallel to the capacitance of smooth films; it has no switch"
+        )
+    elif arc is None:
+        least = min((one.threshold for one in found if one.threshold is not None), default=None)
+        known = "" if least is None else f"; the films break down from ring to ring at {least:.4g} V"
+        yield (
+            "no switch: it needs the resistance of the arc and the voltage at which it goes out "
+            f"(--arc-resistance, --extinction-voltage), which have no default{known}"
+        )
+    else:
+        yield (
+            "the switch closes at the ring-to-ring breakdown voltage of the films, smallest over the "
+            "positions of the cage, for both signs; the first break of a single contact, which leaves the "
+            "other one of its element intact, is left out"
+        )
+        if case.discharge.weibull is not None:
+            yield "V_break is that of a contact at a probability of 63.2 % (Weibull)"
+    if one.state == "films" and one.resistance is None:
+        yield (
+            f"no leak: the oil has no discharge.conductivity; R_leak of {OPEN:g} Ohm only gives the films a "
+            "path for direct current"
+        )
+    if path.coated and path.resistance >= OPEN:
+        yield (
+            f"the coating does not leak; R_coat of {OPEN:g} Ohm only gives the shaft a path for direct "
+            "current"
+        )
+
+
+def file_text(lines: Iterator[str]) -> bytes:
+    """Content of a file with lines of ASCII."""
+    return ("\n".join(map(ascii_of, lines)) + "\n").encode("ascii")
+
+
+# Number of periods of the inverter that are simulated, and of steps in an edge and in a period.
+_PERIODS, _IN_EDGE, _IN_PERIOD = 4, 20, 20000
+
+_ABOUT = (
+    "common-mode voltage as a square wave between plus and minus its peak, from 0 V at the start, at the "
+    "switching frequency of the inverter and with its edges, over winding and rotor to the shaft; replace it "
+    "by your own waveform as a PWL source"
+)
+
+
+def drive_of(case: BearingCase) -> Motor:
+    """Table ``[motor]`` of a bearing with all that a test bench needs.
+
+    Parameters
+    ----------
+    case : BearingCase
+        Case of the bearing.
+
+    Returns
+    -------
+    Motor
+        Table with a switching frequency and a rise time.
+
+    Raises
+    ------
+    InputError
+        If the case has no motor, a key is missing, or an edge lasts half a period.
+    """
+    motor = case.motor
+    if motor is None:
+        raise InputError.missing("motor", "a table, for the drive of the test bench")
+    for key in ("switching_frequency", "rise_time"):
+        if getattr(motor, key) is None:
+            raise InputError.missing(f"motor.{key}", "a value, for the voltage of the test bench")
+    assert motor.switching_frequency is not None and motor.rise_time is not None
+    half = 0.5 / motor.switching_frequency
+    if motor.rise_time >= half:
+        raise InputError(
+            "motor.rise_time",
+            got=f"{motor.rise_time:g} s",
+            takes=f"less than {half:.3g} s, half a period of motor.switching_frequency",
+        )
+    return motor
+
+
+def bench_lines(subcircuit: Subcircuit, library: str) -> Iterator[str]:
+    """Lines of a test bench that simulates some periods of the inverter.
+
+    Parameters
+    ----------
+    subcircuit : Subcircuit
+        Subcircuit of the bearing.
+    library : str
+        Path of its file, relative to the test bench.
+
+    Yields
+    ------
+    str
+        Lines of the file; the first one is its title.
+
+    Raises
+    ------
+    InputError
+        As ``drive_of`` raises it.
+    """
+    motor, name = drive_of(subcircuit.case), subcircuit.name
+    yield f"{SIGNATURE}test bench of {name}; ehlectric {__version__}"
+    yield from comment(f"title: {subcircuit.case.title or '(none)'}")
+    yield from comment(_ABOUT)
+    yield f'.include "{library}"'
+    for parameter in _parameters(subcircuit, motor):
+        yield f".param {parameter.line}"
+    wave = "{t_rise} {t_rise} {0.5/f_switch-t_rise} {1/f_switch}"
+    yield f"V_upper winding middle PULSE(0 {{V_peak}} 0 {wave})"
+    yield f"V_lower middle 0 PULSE(0 {{-V_peak}} {{0.5/f_switch}} {wave})"
+    yield "C_wr winding shaft {C_wr}"
+    yield "C_rf shaft 0 {C_rf}"
+    speed = " speed={n_shaft}" if subcircuit.tabulated else ""
+    yield "* the current of V_bearing is that of the bearing at the drive end"
+    yield "V_bearing shaft inner 0"
+    yield f"X_drive_end inner 0 {name}{speed}"
+    yield from _second(subcircuit, motor, speed)
+    yield f".param t_step={{max(t_rise/{_IN_EDGE},1/f_switch/{_IN_PERIOD})}} ; s, largest step"
+    yield f".tran {{t_step}} {{{_PERIODS}/f_switch}} 0 {{t_step}}"
+    yield ".meas tran common_mode_peak_to_peak PP V(winding)"
+    yield ".meas tran shaft_peak_to_peak PP V(shaft)"
+    yield ".meas tran shaft_highest MAX V(shaft)"
+    yield ".meas tran shaft_lowest MIN V(shaft)"
+    yield ".meas tran current_highest MAX I(V_bearing)"
+    yield ".meas tran current_lowest MIN I(V_bearing)"
+    yield ".end"
+
+
+def _parameters(subcircuit: Subcircuit, motor: Motor) -> Iterator[Parameter]:
+    """Parameters of the drive, from the table ``[motor]``."""
+    assert motor.switching_frequency is not None and motor.rise_time is not None
+    yield Parameter("V_peak", motor.common_mode_voltage, "V", "motor.common_mode_voltage, peak")
+    yield Parameter("f_switch", motor.switching_frequency, "Hz", "motor.switching_frequency")
+    yield Parameter("t_rise", motor.rise_time, "s", "motor.rise_time, of an edge")
+    yield Parameter("C_wr", motor.winding_rotor_capacitance, "F", "motor.winding_rotor_capacitance")
+    yield Parameter("C_rf", motor.rotor_frame_capacitance, "F", "motor.rotor_frame_capacitance")
+    if motor.second_bearing_capacitance is not None:
+        yield Parameter("C_second", motor.second_bearing_capacitance, "F", "motor.second_bearing_capacitance")
+    if subcircuit.tabulated:
+        yield Parameter("n_shaft", rpm(subcircuit.case.bearing.inner_speed), "rpm", "bearing.inner_speed")
+
+
+def _second(subcircuit: Subcircuit, motor: Motor, speed: str) -> Iterator[str]:
+    """Bearing at the other end: one like this one, or its given capacitance, which does not break down."""
+    if motor.second_bearing_capacitance is None:
+        yield f"X_other_end shaft 0 {subcircuit.name}{speed}"
+        return
+    yield "C_second shaft 0 {C_second}"
+    resistance = subcircuit.default.resistance
+    if subcircuit.default.state == "films" and resistance is not None:
+        # The same oil: the same relaxation time as that of the first bearing.
+        yield "* the other bearing has the same oil, and leaks with the same time constant"
+        leak = resistance * subcircuit.default.capacitance / motor.second_bearing_capacitance
+        yield f".param {Parameter('R_second', leak, 'Ohm', 'leak through the oil of the other bearing').line}"
+        yield "R_second shaft 0 {R_second}"

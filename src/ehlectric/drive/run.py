@@ -1,0 +1,81 @@
+"""Run of a drive and the files of its result: summary.json, events.csv, spectrum.csv and drive.nc."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.drive.stored import SCHEMA, parts_of
+from ehlectric.quantities.drive_results import EVENT_COLUMNS, SPECTRUM_COLUMNS
+from ehlectric.runtime.file_rules import check_format, refusing
+from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
+from ehlectric.runtime.folders import RESULT_LOCK, alone_in
+from ehlectric.runtime.netcdf import content_of, load_library
+from ehlectric.runtime.progress import Progress, RunOutcome, silent
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ehlectric.drive.result import DriveResult
+
+SUMMARY, EVENTS, SPECTRUM, NETCDF = "summary.json", "events.csv", "spectrum.csv", "drive.nc"
+FILES = (SUMMARY, EVENTS, SPECTRUM, NETCDF)
+
+
+def run(
+    case: DriveCase,
+    folder: str | Path,
+    progress: Progress = silent,
+    *,
+    workers: int | None = None,
+    others: Sequence[str] = (),
+) -> RunOutcome[DriveResult]:
+    """Solve a drive, and write summary.json, events.csv, spectrum.csv and drive.nc.
+
+    Files of an earlier result in the folder are removed when the drive is solved, also the ``others``, such
+    as figures. The outcome has a ``failure`` where a contact is not converged; its files are written all the
+    same.
+    """
+    from ehlectric.drive.result import solve_drive
+
+    load_library()
+    names = (*FILES, *others)
+    with alone_in(folder, names) as folder:
+        result = solve_drive(case, progress=progress, workers=workers)
+        files = save(result, folder, replaced=names)
+    failure = None if result.converged else "not converged: a contact of a bearing"
+    return RunOutcome(result, result.summary(), tuple(files), result.warnings, failure)
+
+
+def save(result: DriveResult, folder: str | Path, *, replaced: Sequence[str] = ()) -> list[Path]:
+    """Save the result of a drive: summary.json, events.csv, spectrum.csv and drive.nc, all or none.
+
+    Files of the names ``replaced``, of an earlier result there, are removed. Raises an InputError where the
+    folder cannot be used.
+    """
+    heads = ["bearing", *(column_head(name, unit) for name, unit in EVENT_COLUMNS.items())]
+    lines = [column_head(name, unit) for name, unit in SPECTRUM_COLUMNS.items()]
+    contents: dict[str, Content] = {
+        SUMMARY: json_of(result.summary()),
+        EVENTS: csv_of(heads, (row.values() for row in result.events())),
+        SPECTRUM: csv_of(lines, result.spectrum().itertuples(index=False)),
+        NETCDF: content_of(result.to_xarray()),
+    }
+    with alone_in(folder, FILES, locks=[RESULT_LOCK]) as folder:
+        return write_together(folder, contents, (*FILES, *replaced))
+
+
+def result_of(dataset: xr.Dataset, path: Path) -> DriveResult:
+    """Result of a drive from the dataset of a drive.nc, equal to the one that was saved.
+
+    It does not have the solved bearings. Raises an InputError that names the file where it is something else,
+    or was damaged.
+    """
+    from ehlectric.drive.result import DriveResult
+
+    check_format(dataset.attrs, SCHEMA, path, "the result of a drive")
+    with refusing(path):
+        solution, remedies, seconds, version = parts_of(dataset)
+        return DriveResult(solution, tuple(remedies), seconds, version)

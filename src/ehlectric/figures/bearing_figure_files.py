@@ -1,0 +1,482 @@
+"""Figures of bearings by name and as files, with their findings as titles and the lines about the case."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.bearing_touching import duty_of, time_text
+from ehlectric.bearing.impedance import impedance_of, shaft_capacitance
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import lambda_text, lubrication
+from ehlectric.bearing.speed_curves import (
+    Curves,
+    Speed,
+    Speeds,
+    breaks_anywhere,
+    critical_speed_of,
+    curves_of,
+    opening_speed_of,
+    over_speed,
+    value_of,
+)
+from ehlectric.cases.defaults import HOW, OF_CONTACTS
+from ehlectric.discharge.film_verdict import lead_of, ratio_text
+from ehlectric.errors import ResultWarning
+from ehlectric.figures.bearing_figures import (
+    LEAST_VARIATION,
+    breakdown_over_pitch,
+    breakdown_voltages,
+    capacitance_over_pitch,
+    capacitances,
+    contact_capacitances,
+    film_around,
+    first_breakdowns,
+    impedance_magnitude,
+    impedance_phase,
+    load_around,
+    magnitude_at,
+    new_polar,
+    phase_varies,
+    prefixed,
+    read_at,
+    variation,
+    volts,
+)
+from ehlectric.figures.breakdown_over_speed import breakdown_over_speed as draw_breakdown_over_speed
+from ehlectric.figures.breakdown_over_speed import capacitance_over_speed as draw_capacitance_over_speed
+from ehlectric.figures.breakdown_over_speed import rpm_text
+from ehlectric.figures.figure_names import in_formats, of_cut
+from ehlectric.figures.style import drawing_of, new_panels, save_figure, share_below, style, titled
+from ehlectric.quantities.units import rpm
+
+_TOUCHING = ("conducting", "touching")
+
+
+def loads(result: BearingResult) -> str:
+    """Sentence: the contacts with the largest load and the minimum film, at the first cage position."""
+    rows = result.contacts()
+    most, thinnest = (
+        max(rows, key=lambda row: row["load"]),
+        min(rows, key=lambda row: row["minimum_thickness"]),
+    )
+    least = prefixed(thinnest["minimum_thickness"], "m", least=0.1)
+    text = (
+        f"Largest load {most['load']:.3g} N ({_contact(most)}); minimum film {least} ({_contact(thinnest)})"
+    )
+    text += f", λ {lambda_text(result.solution)}"
+    return text + (": surfaces touch" if lubrication(result.solution) in _TOUCHING else "")
+
+
+def _contact(row: Mapping[str, Any]) -> str:
+    """Name of a contact of the table of contacts."""
+    return f"{row['ring']}, element {row['element']}"
+
+
+def circuit(result: BearingResult) -> str:
+    """Sentence: whether breakdown is expected, with the margin; without one, the capacitance."""
+    found, shaft = result.breaks(), result.shaft_voltage
+    if found["first_break"] is None:
+        value = result.capacitance(result.case.bearing.fill)
+        conducting = lubrication(result.solution) == "conducting"
+        touch = "Contacts open and close: discharges likely, no voltage computed" if conducting else ""
+        return touch or f"Capacitance of the bearing: {prefixed(value, 'F')}"
+    first = volts(found["shaft_first_break"])
+    if shaft is None:
+        return f"First breakdown at {first}: {found['first_break_at']}"
+    verdict, margin = result.verdict, found["margin"]
+    lead = (
+        "Margin"
+        if verdict is None or verdict.level == "grey"
+        else f"{lead_of(verdict.level, margin)}: margin"
+    )
+    return f"{lead} {ratio_text(margin)} (first breakdown {first} / shaft voltage {volts(shaft)})"
+
+
+def pitch(result: BearingResult) -> str:
+    """Sentence: how much capacitance and first breakdown vary over a pitch of the cage."""
+    varied = 100.0 * variation(capacitances(result, result.case.bearing.fill))
+    text = f"Over a pitch of the cage, the capacitance varies by {varied:.2g} %"
+    if result.breaks()["first_break"] is None:
+        return text
+    return f"{text}, the first breakdown by {100.0 * variation(first_breakdowns(result)):.2g} %"
+
+
+def impedance(result: BearingResult) -> str:
+    """Sentence: the capacitance that the bearing is above its corner frequency, and its impedance there."""
+    found = impedance_of(result.solution)
+    assert found is not None
+    shown = [(prefixed(magnitude_at(found.mean or found, at), "Ω"), at) for at in read_at(result)]
+    values = ", ".join(f"{value} at {prefixed(at, 'Hz')}" for value, at in shown)
+    if found.mean is not None:
+        duty = duty_of(result.solution)
+        return f"An element touches both rings {time_text(duty.touching_time_share)}: mean |Z| = {values}"
+    value = prefixed(shaft_capacitance(result.solution), "F")
+    return f"A capacitor of {value} above {prefixed(found.corner, 'Hz')}: |Z| = {values}"
+
+
+def capacitance_over_speed(curves: Curves, own: Speed | None) -> str:
+    """Sentence: the capacitance at the lowest and the highest speed, and at the speed of the bearing."""
+    values = curves["capacitance"]
+    ends = [f"{prefixed(float(values[k]), 'F')} at {rpm_text(curves.speed[k])}" for k in (0, -1)]
+    text = f"Capacitance {ends[0]}, {ends[1]}"
+    return (
+        text
+        if own is None
+        else f"{text}; {prefixed(own[1]['bearing']['capacitance'], 'F')} at {rpm_text(own[0])}"
+    )
+
+
+def breakdown_over_speed(curves: Curves, own: Speed | None) -> str:
+    """Sentence: at which speeds breakdown is expected, and the margin of the bearing itself."""
+    margin = curves["first_break"] / curves["shaft_voltage"]
+    known = np.isfinite(margin)
+    at_own = ""
+    if own is not None and (value := value_of(own[1], "first_break")) is not None:
+        shaft = own[1]["bearing"]["shaft_voltage"]
+        at_own = f"{volts(value)}" if shaft is None else f"margin {ratio_text(value / shaft)}"
+        at_own += f" at {rpm_text(own[0])}"
+    opening = opening_speed_of(curves)
+    below = "" if opening is None else f"; contacts open and close below {rpm_text(opening)}"
+    if not np.any(known):
+        first = np.flatnonzero(np.isfinite(curves["first_break"]))
+        ends = [f"{volts(curves['first_break'][k])} at {rpm_text(curves.speed[k])}" for k in first[[0, -1]]]
+        span = f"First breakdown at {at_own}" if at_own else f"First breakdown from {' to '.join(ends)}"
+        return f"{span}{below}"
+    text = f"{_where(curves, margin[known], curves.speed[known])}{below}"
+    return f"{text} ({at_own})" if at_own else text
+
+
+def _where(
+    curves: Curves,
+    margin: Array,
+    speed: Array,
+) -> str:
+    """Clause: the speeds at which breakdown is expected."""
+    critical = critical_speed_of(curves)
+    lowest = curves.touching or max(float(speed[0]), opening_speed_of(curves) or 0.0)
+    span = f"from {rpm_text(lowest)} to {rpm_text(float(speed[-1]))}"
+    if critical is None:
+        if np.all(margin >= 1.0):
+            return f"No breakdown expected {span}"
+        if np.all(margin < 1.0):
+            return f"Breakdown expected at all speeds {span}"
+        return f"Breakdown expected above {rpm_text(float(speed[margin >= 1.0][-1]))}"
+    some = "" if np.all(margin[speed < critical] < 1.0) else " at some speeds"
+    return f"Breakdown expected{some} below about {rpm_text(critical)}"
+
+
+def case_lines(result: BearingResult, *, voltages: bool) -> list[str]:
+    """Lines: title of the case, duty as far as the title lacks it, and how the films were computed."""
+    bearing, title = result.solution.case.bearing, result.solution.case.title
+    duty = [
+        f"{load:.4g} N {way}"
+        for load, way in ((bearing.radial_load, "radial"), (bearing.axial_load, "axial"))
+        if load
+    ]
+    duty += [f"{rpm(bearing.inner_speed):.4g} rpm", f"{bearing.oil_temperature - 273.15:.4g} °C"]
+    parts = [part for part in duty if part not in title]
+    line = ", ".join([*filter(None, [textwrap.shorten(title, 70, placeholder=" ...")]), *parts])
+    return [line, film_line(result, voltages=voltages)]
+
+
+def film_line(result: BearingResult, *, voltages: bool) -> str:
+    """Line: how the films were computed, and what that means for voltages."""
+    solution = result.solution
+    factor = solution.conditions.film_factor
+    text = "isothermal, fully flooded film" if factor == 1.0 else f"film factor {factor:.3g}"
+    text += f", minimum λ {lambda_text(solution)}"
+    text += f", contacts {HOW[solution.case.contacts]}"
+    if lubrication(solution) in _TOUCHING:
+        return text + ": surfaces touch"
+    return text + (": voltages are upper bounds" if voltages else "")
+
+
+def curves_line(points: Speeds, curves: Curves, own: Speed | None) -> str:
+    """Line: how the curves over speed were computed, and how they were scaled to the bearing itself."""
+    contacts = sorted({OF_CONTACTS[summary["bearing"]["contacts"]] for _, summary in points})
+    text = f"curves: {' or '.join(contacts)}"
+    if own is None or own[1]["bearing"]["contacts"] != "solved":
+        return text
+    factors = [curves.scaled[key] for key in ("capacitance", "first_break") if curves.scaled[key] != 1.0]
+    if not factors:
+        return text
+    values = " and ".join(f"{factor:.3g}" for factor in factors)
+    return f"{text}, scaled by {values} to the solved contacts at {rpm_text(own[0])} (star)"
+
+
+Draw = Callable[[BearingResult, Axes], Axes]
+
+# Sizes of figures; and width, height of each panel and of the title of stacked panels [inches].
+_POLAR_SIZE, _SPEED_SIZE = (6.9, 4.6), (6.3, 3.7)
+_WIDTH, _HEIGHT, _TITLE = 6.3, 2.1, 0.65
+
+
+def _loads(_result: BearingResult) -> tuple[Draw, ...]:
+    return load_around, film_around
+
+
+def _circuit(result: BearingResult) -> tuple[Draw, ...]:
+    if result.solution.conditions.ceramic:
+        return ()
+    return (contact_capacitances, *((breakdown_voltages,) if _breaks(result) else ()))
+
+
+def _pitch(result: BearingResult) -> tuple[Draw, ...]:
+    """Panels of the quantities that vary by more than a per cent over a pitch."""
+    if result.solution.conditions.ceramic:
+        return ()
+    varied: list[Draw] = []
+    if max(variation(capacitances(result, fill)) for fill in ("oil", "air")) > LEAST_VARIATION:
+        varied.append(capacitance_over_pitch)
+    if _breaks(result) and variation(first_breakdowns(result)) > LEAST_VARIATION:
+        varied.append(breakdown_over_pitch)
+    return tuple(varied)
+
+
+def _impedance(result: BearingResult) -> tuple[Draw, ...]:
+    if impedance_of(result.solution) is None:
+        return ()
+    return (impedance_magnitude, *((impedance_phase,) if phase_varies(result) else ()))
+
+
+def _breaks(result: BearingResult) -> bool:
+    return result.breaks()["first_break"] is not None
+
+
+# Panels of the figures by the names of their files; no panels where the bearing has nothing to show.
+FIGURES: Mapping[str, Callable[[BearingResult], tuple[Draw, ...]]] = {
+    "bearing_loads.png": _loads,
+    "bearing_circuit.png": _circuit,
+    "bearing_pitch.png": _pitch,
+    "bearing_impedance.png": _impedance,
+}
+
+# First lines of the titles of the figures.
+FINDINGS: Mapping[str, Callable[[BearingResult], str]] = {
+    "bearing_loads.png": loads,
+    "bearing_circuit.png": circuit,
+    "bearing_pitch.png": pitch,
+    "bearing_impedance.png": impedance,
+}
+
+
+@dataclass(frozen=True)
+class _OverSpeed:
+    """Functions that draw a figure over speed, and give the first line of its title."""
+
+    draw: Callable[..., Axes]
+    finding: Callable[[Curves, Speed | None], str]
+
+
+# Figures over the speed of the shaft.
+SPEED_FIGURES: Mapping[str, _OverSpeed] = {
+    "capacitance_over_speed.png": _OverSpeed(draw_capacitance_over_speed, capacitance_over_speed),
+    "breakdown_over_speed.png": _OverSpeed(draw_breakdown_over_speed, breakdown_over_speed),
+}
+
+
+def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
+    """Panels of the figures of a bearing, by the names of their files.
+
+    Figures with nothing to show are left out. There is no circuit of ceramic elements, no breakdown without a
+    dielectric strength or where surfaces touch, and no impedance without a conductivity or where surfaces
+    touch. What varies by less than a per cent over a pitch of the cage is not drawn over it.
+    """
+    panels = {name: panels_of(result) for name, panels_of in FIGURES.items()}
+    return {name: draws for name, draws in panels.items() if draws}
+
+
+def figure(result: BearingResult, name: str) -> Figure:
+    """Figure of a bearing.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of the bearing.
+    name : str
+        Name of its file, such as "bearing_loads.png" or "capacitance_over_speed.png". For a figure over
+        speed, the bearing is computed with quick contacts at other speeds.
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+
+    Raises
+    ------
+    InputError
+        Where the bearing has no figure of this name.
+    """
+    drawings = bearing_figures_of(result)
+    (name,) = in_formats([name])
+    if name in SPEED_FIGURES:
+        points, _ = over_speed(result.case)
+        return speed_figure(points, name, _lines_over_speed(result), own=_own_speed(result))
+    panels = drawing_of(drawings | dict.fromkeys(SPEED_FIGURES, ()), name)
+    voltages = breakdown_voltages in panels or breakdown_over_pitch in panels
+    title = "\n".join([FINDINGS[name](result), *case_lines(result, voltages=voltages)])
+    polar = panels[0] is load_around
+    with style():
+        axes = new_polar(len(panels), _POLAR_SIZE) if polar else _stack(len(panels))
+        for draw, ax in zip(panels, axes, strict=True):
+            draw(result, ax)
+        if not polar:
+            share_below(axes)
+        return titled(axes[0], title, converged=result.converged)
+
+
+def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | None = None) -> Figure:
+    """Figure of a bearing over the speed of its shaft.
+
+    Parameters
+    ----------
+    points : sequence of (float, dict)
+        Speed of the inner ring [rad/s], and the summary at this speed.
+    name : str
+        Name of its file, such as "capacitance_over_speed.png".
+    title : str, optional
+        Lines of the title below its first one, which states the finding.
+    own : (float, dict), optional
+        A bearing to mark beside them, such as one with solved contacts.
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+
+    Raises
+    ------
+    InputError
+        Where there is no figure of this name, or the bearing has no breakdown voltage at any speed.
+    """
+    drawing = drawing_of(_speed_drawings(points), name)
+    curves = curves_of(points, own)
+    lines = [drawing.finding(curves, own), title, curves_line(points, curves, own)]
+    title = "\n".join(filter(None, lines))
+    with style():
+        ax = drawing.draw(points, new_panels(1, 1, _SPEED_SIZE)[0], own=own)
+        return titled(ax, title, converged=all(summary["converged"] for _, summary in points))
+
+
+def save_bearing_figures(
+    result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Draw the figures of a bearing at its own speed as files.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of the bearing.
+    folder : Path
+        Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+
+    Returns
+    -------
+    list of Path
+        Files written: those of ``bearing_figures_of``.
+    """
+    return [
+        file
+        for name in bearing_figures_of(result)
+        for file in save_figure(figure(result, name), folder / name, formats)
+    ]
+
+
+def save_speed_figures(
+    points: Speeds,
+    folder: Path,
+    title: str = "",
+    *,
+    own: Speed | None = None,
+    formats: Sequence[str] = ("png",),
+    at: Mapping[str, str] | None = None,
+) -> list[Path]:
+    """Draw capacitance and, where there are any, breakdown voltages over the speed as files.
+
+    Parameters
+    ----------
+    points : sequence of (float, dict)
+        Speed of the inner ring [rad/s], and the summary at this speed.
+    folder : Path
+        Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+    title : str, optional
+        Lines of the titles below the first ones, which state the findings.
+    own : (float, dict), optional
+        A bearing to mark beside them, such as one with solved contacts.
+    at : mapping of str to str, optional
+        Values of further varied keys of a sweep, for the names of the files.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+    """
+    return [
+        file
+        for name in _speed_drawings(points)
+        for figure in (speed_figure(points, name, title, own=own),)
+        for file in save_figure(figure, folder / of_cut(name, at), formats)
+    ]
+
+
+def save_over_speed(
+    result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
+) -> tuple[list[Path], list[ResultWarning]]:
+    """Compute a bearing with quick contacts at speeds around its own, and draw it over speed as files.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of the bearing at its own speed.
+    folder : Path
+        Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+
+    Returns
+    -------
+    files : list of Path
+        Files written; none where its quick contacts have no speed.
+    left_out : list of ResultWarning
+        Speeds that are left out, and why.
+    """
+    points, left_out = over_speed(result.case)
+    if not points:
+        return [], left_out
+    own = _own_speed(result)
+    title = _lines_over_speed(result)
+    return save_speed_figures(points, folder, title, own=own, formats=formats), left_out
+
+
+def _speed_drawings(points: Speeds) -> dict[str, _OverSpeed]:
+    """Figures of a bearing over speed, by the names of their files; no empty figures."""
+    empty = set() if breaks_anywhere(points) else {draw_breakdown_over_speed}
+    return {name: drawing for name, drawing in SPEED_FIGURES.items() if drawing.draw not in empty}
+
+
+def _own_speed(result: BearingResult) -> Speed:
+    """Speed of the inner ring of a bearing [rad/s], and its summary."""
+    return result.case.bearing.inner_speed, result.summary()
+
+
+def _lines_over_speed(result: BearingResult) -> str:
+    """Lines about the case in the title of a figure over speed."""
+    return case_lines(result, voltages=_breaks(result))[0]
+
+
+def _stack(panels: int) -> list[Axes]:
+    """Axes of panels below each other."""
+    return new_panels(panels, 1, (_WIDTH, _HEIGHT * panels + _TITLE))

@@ -1,0 +1,692 @@
+"""Figures of bearings: loads and films around the shaft, circuit, impedance, and a turn by one pitch."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+from matplotlib.projections.polar import PolarAxes
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.bearing.bearing_discharges import shaft_leakage
+from ehlectric.bearing.circuit import shaft_first_break, shaft_through_breakdown
+from ehlectric.bearing.impedance import Impedance, impedance_of, shaft_path
+from ehlectric.bearing.result import BearingResult
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL, RingState
+from ehlectric.bearing.speed_curves import nearly_equal
+from ehlectric.figures.data import is_wide
+from ehlectric.figures.draw import line_look
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, page_size, round_numbers
+from ehlectric.quantities.palette import BLACK, BLUE, GREEN, GREY, OCHRE, ORANGE
+from ehlectric.quantities.units import unit_for
+
+# Colour, dash and width [pt] of a line.
+Look = tuple[str, str, float]
+
+# Lines of the voltages of the whole bearing in all figures. The voltages are often equal, so the line drawn
+# first is the wider one.
+FIRST: Look = (BLACK, "solid", 1.1)
+THROUGH: Look = (OCHRE, "solid", 3.0)
+SHAFT: Look = (GREEN, "dash", 1.4)
+
+# Height of a line of a label at the right edge, as a part of the height of axes that are an inch high.
+_LINE = 0.155
+
+
+def volts(value: float) -> str:
+    """Text: voltage with three digits.
+
+    Examples
+    --------
+    >>> volts(5.8617)
+    '5.86 V'
+    """
+    return f"{value:#.3g}".rstrip(".") + " V"
+
+
+def label_ends(ax: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
+    """Write the names of lines beside the right edge of the axes, at their heights and without overlap.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes whose limits are final.
+    ends : sequence of (float, str, str)
+        Height of each line at the right edge in the unit of the axis, its name, and its colour.
+    """
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    line = _LINE / (figure.get_figheight() * ax.get_position().height)
+    low, high = ax.get_ylim()
+    ordered = sorted(ends)
+    values = np.clip(np.array([value for value, _, _ in ordered]), low, high)
+    if ax.get_yscale() == "log":
+        heights = np.log(values / low) / np.log(high / low)
+    else:
+        heights = (values - low) / (high - low)
+    rooms = [line * (text.count("\n") + 1.2) for _, text, _ in ordered]
+    for k in range(1, len(ordered)):
+        heights[k] = max(heights[k], heights[k - 1] + 0.5 * (rooms[k] + rooms[k - 1]))
+    for height, (_, text, colour) in zip(heights, ordered, strict=True):
+        ax.text(1.015, height, text, transform=ax.transAxes, va="center", color=colour, fontsize="small")
+
+
+def fill_text(fill: float | str) -> str:
+    """Text about what fills the gap around the films.
+
+    Examples
+    --------
+    >>> fill_text("air"), fill_text(0.3)
+    ('air fill', '30 % oil fill')
+    """
+    return f"{fill} fill" if isinstance(fill, str) else f"{100.0 * fill:.3g} % oil fill"
+
+
+# Name of each ring, with colour, line width and size of markers. The loads of both rings are nearly equal, so
+# the line of the inner ring is drawn last, over the wider line of the outer ring.
+_RINGS = (("inner", BLUE, 1.1, 4.0), ("outer", ORANGE, 2.2, 6.5))
+
+# Radius of the inner circle, at which the scale begins, over the radius of the outer circle.
+_CORE = 0.3
+
+# The circle of a lambda ratio is shown if the smallest film is below this many times its film thickness.
+_FAR = 4.0
+
+# With more round numbers than this along a logarithmic radius, only powers of ten have ticks.
+_MOST_TICKS = 7
+
+
+def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
+    """Polar axes side by side in a new figure, whose size on the screen is in inches."""
+    figure = Figure(figsize=page_size(size))
+    FigureCanvasAgg(figure)
+    return list(figure.subplots(1, columns, squeeze=False, subplot_kw={"projection": "polar"}).ravel())
+
+
+def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the load of both contacts of the elements around the shaft.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of the bearing to draw.
+    ax : Axes, optional
+        Polar axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Polar axes on which the radial load on the inner ring points down. Markers show the elements at the
+        first position of the cage, and lines connect the elements at all positions.
+    """
+    ax = _polar_or_new(result, ax)
+    states = [(position.inner, position.outer) for position in result.solution.positions]
+    largest = max(float(np.max(race.load)) for pair in states for race in pair)
+    factor, unit = unit_for(largest, "N", least=1.0)
+    for k, ring in reversed(list(enumerate(_RINGS))):
+        races = [pair[k] for pair in states]
+        _ring(result, ax, ring, races, [factor * race.load for race in races], at_rest="unloaded")
+    _radius(ax, np.array([0.0, factor * largest]), _between(result), log=False)
+    ax.set_title(f"contact load [{unit}]")
+    _legend_below(ax)
+    return ax
+
+
+def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the minimum film thickness of the loaded contacts of the elements around the shaft.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of the bearing to draw.
+    ax : Axes, optional
+        Polar axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Polar axes on which the radial load points down. Sectors in which a ring does not load the elements
+        are shaded: there is a gap in place of a film, which the legend states. Circles show the film
+        thicknesses at lambda
+        ratios of 1, below which surfaces touch, and 3. The radius is logarithmic if films differ widely.
+    """
+    ax = _polar_or_new(result, ax)
+    states = [(position.inner, position.outer) for position in result.solution.positions]
+    rq = result.solution.case.bearing.composite_rq
+    films = np.concatenate([race.values.minimum_thickness[race.solved] for pair in states for race in pair])
+    factor, unit = unit_for(float(films.min()), "m")
+    # Circles far below the films are left out, because they would leave little room for the films.
+    ratios = [ratio for ratio in (CONDUCTING, PARTIAL) if films.min() < _FAR * ratio * rq]
+    everything = factor * np.concatenate([films, rq * np.array(ratios)])
+    angles = np.linspace(0.0, 2.0 * np.pi, 181)
+    for ratio in ratios:
+        line = ":" if ratio == CONDUCTING else "--"
+        label = rf"$\lambda$ = {ratio:g}"
+        ax.plot(angles, np.full_like(angles, factor * ratio * rq), color=GREY, lw=0.9, ls=line, label=label)
+    for k, ring in reversed(list(enumerate(_RINGS))):
+        races = [pair[k] for pair in states]
+        values = [np.where(race.solved, factor * race.values.minimum_thickness, np.nan) for race in races]
+        _ring(result, ax, ring, races, values)
+    _radius(ax, everything, _between(result), log=is_wide(everything))
+    for k, ring in enumerate(_RINGS):
+        _unloaded(result, ax, ring, [pair[k] for pair in states])
+    ax.set_title(f"minimum film $h_\\mathrm{{min}}$ [{unit}]")
+    _legend_below(ax)
+    return ax
+
+
+def _unloaded(
+    result: BearingResult, ax: Axes, ring: tuple[str, str, float, float], races: Sequence[RingState]
+) -> None:
+    """Shade the sector in which no element is loaded by a ring, and name it in the legend with the gap."""
+    name, color, *_ = ring
+    angle, loaded = _around(result, [race.solved for race in races])
+    if np.all(loaded):
+        return
+    gaps = np.concatenate([race.values.minimum_thickness[~race.solved] for race in races])
+    factor, unit = unit_for(float(gaps.max()), "m")
+    low, high = ax.get_ylim()
+    edges = 0.5 * (angle + np.append(angle[1:], angle[0] + 2.0 * np.pi))
+    before = np.append(edges[-1] - 2.0 * np.pi, edges[:-1])
+    for begin, end in zip(before[~loaded], edges[~loaded], strict=True):
+        ax.fill_between([begin, end], low, high, color=color, alpha=0.10, lw=0.0, zorder=0.5)
+    text = f"{name} unloaded: gap to {factor * gaps.max():.2g} {unit}"
+    ax.fill_between([], [], [], color=color, alpha=0.10, lw=0.0, label=text)
+
+
+def _around(result: BearingResult, values: Sequence[Array | Mask]) -> tuple[Array, Any]:
+    """Angles of all elements at all positions of the cage from 0 to 2 pi, and values in their order."""
+    angles = np.mod(np.concatenate([p.equilibrium.position for p in result.solution.positions]), 2.0 * np.pi)
+    order = np.argsort(angles, kind="stable")
+    return angles[order], np.concatenate(values)[order]
+
+
+def _polar_or_new(result: BearingResult, ax: Axes | None) -> PolarAxes:
+    polar = new_polar(1, (3.6, 4.2))[0] if ax is None else ax
+    assert isinstance(polar, PolarAxes)
+    # The radial load points down.
+    polar.set_theta_zero_location("S")
+    angles = np.arange(0, 360, 45)
+    load = "radial load, 0°" if result.solution.case.bearing.radial_load else "0°"
+    polar.set_thetagrids(angles, [load, *(f"{angle}°" for angle in angles[1:])])
+    polar.grid(color="0.85", lw=0.6)
+    return polar
+
+
+def _ring(
+    result: BearingResult,
+    ax: Axes,
+    ring: tuple[str, str, float, float],
+    races: Sequence[RingState],
+    values: Sequence[Array],
+    *,
+    at_rest: str = "",
+) -> None:
+    """Draw the contacts with one ring: lines over all positions of the cage, markers at the first one.
+
+    Contacts without load have hollow markers called ``at_rest``, and a dotted line.
+    """
+    name, color, width, size = ring
+    angle, along = _around(result, values)
+    _, loaded = _around(result, [race.solved for race in races])
+    angle, along = np.append(angle, angle[0] + 2.0 * np.pi), np.append(along, along[0])
+    loaded = np.append(loaded, loaded[0])
+    ax.plot(angle, np.where(loaded, along, np.nan), color=color, lw=width)
+    ax.plot(angle, np.where(loaded, np.nan, along), color=color, lw=width, ls=":")
+    marks: dict[str, Any] = {"ls": "none", "marker": "o", "ms": size, "color": color, "clip_on": False}
+    on, at = races[0].solved, result.solution.positions[0].equilibrium.position
+    ax.plot(at[on], values[0][on], label=f"{name} contact", zorder=4.0, **marks)
+    if at_rest and not np.all(on):
+        hollow = marks | {"mfc": "white", "label": f"{name}, {at_rest}", "zorder": 4.0}
+        ax.plot(at[~on], values[0][~on], **hollow)
+
+
+def _between(result: BearingResult) -> float:
+    """Angle near the top, halfway between two elements at the first position of the cage [rad]."""
+    at = np.sort(np.mod(result.solution.positions[0].equilibrium.position, 2.0 * np.pi))
+    halfway = 0.5 * (at + np.append(at[1:], at[0] + 2.0 * np.pi))
+    return float(halfway[np.argmin(np.abs(halfway - np.pi))])
+
+
+def _radius(ax: Axes, values: Array, at: float, *, log: bool) -> None:
+    """Scale the radius from an inner circle outwards, and write a few numbers along an angle [rad]."""
+    assert isinstance(ax, PolarAxes)
+    low, high = float(np.min(values)), float(np.max(values))
+    if log:
+        ax.set_rscale("log")
+        low, high = 0.8 * low, 1.2 * high
+        ticks = round_numbers(low, high)
+        if ticks.size > _MOST_TICKS:
+            ticks = np.array([tick for tick in ticks if math.isclose(math.log10(tick) % 1.0, 0.0)])
+        origin = low * (low / high) ** (_CORE / (1.0 - _CORE))
+    else:
+        low, high = 0.0, 1.06 * high
+        step = 10.0 ** math.floor(math.log10(high))
+        step *= next(part for part in (0.2, 0.5, 1.0, 2.0) if high <= 5.0 * part * step)
+        ticks = np.arange(0.0, high, step)
+        origin = -high * _CORE / (1.0 - _CORE)
+    ax.set_rlim(low, high)
+    ax.set_rorigin(origin)
+    ax.yaxis.set_major_locator(FixedLocator(list(ticks)))
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.tick_params(axis="y", labelleft=False)
+    # Labels of an axis would lie below the lines: these texts lie above them.
+    edge = [withStroke(linewidth=2.4, foreground="white")]
+    for tick in ticks:
+        where: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "small", "zorder": 6.0}
+        ax.text(at, tick, f"{tick:g}", path_effects=edge, **where)
+
+
+def _legend_below(ax: Axes) -> None:
+    handles, labels = ax.get_legend_handles_labels()
+    order = sorted(range(len(labels)), key=lambda k: ("inner" not in labels[k], "outer" not in labels[k], k))
+    ax.legend(
+        handles=[handles[k] for k in order],
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.1),
+        ncols=2,
+        frameon=False,
+        columnspacing=1.4,
+    )
+
+
+# Largest number of elements that have a tick on the axis of a figure of this width [inches]. Fewer have one
+# in a narrower figure.
+_NUMBERED, _WIDTH = 16, 6.0
+
+
+def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the capacitance of both contacts of every element, with the cage at its first position.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of the bearing to draw.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes that state the capacitance of the bearing at this position of the cage.
+    """
+    ax = axes_or_new(ax)
+    fill = result.solution.case.bearing.fill
+    circuit = result.solution.circuits(fill)[0]
+    factor, unit = unit_for(float(max(np.max(circuit.inner), np.max(circuit.outer))), "F", least=1.0)
+    at = np.arange(circuit.inner.size)
+    ax.bar(at - 0.2, factor * circuit.inner, 0.4, color=BLUE, label="inner contact")
+    ax.bar(at + 0.2, factor * circuit.outer, 0.4, color=ORANGE, label="outer contact")
+    ax.set_ylabel(f"capacitance\n[{unit}]")
+    _elements(result, ax)
+    # The capacitance in summary.json is the mean over a pitch, that of this position another one.
+    here, mean = circuit.capacitance, result.capacitance(fill)
+    total, of = unit_for(mean, "F", least=1.0)
+    text = f"bearing, {fill_text(fill)}: mean {total * mean:.4g} {of}\n"
+    text += f"at this cage position {total * here:.4g} {of}"
+    ax.set_ylim(0.0, 1.4 * ax.dataLim.ymax)
+    ax.text(0.5, 0.97, text, transform=ax.transAxes, ha="center", va="top", fontsize="small")
+    legend_above(ax)
+    return ax
+
+
+def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the bearing voltage at which each contact breaks down under its share of the voltage.
+
+    With a coating on a ring it is the shaft voltage, of which the coating has a part.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of a bearing that has breakdown voltages.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the contacts at the first position of the cage. First and ring-to-ring breakdown are the
+        smallest voltages over all positions. The range below the shaft voltage is shaded: a contact that
+        lies in it breaks down.
+    """
+    ax = axes_or_new(ax)
+    circuit, position = result.solution.circuits()[0], result.solution.positions[0]
+    at = np.arange(circuit.inner.size)
+    shaft, path = result.shaft_voltage, shaft_path(result.solution)
+    share = path.film_share(circuit.capacitance)
+    inner, outer = circuit.inner_breaks / share, circuit.outer_breaks / share
+    everything = np.concatenate([inner, outer, [] if shaft is None else [shaft]])
+    if is_wide(everything):
+        ax.set_yscale("log")
+        ax.set_ylim(0.6 * np.min(everything), 1.5 * np.max(everything))
+        ax.yaxis.set_major_locator(FixedLocator(list(round_numbers(*ax.get_ylim()))))
+        ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ax.yaxis.set_minor_locator(NullLocator())
+    else:
+        ax.set_ylim(0.0, 1.15 * np.max(everything))
+    if shaft is not None:
+        ax.axhspan(ax.get_ylim()[0], shaft, color=ORANGE, alpha=0.12, lw=0.0, zorder=0.0)
+        ax.text(
+            0.01,
+            0.03,
+            "below the shaft voltage: breakdown",
+            transform=ax.transAxes,
+            color=ORANGE,
+            fontsize="small",
+        )
+    for name, values, ring, shift, marker, colour in (
+        ("inner", inner, position.inner, -0.12, "o", BLUE),
+        ("outer", outer, position.outer, 0.12, "s", ORANGE),
+    ):
+        look: dict[str, Any] = {"ls": "none", "ms": 6.0, "zorder": 4.0, "marker": marker, "color": colour}
+        ax.plot(at + shift, values, label=f"{name} contact", **look)
+        free = ~ring.solved
+        if np.any(free):
+            ax.plot(
+                (at + shift)[free], values[free], **(look | {"mfc": "white", "label": f"{name}, unloaded"})
+            )
+    _levels(result, ax)
+    ax.set_ylabel(f"{'shaft' if path.coated else 'bearing'} voltage at\nbreakdown [V]")
+    _elements(result, ax)
+    legend_above(ax, [line for line in ax.get_lines() if line.get_marker() != "None"], columns=4)
+    return ax
+
+
+def _levels(result: BearingResult, ax: Axes) -> None:
+    """Draw lines at the voltages of the whole bearing, as far as there are any, and name them at the edge."""
+    breaks, shaft = result.breaks(), result.shaft_voltage
+    first, through = breaks["shaft_first_break"], breaks["shaft_through_breakdown"]
+    levels = [("first\nbreakdown", first, FIRST), ("ring-to-ring\nbreakdown", through, THROUGH)]
+    if nearly_equal(np.array([first]), np.array([through])):
+        levels = [("first and\nring-to-ring\nbreakdown", first, FIRST)]
+    if shaft is not None:
+        levels.append(("shaft voltage", shaft, SHAFT))
+    for name, value, look in reversed(levels):
+        ax.axhline(value, label=name.replace("\n", " "), **line_look(*look))
+    label_ends(ax, [(value, f"{name}\n{volts(value)}", look[0]) for name, value, look in levels])
+
+
+def _elements(result: BearingResult, ax: Axes) -> None:
+    """Label the axis of the elements with their numbers and their angles from the radial load."""
+    angles = np.degrees(result.solution.positions[0].equilibrium.position)
+    numbered = _NUMBERED * min(1.0, figure_of(ax).get_figwidth() / _WIDTH)
+    ticks = np.arange(0, angles.size, math.ceil(angles.size / numbered))
+    ax.set_xticks(ticks, [f"{k}\n{angles[k]:.0f}°" for k in ticks])
+    ax.set_xlim(-0.6, angles.size - 0.4)
+    radial = result.solution.case.bearing.radial_load > 0.0
+    ax.set_xlabel("element, and its angle" + (" from the radial load" if radial else ""))
+
+
+# A quantity that varies by less than this part of its mean over a pitch is a number, not a figure.
+LEAST_VARIATION = 0.01
+
+
+def capacitances(result: BearingResult, fill: float | str) -> Array:
+    """Capacitance of the bearing at each position of the cage, with "oil" or "air" around the films [F]."""
+    return np.array([circuit.capacitance for circuit in result.solution.circuits(fill)])
+
+
+def first_breakdowns(result: BearingResult) -> Array:
+    """Voltage of the first breakdown at each position of the cage, on the bearing with its coating [V]."""
+    path = shaft_path(result.solution)
+    return np.array([shaft_first_break(circuit, path) for circuit in result.solution.circuits()])
+
+
+def variation(values: Array) -> float:
+    """Difference of the largest and the smallest value, divided by their mean, dimensionless.
+
+    Examples
+    --------
+    >>> variation(np.array([9.0, 10.0, 11.0]))
+    0.2
+    """
+    return float(np.ptp(values) / np.mean(values))
+
+
+def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the capacitance of the bearing while the cage turns by one pitch of the elements.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of the bearing to draw.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the difference from the mean in per cent, for oil and for air around the films.
+    """
+    ax = axes_or_new(ax)
+    for fill, look in (("oil", {"color": BLUE}), ("air", {"color": GREY, "ls": "--"})):
+        values = capacitances(result, fill)
+        mean = float(np.mean(values))
+        factor, unit = unit_for(mean, "F", least=1.0)
+        label = f"{fill} around the films, mean {factor * mean:.4g} {unit}"
+        _over_pitch(result, ax, 100.0 * (values / mean - 1.0), label, look)
+    ax.axhline(0.0, color="black", lw=0.6)
+    ax.set_ylabel("capacitance,\ndifference from\nthe mean [%]")
+    legend_above(ax)
+    return ax
+
+
+def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw first and ring-to-ring breakdown while the cage turns by one pitch of the elements.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of a bearing that has breakdown voltages.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes that also show the shaft voltage if there is one.
+    """
+    ax = axes_or_new(ax)
+    first = first_breakdowns(result)
+    path = shaft_path(result.solution)
+    through = np.array([shaft_through_breakdown(circuit, path) for circuit in result.solution.circuits()])
+    lines = [("ring-to-ring\nbreakdown", through, THROUGH), ("first\nbreakdown", first, FIRST)]
+    if nearly_equal(first, through):
+        lines = [("first and\nring-to-ring\nbreakdown", first, FIRST)]
+    for name, values, look in lines:
+        _over_pitch(result, ax, values, name.replace("\n", " "), line_look(*look))
+    shaft = result.shaft_voltage
+    ends = [
+        (float(values[0]), f"{name}\nmin. {volts(np.min(values))}", look[0]) for name, values, look in lines
+    ]
+    if shaft is not None:
+        ax.axhline(shaft, label="shaft voltage", **line_look(*SHAFT))
+        ends.append((shaft, f"shaft voltage\n{volts(shaft)}", SHAFT[0]))
+    ax.set_ylim(0.0, 1.15 * max(float(np.max(through)), shaft or 0.0))
+    ax.set_ylabel(f"{'shaft' if path.coated else 'bearing'} voltage [V]")
+    label_ends(ax, ends)
+    return ax
+
+
+def _over_pitch(result: BearingResult, ax: Axes, values: Array, label: str, look: dict[str, Any]) -> None:
+    """Draw values over the positions of the cage; the end of the pitch has the first value again."""
+    pitch = 360.0 / result.solution.case.bearing.elements
+    angle = np.linspace(0.0, pitch, values.size + 1)
+    ax.plot(angle, np.append(values, values[0]), marker="o", ms=4.0, clip_on=False, label=label, **look)
+    ax.set(xlim=(0.0, pitch), xlabel="turn of the cage from its first position [°]")
+
+
+# Frequencies of a common inverter [Hz]: from the lowest switching frequency to those in the edges of its
+# voltage, 1/(pi t) for a rise time t of 60 ns. They are no values of the case.
+INVERTER = 4e3, 5e6
+
+# The axis begins at this frequency [Hz], or lower, so that it shows a corner above _NOTED [Hz] by a decade.
+_BEGIN, _NOTED = 1e3, 100.0
+
+# A phase within this distance of that of a capacitor or of a resistor is a number, not a figure [degrees].
+_CONSTANT = 2.0
+
+
+def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the magnitude of the bearing's impedance over the frequency.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of a bearing whose oil has a conductivity.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with two logarithmic scales, from 1 kHz or a decade below the corner frequency. The band of a
+        common inverter is shaded. The corner frequency of the oil alone, 1/(2 pi tau), is marked if it is in
+        the range. With air around the films, the corner frequency of the bearing is lower.
+    """
+    ax = axes_or_new(ax)
+    frequency, magnitude, _ = _shown(_impedance(result))
+    mean = _impedance(result).mean
+    ax.loglog(frequency, magnitude, color=BLUE)
+    if mean is not None:
+        ax.loglog(
+            mean.frequency, mean.magnitude, color=ORANGE, ls="--", label="mean, with contacts of asperities"
+        )
+        ax.legend(loc="lower left", fontsize="small")
+    ax.set_ylabel(r"magnitude $|Z|$ [Ω]")
+    low, high = INVERTER
+    ax.text(
+        (low * high) ** 0.5,
+        0.95,
+        "switching frequency to voltage edges\nof a common inverter",
+        transform=ax.get_xaxis_transform(),
+        ha="center",
+        va="top",
+        color=ORANGE,
+        fontsize="small",
+    )
+    for at in read_at(result):
+        value = magnitude_at(_impedance(result), at)
+        ax.plot([at], [value], ls="none", marker="o", ms=4.5, color=BLUE)
+        ax.annotate(
+            f"{prefixed(value, 'Ω')} at {prefixed(at, 'Hz')}",
+            (at, value),
+            (5.0, 3.0),
+            ha="left",
+            va="bottom",
+            textcoords="offset points",
+            fontsize="small",
+        )
+    _over_frequency(result, ax)
+    return ax
+
+
+def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
+    """Draw the phase of the bearing's impedance over the frequency.
+
+    Parameters
+    ----------
+    result : BearingResult
+        Result of a bearing whose oil has a conductivity.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes from -90 degrees (a capacitor) to 0 (a resistor).
+    """
+    ax = axes_or_new(ax)
+    frequency, _, phase = _shown(_impedance(result))
+    mean = _impedance(result).mean
+    ax.semilogx(frequency, phase, color=BLUE)
+    if mean is not None:
+        ax.semilogx(mean.frequency, mean.phase, color=ORANGE, ls="--")
+    ax.set(ylabel="phase [°]", ylim=(-95.0, 5.0), yticks=[-90, -60, -45, -30, 0])
+    _over_frequency(result, ax)
+    return ax
+
+
+def phase_varies(result: BearingResult) -> bool:
+    """Whether the phase in the drawn range differs by more than two degrees, or contacts change it."""
+    found = _impedance(result)
+    return found.mean is not None or bool(np.ptp(_shown(found)[2]) > _CONSTANT)
+
+
+def read_at(result: BearingResult) -> tuple[float, ...]:
+    """Frequencies at which the figure states the impedance [Hz]: 20 kHz and 1 MHz, if it shows them."""
+    frequency = _shown(_impedance(result))[0]
+    return tuple(at for at in (2e4, 1e6) if frequency[0] <= at <= frequency[-1])
+
+
+def magnitude_at(impedance: Impedance, frequency: float) -> float:
+    """Magnitude of an impedance at a frequency [Ohm], interpolated as a power of the frequency."""
+    logs = np.log(impedance.frequency), np.log(impedance.magnitude)
+    return float(np.exp(np.interp(np.log(frequency), *logs)))
+
+
+def prefixed(value: float, unit: str, *, least: float = 1.0) -> str:
+    """Text: value with three digits and a prefixed unit, in which it is at least ``least``.
+
+    Examples
+    --------
+    >>> prefixed(2e4, "Hz"), prefixed(0.00749, "Hz"), prefixed(34410.0, "Ω")
+    ('20 kHz', '7.49 mHz', '34.4 kΩ')
+    """
+    factor, name = unit_for(value, unit, least=least)
+    return f"{factor * value:.3g} {name}"
+
+
+def _impedance(result: BearingResult) -> Impedance:
+    impedance = impedance_of(result.solution)
+    assert impedance is not None
+    return impedance
+
+
+def _shown(impedance: Impedance) -> tuple[Array, Array, Array]:
+    """Frequency, magnitude and phase in the range of the figure."""
+    # The node before the lower end is among them, so that the line reaches this end.
+    first = max(int(np.searchsorted(impedance.frequency, _low(impedance), side="right")) - 1, 0)
+    shown = slice(first, None)
+    return impedance.frequency[shown], impedance.magnitude[shown], impedance.phase[shown]
+
+
+def _over_frequency(result: BearingResult, ax: Axes) -> None:
+    """Label the axis of the frequency, shade the band of an inverter, and mark the corner frequency."""
+    impedance = _impedance(result)
+    frequency = _shown(impedance)[0]
+    ax.axvspan(*INVERTER, color=ORANGE, alpha=0.08, lw=0.0, zorder=0.0)
+    if impedance.corner > _NOTED:
+        ax.axvline(impedance.corner, color=GREY, lw=0.9, ls="--")
+        text = f" corner of the oil alone,\n $1/(2\\pi\\tau)$ = {prefixed(impedance.corner, 'Hz')}"
+        ax.text(
+            impedance.corner, 0.04, text, transform=ax.get_xaxis_transform(), fontsize="small", color=GREY
+        )
+    _mark_period(result, ax)
+    ax.set(xlabel="frequency $f$ [Hz]", xlim=(_low(impedance), frequency[-1]))
+    ax.grid(color="0.9", lw=0.6)
+
+
+def _mark_period(result: BearingResult, ax: Axes) -> None:
+    """Mark the switching frequency, and name its period with the time constant of the films."""
+    motor, leaks = result.case.motor, shaft_leakage(result.solution)
+    if motor is None or motor.switching_frequency is None or leaks is None:
+        return
+    at, time = motor.switching_frequency, leaks.film_time_constant
+    ax.axvline(at, color=ORANGE, lw=0.9, ls=":")
+    text = f" PWM period {prefixed(1.0 / at, 's')},\n films discharge in {prefixed(time, 's')}"
+    if ax.get_yscale() == "log":
+        # Above the name of the corner frequency, and in the upper panel only.
+        ax.text(at, 0.24, text, transform=ax.get_xaxis_transform(), fontsize="small", color=ORANGE)
+
+
+def _low(impedance: Impedance) -> float:
+    """Lower end of the axis [Hz]."""
+    return min(_BEGIN, 0.1 * impedance.corner) if impedance.corner > _NOTED else _BEGIN

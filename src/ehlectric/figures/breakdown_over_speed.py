@@ -1,0 +1,250 @@
+"""Figures of a bearing over the speed of its shaft: breakdown and shaft voltage, capacitance and films."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
+
+from ehlectric.bearing.solution import CONDUCTING, PARTIAL
+from ehlectric.bearing.speed_curves import (
+    Curves,
+    Speed,
+    Speeds,
+    critical_speed_of,
+    curves_of,
+    is_coated,
+    nearly_equal,
+    value_of,
+)
+from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.figures.bearing_figures import FIRST, SHAFT, THROUGH, Look, label_ends, volts
+from ehlectric.figures.data import Along, Area, Curve, Panel, Upright, is_wide
+from ehlectric.figures.draw import draw_panel
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above
+from ehlectric.quantities import units
+from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
+from ehlectric.quantities.units import RPM, unit_for
+from ehlectric.quantities.units import rpm_text as text_of_speed
+
+
+def speed_axis(curves: Curves) -> Along:
+    """Axis of the speed of a bearing."""
+    return Along("speed of the inner ring", "rpm", log=is_wide(curves.speed))
+
+
+def breakdown_panel(points: Speeds, curves: Curves, own: Speed | None, *, likely: str = "expected") -> Panel:
+    """First and ring-to-ring breakdown with the shaft voltage; breakdown is ``likely``, or "expected"."""
+    first, through, shaft = (curves[key] for key in ("first_break", "through_breakdown", "shaft_voltage"))
+    lines = [("shaft voltage", "shaft_voltage", SHAFT)]
+    if nearly_equal(first, through):
+        lines += [("first and ring-to-ring breakdown", "first_break", FIRST)]
+    else:
+        lines += [
+            ("ring-to-ring breakdown", "through_breakdown", THROUGH),
+            ("first breakdown", "first_break", FIRST),
+        ]
+    drawn = [curve for name, key, look in lines for curve in _curves(curves, key, name, look)]
+    critical, marked = critical_speed_of(curves), []
+    if critical is not None:
+        at = critical / RPM
+        drawn.append(_mark(critical, curves.at("shaft_voltage", critical), ORANGE, "ring"))
+        marked.append(Upright(f"critical speed {text_of_speed(critical)} rpm", at, ORANGE, "dot"))
+    if own is not None and (value := value_of(own[1], "first_break")) is not None:
+        drawn.append(_mark(own[0], value, BLACK, "star"))
+    nodes, low = curves.between("first_break")
+    _, high = curves.between("shaft_voltage")
+    danger = Area(f"breakdown {likely}", nodes / RPM, high > low, ORANGE, 0.2, (low, high))
+    everything = np.concatenate([first, through, shaft])
+    return Panel(
+        f"{'shaft' if is_coated(points) else 'bearing'} voltage",
+        "V",
+        drawn,
+        1.1 * float(np.nanmax(everything, initial=0.0)),
+        areas=(*([danger] if np.any(danger.within) else []), *_contacts_open(curves)),
+        uprights=marked,
+        log=is_wide(everything),
+    )
+
+
+def capacitance_panel(points: Speeds, curves: Curves, own: Speed | None) -> Panel:
+    """Capacitance, with its range from air to oil around the films; the curve of the bearing is bold."""
+    nodes, air = curves.between("capacitance_air")
+    _, oil = curves.between("capacitance_oil")
+    factor, unit = unit_for(float(np.nanmax(oil)), "F", least=1.0)
+    fills = {str(summary["inputs"]["bearing"]["fill"]) for _, summary in points}
+    drawn: list[Curve] = []
+    for fill in ("oil", "air"):
+        bold = fills == {fill}
+        look: Look = (BLUE, "solid", 1.4 if bold else 0.7)
+        drawn += _curves(curves, f"capacitance_{fill}", f"{fill} around the films", look, factor, dots=bold)
+    if fills not in ({"oil"}, {"air"}):
+        drawn += _curves(curves, "capacitance", "this bearing", (BLACK, "solid", 1.4), factor)
+    if own is not None:
+        drawn.append(_mark(own[0], factor * own[1]["bearing"]["capacitance"], BLACK, "star"))
+    everything = factor * np.concatenate([curves[key] for key in ("capacitance_oil", "capacitance_air")])
+    band = Area("", nodes / RPM, np.isfinite(oil - air), BLUE, 0.15, (factor * air, factor * oil))
+    return Panel(
+        "capacitance",
+        unit,
+        drawn,
+        1.1 * float(np.nanmax(everything)),
+        areas=(band, *_contacts_open(curves)),
+        log=is_wide(everything),
+    )
+
+
+def _curves(
+    curves: Curves, key: str, name: str, look: Look, factor: float = 1.0, *, dots: bool = True
+) -> Iterator[Curve]:
+    """Line between the speeds and dots at them; none where no speed has a value."""
+    if np.any(np.isfinite(curves[key])):
+        nodes, between = curves.between(key)
+        yield Curve(name, nodes / RPM, factor * between, *look)
+        if dots:
+            yield Curve("", curves.speed / RPM, factor * curves[key], look[0], marker="dots")
+
+
+def _mark(speed: float, value: float, colour: str, marker: str) -> Curve:
+    return Curve("", np.array([speed / RPM]), np.array([value]), colour, marker=marker)
+
+
+def _contacts_open(curves: Curves) -> Iterator[Area]:
+    """Speeds with a lambda ratio below 1 and, fainter, below 3: they must not read as safe."""
+    nodes, ratio = curves.between("lambda_ratio")
+    for low, high, name, colour, opacity in (
+        (0.0, CONDUCTING, "λ < 1: touching, discharges likely", ORANGE, 0.18),
+        (CONDUCTING, PARTIAL, "λ from 1 to 3: contacts at times", MIDDLE_GREY, 0.15),
+    ):
+        within = (ratio >= low) & (ratio < high)
+        # Up to the next node, so that no gap is left between both.
+        within[1:] |= within[:-1] & np.isfinite(ratio[1:])
+        if np.any(within):
+            yield Area(name, nodes / RPM, within, colour, opacity, hatched=high == CONDUCTING)
+
+
+# Height of the room that a label between curves needs, as part of the axes.
+_GAP = 0.2
+
+# Place from which on the name of a speed is left of its line, as part of the axes.
+_RIGHTMOST = 0.85
+
+# Width of the label of the margin with its distance from its arrow [pt].
+_WIDTH = 75.0
+
+
+def capacitance_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
+    """Draw the capacitance of a bearing over its speed, with its range from air to oil around the films.
+
+    ``points`` are speeds of the inner ring [rad/s] with their summaries; ``own``, speed and summary of the
+    bearing itself, is marked with a star, and the curves are scaled to it.
+    """
+    curves = curves_of(points, own)
+    return _draw(capacitance_panel(points, curves, own), curves, axes_or_new(ax))
+
+
+def breakdown_over_speed(points: Speeds, ax: Axes | None = None, *, own: Speed | None = None) -> Axes:
+    """Draw first and ring-to-ring breakdown of a bearing over its speed, with the shaft voltage.
+
+    The arguments are those of ``capacitance_over_speed``. The area is shaded where the shaft voltage is above
+    the first breakdown, and the critical speed and the margin of the bearing itself are named.
+    """
+    ax, curves = axes_or_new(ax), curves_of(points, own)
+    _draw(breakdown_panel(points, curves, own), curves, ax)
+    _name_critical(curves, ax)
+    _own_margin(own, curves, ax)
+    return ax
+
+
+def _draw(panel: Panel, curves: Curves, ax: Axes) -> Axes:
+    """Draw a panel with the names of its lines beside the axes, and of its areas above them."""
+    draw_panel(panel, ax, speed_axis(curves))
+    ends = [
+        (float(line.y[np.isfinite(line.y)][-1]), "\n".join(line.name.rsplit(" ", 1)), line.colour)
+        for line in panel.curves
+        if line.name
+    ]
+    label_ends(ax, ends)
+    named = [area for area in ax.collections if not str(area.get_label()).startswith("_")]
+    if named:
+        legend_above(ax, named)
+    return ax
+
+
+def _name_critical(curves: Curves, ax: Axes) -> None:
+    """Write the critical speed at its line."""
+    critical = critical_speed_of(curves)
+    if critical is None:
+        return
+    at = units.rpm(critical)
+    inside = (ax.transData + ax.transAxes.inverted()).transform((at, 1.0))[0] < _RIGHTMOST
+    ax.text(
+        at,
+        0.03,
+        f" {rpm_text(critical)} ",
+        ha="left" if inside else "right",
+        transform=ax.get_xaxis_transform(),
+        color=ORANGE,
+        va="bottom",
+        fontsize="small",
+    )
+
+
+def rpm_text(speed: float) -> str:
+    """Text: speed [rad/s] in rpm with three digits, as an interpolated speed deserves.
+
+    Examples
+    --------
+    >>> rpm_text(144.9)
+    '1380 rpm'
+    """
+    return f"{units.rpm_text(speed)} rpm"
+
+
+def _own_margin(own: Speed | None, curves: Curves, ax: Axes) -> None:
+    """Write the margin of the bearing itself beside an arrow."""
+    if own is None or (first := value_of(own[1], "first_break")) is None:
+        return
+    rpm, shaft = units.rpm(own[0]), own[1]["bearing"]["shaft_voltage"]
+    if shaft is None:
+        ax.annotate(f"{volts(first)} ", (rpm, first), ha="right", va="bottom", fontsize="small")
+        return
+    arrow = {"arrowstyle": "<->", "color": GREY, "lw": 0.9, "shrinkA": 0.0, "shrinkB": 2.0}
+    ax.annotate("", (rpm, first), (rpm, shaft), arrowprops=arrow)
+    middle = (first * shaft) ** 0.5 if ax.get_yscale() == "log" else 0.5 * (first + shaft)
+    ax.annotate(
+        f"margin {ratio_text(first / shaft)}",
+        (rpm, middle),
+        textcoords="offset points",
+        fontsize="small",
+        zorder=6.0,
+        path_effects=[withStroke(linewidth=2.0, foreground="white")],
+        **_beside(ax, curves, rpm, first=first, shaft=shaft),
+    )
+
+
+def _beside(ax: Axes, curves: Curves, rpm: float, *, first: float, shaft: float) -> dict[str, Any]:
+    """Place of a label at two rising curves [V]: between them, below both, or above both where there is room.
+
+    Offset of the label in points, and its alignment. Right of a speed, the curves are above their values at
+    this speed, and left of it below them. Where the first breakdown is the lower one, it rises faster than
+    the shaft voltage, and may reach a label on the right.
+    """
+    to_axes = ax.transData + ax.transAxes.inverted()
+    below, above = (float(to_axes.transform((rpm, value))[1]) for value in sorted((first, shaft)))
+    if above - below > _GAP:
+        figure = figure_of(ax)
+        width = 72.0 * figure.get_figwidth() * ax.get_position().width
+        at = float(to_axes.transform((rpm, first))[0])
+        end = to_axes.inverted().transform((min(1.0, at + _WIDTH / width), 0.0))[0] * units.RPM
+        reached = float(to_axes.transform((rpm, curves.at("first_break", end)))[1])
+        if first < shaft and reached > 0.5 * (below + above) - 0.5 * _GAP:
+            return {"xytext": (-6.0, 0.0), "va": "center", "ha": "right"}
+        return {"xytext": (6.0, 0.0), "va": "center"}
+    pointer = {"arrowstyle": "-", "color": GREY, "lw": 0.6, "shrinkA": 0.0, "shrinkB": 4.0}
+    if below > _GAP:
+        return {"xytext": (8.0, -26.0), "va": "top", "arrowprops": pointer}
+    return {"xytext": (-8.0, 26.0), "va": "bottom", "ha": "right", "arrowprops": pointer}

@@ -1,0 +1,435 @@
+"""Curves of contacts of both kinds: breakdown along the film, capacitance of a meter, heat and shear."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.cases.case import Case
+from ehlectric.contact.capacitance_meter import Metered, meter_profile
+from ehlectric.contact.result import PointResult, Result
+from ehlectric.discharge.discharge_laws import WeakestLink
+from ehlectric.figures import contact_profiles
+from ehlectric.figures.contact_findings import AnyContact, signed, strength_limit, with_unit
+from ehlectric.figures.contact_profiles import Line
+from ehlectric.figures.data import Panel
+from ehlectric.figures.draw import draw_panel
+from ehlectric.figures.figure_names import BREAKDOWN_FIGURE, METER_FIGURE, SHEAR_FIGURE, TEMPERATURE_FIGURE
+from ehlectric.figures.film_section import section_part
+from ehlectric.figures.style import (
+    BAR,
+    LENGTH_AXIS,
+    axes_or_new,
+    figure_of,
+    in_half_widths,
+    label_position,
+    legend_above,
+    length_axis,
+    new_panels,
+)
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE, STRENGTH
+from ehlectric.quantities.units import unit_for
+
+
+def stacked_panels(size: tuple[float, float]) -> list[Axes]:
+    """Axes of two panels of a new figure, the upper one higher; their size on the screen in inches."""
+    panels = new_panels(2, 1, size)
+    gridspec = panels[0].get_gridspec()
+    assert gridspec is not None
+    gridspec.set_height_ratios([3.0, 2.0])
+    return panels
+
+
+def enlarged_below(ax: Axes, ends: tuple[float, float], *, framed: bool = False) -> Patch:
+    """Shade the range of the horizontal axis that the panel below enlarges, or frame it on filled axes."""
+    look: dict[str, Any] = {"color": GREY, "alpha": 0.2, "lw": 0.0, "zorder": 0.2}
+    if framed:
+        look = {"facecolor": "none", "edgecolor": "black", "lw": 0.7, "ls": "--", "zorder": 3.0}
+    return ax.axvspan(*ends, label="enlarged below", **look)
+
+
+# White edge of a text, which keeps it readable on a line.
+_OUTLINE = [withStroke(linewidth=2.0, foreground="white")]
+
+# A dielectric strength below this part of the maximum field is named above its line, away from the ticks.
+_LOW = 0.1
+
+# A dielectric strength above this many times the maximum field is named beside the axes instead of drawn: the
+# field would be flat below it.
+_FAR = 2.5
+
+# The voltage axis ends at this many times the minimum of the breakdown voltage, or the applied voltage.
+_SHOWN = 2.2
+
+
+def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> float:
+    """Draw the dielectric strength as a labelled line, and return the height of the drawn line.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes with field strengths.
+    x : ndarray, shape (n,)
+        Positions, in the unit of the axis.
+    limit : ndarray, shape (n,)
+        Dielectric strength, in the unit of the axis.
+    largest : float
+        Maximum field strength, in the unit of the axis.
+    unit : str
+        Unit of the axis.
+
+    Returns
+    -------
+    float
+        Largest drawn strength, or ``largest`` where the strength is so far above the field that an arrow at
+        the upper edge names it instead.
+    """
+    near = limit[np.argmin(np.abs(x))]
+    values = f"{near:.3g}" if np.ptp(limit) < 1e-9 * near else f"{np.min(limit):.3g} to {np.max(limit):.3g}"
+    text = f"dielectric strength {values} {unit}"
+    if np.min(limit) > _FAR * largest:
+        ax.annotate(
+            f"{text} (above)",
+            (0.03, 1.0),
+            (0.03, 0.9),
+            xycoords="axes fraction",
+            color=STRENGTH,
+            fontsize=8.0,
+            va="top",
+            arrowprops={"arrowstyle": "-|>", "color": STRENGTH, "lw": 0.8, "shrinkB": 0.0},
+        )
+        return largest
+    ax.plot(x, limit, color=STRENGTH, lw=1.0, ls=(0, (5.0, 1.5, 1.0, 1.5)))
+    # On the left half of the line, the oil is thick and its field low.
+    low = float(limit[0]) < _LOW * largest
+    ax.annotate(
+        text,
+        (0.03, float(limit[0])),
+        (0.0, 2.0 if low else -2.0),
+        xycoords=ax.get_yaxis_transform(),
+        textcoords="offset points",
+        color=STRENGTH,
+        fontsize=8.0,
+        va="bottom" if low else "top",
+        path_effects=_OUTLINE,
+        zorder=5.0,
+    )
+    return float(np.max(limit[limit <= _FAR * largest]))
+
+
+def breakdown_voltages(result: AnyContact) -> Array:
+    """Local breakdown voltage of the columns of the film [V]: applied voltage times strength / field.
+
+    Raises
+    ------
+    ValueError
+        Where the case gives no dielectric strength.
+    """
+    limit = strength_limit(result)
+    if limit is None:
+        raise ValueError("the case has no dielectric strength")
+    voltages: Array = result.field.voltage * limit / result.field.column_strength
+    return voltages
+
+
+def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> Axes:
+    """Draw the local breakdown voltage over x/b beside the applied voltage; for a point contact over y/b too.
+
+    The local breakdown voltage is the one at which the field at this place reaches the dielectric strength.
+    Its minimum, the breakdown voltage of the film, is marked.
+
+    Parameters
+    ----------
+    result : Result or PointResult
+        Result of a contact whose case gives a dielectric strength.
+    axes : Axes or sequence of Axes, optional
+        Axes to draw on, two of them for a point contact; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        The first axes. The voltage axis ends where breakdown is far above the applied voltage. Where the line
+        lies below the applied voltage, the film breaks down, and the range between them is shaded.
+    """
+    if axes is None:
+        rows = 2 if isinstance(result, PointResult) else 1
+        axes = new_panels(rows, 1, (6.3, 0.9 + 2.5 * rows))
+    panels = [axes] if isinstance(axes, Axes) else list(axes)
+    for ax, (axis, at, voltages, on) in zip(panels, _lines(result), strict=True):
+        _voltage_line(result, ax, at[on], voltages[on])
+        label_position(result, ax, axis)
+        length_axis(result, ax, axis)
+    if isinstance(result, PointResult):
+        _name_cuts(result, panels)
+    legend_above(panels[0], lift=LENGTH_AXIS, columns=3)
+    return panels[0]
+
+
+def _lines(result: AnyContact) -> list[tuple[str, Array, Array, Mask]]:
+    """Lines through the place that breaks down first: axis, positions in half-widths, voltages, and a mask.
+
+    The mask leaves out the ends of the field domain, whose faces disturb the field.
+    """
+    voltages, field, b = breakdown_voltages(result), result.field, result.conditions.semi_axes[0]
+    if isinstance(result, Result):
+        return [("x", result.field.x / b, voltages, result.field.inner)]
+    k, j = np.unravel_index(np.argmin(voltages), voltages.shape)
+    x, y = field.axes
+    return [
+        ("x", x / b, voltages[:, j], _or_all(field.inner[:, j])),
+        ("y", y / b, voltages[k], _or_all(field.inner[k])),
+    ]
+
+
+def _name_cuts(result: PointResult, panels: Sequence[Axes]) -> None:
+    """Write below two panels where they cut the film: through the place that breaks down first."""
+    assert result.discharge is not None
+    x, y = np.atleast_1d(result.discharge.zone_position) / result.conditions.semi_axis_x
+    names = (f"along entrainment at $y/b$ = {y + 0.0:.3g}", f"across entrainment at $x/b$ = {x + 0.0:.3g}")
+    for ax, name in zip(panels, names, strict=True):
+        ax.set_xlabel(f"{ax.get_xlabel()}, {signed(name)}")
+
+
+def _or_all(mask: Mask) -> Mask:
+    return mask if np.count_nonzero(mask) > 2 else np.ones_like(mask)
+
+
+def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> None:
+    """Draw local breakdown voltages along a line, the applied voltage, and the minimum."""
+    applied, least = result.field.voltage, float(np.min(voltages))
+    ax.plot(at, voltages, color=BLUE, label="local breakdown voltage")
+    ax.axhline(applied, color=ORANGE, lw=1.2, ls="--", label=f"applied voltage, {applied:.3g} V")
+    below = voltages < applied
+    if np.any(below):
+        ax.fill_between(
+            at,
+            voltages,
+            applied,
+            where=below,
+            interpolate=True,
+            color=STRENGTH,
+            alpha=0.25,
+            lw=0.0,
+            label="breaks down",
+        )
+    k = int(np.argmin(voltages))
+    ax.plot(
+        at[k], least, ls="none", marker="o", ms=4.5, mfc="white", color=BLUE, label=f"minimum, {least:.3g} V"
+    )
+    ax.set_xlim(at[0], at[-1])
+    ax.set_ylim(0.0, _SHOWN * max(applied, least))
+    ax.set_ylabel("voltage [V]")
+    ax.grid(axis="y", lw=0.4, color="0.88")
+
+
+def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
+    """Draw the probability of breakdown by a Weibull law over the voltage, and the applied voltage.
+
+    Parameters
+    ----------
+    result : Result or PointResult
+        Result of a contact whose case gives a Weibull law.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the probability in per cent. The range of voltages from 5 % to 95 % is shaded.
+    """
+    ax = new_panels(1, 1, (6.3, 3.4))[0] if ax is None else ax
+    discharge, found, applied = result.case.discharge, result.discharge, result.field.voltage
+    assert discharge is not None and discharge.weibull is not None
+    assert found is not None and found.breakdown_voltage is not None
+    low, high = found.breakdown_voltage_low, found.breakdown_voltage_high
+    assert low is not None and high is not None
+    law = WeakestLink(discharge.weibull.shape, found.breakdown_voltage)
+    voltages = np.linspace(0.0, 1.15 * max(high, applied), 401)
+    ax.axvspan(low, high, color=STRENGTH, alpha=0.12, lw=0.0, label=f"5 % to 95 %: {low:.3g} to {high:.3g} V")
+    ax.plot(voltages, [100.0 * law.probability(at) for at in voltages], color=BLUE, label="probability")
+    ax.axvline(applied, color=ORANGE, lw=1.2, ls="--", label=f"applied voltage, {applied:.3g} V")
+    ax.set(xlabel="voltage [V]", ylabel="probability of breakdown [%]")
+    ax.set_xlim(0.0, voltages[-1])
+    ax.set_ylim(0.0, 102.0)
+    legend_above(ax, columns=3)
+    return ax
+
+
+def breakdown_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
+    """Function that draws the breakdown of a contact, by file name.
+
+    Empty if the case gives neither a dielectric strength nor a Weibull law.
+    """
+    discharge = result.case.discharge
+    if discharge is not None and discharge.weibull is not None:
+        return {BREAKDOWN_FIGURE: probability}
+    return {} if strength_limit(result) is None else {BREAKDOWN_FIGURE: breakdown}
+
+
+def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
+    """Draw the capacitance between the bodies up to a distance from the contact.
+
+    Parameters
+    ----------
+    result : Result or PointResult
+        Result of a contact whose case has a table ``meter``.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the sum over distance, with the gap outside the film's domain filled as the case says, and
+        between air and oil. Lines mark the edge of the Hertz zone and the nearest edge of the domain.
+    """
+    ax = new_panels(1, 1, (6.3, 3.6))[0] if ax is None else ax
+    assert isinstance(result.case, Case) and result.meter is not None
+    profile = meter_profile(Metered(result.case, result.conditions, result.film, result.field))
+    factor, unit = unit_for(result.meter.capacitance, "F", least=1.0)
+    at = 1e3 * profile.radius
+    ax.fill_between(at, factor * profile.air, factor * profile.oil, color=BLUE, alpha=0.18, lw=0.0)
+    given = "filled as given"
+    for limit, name, dashes in ((profile.oil, "oil", ":"), (profile.air, "air", "--")):
+        if np.array_equal(limit, profile.filled):
+            given = f"{name} outside the domain, as given"
+        else:
+            ax.plot(at, factor * limit, color=BLUE, lw=0.9, ls=dashes, label=f"{name} outside the domain")
+    ax.plot(at, factor * profile.filled, color=BLUE, label=given)
+    if result.meter.parallel_capacitance:
+        whole = with_unit(result.meter.capacitance, "F")
+        ax.axhline(
+            factor * result.meter.capacitance, color=ORANGE, lw=1.2, label=f"with the parallel part, {whole}"
+        )
+    for edge, name in (
+        (result.conditions.half_width, "Hertz zone"),
+        (profile.edge, "nearest edge of the domain"),
+    ):
+        ax.axvline(1e3 * edge, color=GREY, lw=0.8)
+        ax.text(
+            1e3 * edge,
+            0.98,
+            f" {name}",
+            transform=ax.get_xaxis_transform(),
+            rotation=90,
+            ha="right",
+            va="top",
+            fontsize=8.0,
+            color=GREY,
+        )
+    ax.set(xlabel="distance from the contact [mm]", ylabel=f"capacitance up to there [{unit}]", xscale="log")
+    ax.set_xlim(at[0], at[-1])
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.set_ylim(bottom=0.0)
+    ax.grid(axis="y", lw=0.4, color="0.88")
+    legend_above(ax, columns=2)
+    return ax
+
+
+def meter_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
+    """Function that draws the capacitance at a meter, by file name; empty without a table ``meter``."""
+    return {} if result.meter is None else {METER_FIGURE: meter}
+
+
+# Range of x/b that is drawn, and colours of temperatures.
+_WINDOW, _HEAT = (-1.75, 1.25), "inferno"
+
+# Smallest range of the colours, of a film that is hardly heated [K].
+_LEAST_RANGE = 0.1
+
+
+def temperature(result: AnyContact, ax: Axes | None = None) -> Axes:
+    """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress.
+
+    Parameters
+    ----------
+    result : Result or PointResult
+        Result of a contact with a thermal film.
+    ax : Axes, optional
+        Axes to draw the temperature across the film on, alone; axes of a new figure with all panels if
+        omitted.
+
+    Returns
+    -------
+    Axes
+        Axes of the map, over x/b and height with the outline of the film; of a point contact along y = 0.
+        Below it, in a new figure, the temperatures at mid-film and of both surfaces, and the shear stress.
+    """
+    if ax is not None:
+        return _map(result, ax)
+    above, middle, below = new_panels(3, 1, (6.3, 7.2))
+    _map(result, above)
+    _panel(result, contact_profiles.temperature, middle)
+    shear_stress(result, below)
+    return above
+
+
+def shear_stress(result: AnyContact, ax: Axes | None = None) -> Axes:
+    """Draw the shear stress at mid-film over x/b, with the pressure times the traction coefficient.
+
+    Parameters
+    ----------
+    result : Result or PointResult
+        Result of a contact whose case has a table ``film``.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the shear stress, of a point contact along y = 0. Both curves have the same mean over the
+        contact; their difference shows where the traction comes from.
+    """
+    return _panel(result, contact_profiles.shear_stress, axes_or_new(ax))
+
+
+def _panel(result: AnyContact, panel_of: Callable[[Line], Panel], ax: Axes) -> Axes:
+    """Draw a panel over x/b, of a point contact along y = 0."""
+    draw_panel(panel_of(Line.through(result, 1.0 / result.conditions.half_width)), ax)
+    ax.set_xlim(*_WINDOW)
+    label_position(result, ax)
+    legend_above(ax, columns=4)
+    return ax
+
+
+def _along(result: AnyContact, values: Array) -> Array:
+    """Values (..., nx) along entrainment: of a point contact those of the line of nodes nearest to y = 0."""
+    if isinstance(result, PointResult):
+        line: Array = values[..., int(np.argmin(np.abs(result.film.y)))]
+        return line
+    return values
+
+
+def _map(result: AnyContact, ax: Axes) -> Axes:
+    """Draw the temperature over position and height, with the outline of the film and its colour bar."""
+    heated = result.film.heated
+    assert heated is not None and heated.temperature is not None and heated.zeta is not None
+    x, thickness = in_half_widths(result, result.film.x), _along(result, result.film.thickness)
+    shown = (x >= _WINDOW[0]) & (x <= _WINDOW[1])
+    factor, unit = unit_for(float(np.median(thickness[np.abs(x) < 1.0])), "m")
+    heights = factor * thickness[:, np.newaxis] * (heated.zeta - 0.5)
+    values = _along(result, heated.temperature).T - contact_profiles.CELSIUS
+    limits = float(values[shown].min()), float(values[shown].max())
+    limits = limits[0], max(limits[1], limits[0] + _LEAST_RANGE)
+    section_part(ax, x[shown], heights[shown], values[shown], limits=limits, colours=_HEAT)
+    half = 1.6 * float(np.max(np.abs(heights[np.abs(x) < 1.0])))
+    ax.set(xlim=_WINDOW, ylim=(-half, half), ylabel=f"height [{unit}]")
+    label_position(result, ax)
+    colours = ScalarMappable(Normalize(*limits), _HEAT)
+    figure_of(ax).colorbar(colours, cax=ax.inset_axes(BAR), label="temperature [°C]")
+    return ax
+
+
+def heat_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
+    """Function that draws the heat and the shear of a film, by file name; none of a plain film."""
+    heated = result.film.heated
+    if heated is None:
+        return {}
+    return {TEMPERATURE_FIGURE: temperature} if heated.thermal else {SHEAR_FIGURE: shear_stress}

@@ -1,1 +1,0 @@
-"""Figures of a drive: voltages over time, how long which voltages last, discharges, and remedies."""

@@ -1,0 +1,817 @@
+"""Figures of a drive: voltages over time, how long which voltages last, discharges, spectrum and remedies."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator
+
+from ehlectric.arrays import Array
+from ehlectric.drive.drive_record import CHARGE, ENERGY, FILM, ON, PEAK, VOLTAGE
+from ehlectric.drive.result import DriveResult
+from ehlectric.drive.summary import end_summary
+from ehlectric.figures.bearing_figures import prefixed
+from ehlectric.figures.data import Along, Curve, Panel, is_wide
+from ehlectric.figures.draw import draw_panel
+from ehlectric.figures.figure_names import DRIVE_FIGURE_FILES, literal
+from ehlectric.figures.style import (
+    axes_or_new,
+    drawing_of,
+    legend_above,
+    new_panels,
+    save_figure,
+    scale_axis,
+    share_below,
+    style,
+    titled,
+)
+from ehlectric.quantities.drive_results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.formats import amount, number_text
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
+from ehlectric.quantities.units import rpm, unit_for
+
+# Names of both bearings in titles and legends, and their colours.
+NAMES = tuple(NAMES_OF_ENDS.values())
+COLOURS = (BLUE, ORANGE)
+
+# Line of a breakdown voltage.
+THRESHOLD: dict[str, Any] = {"color": "black", "lw": 0.9, "ls": "--"}
+
+
+def events_of(result: DriveResult, b: int) -> Array:
+    """Events of one bearing, a row for each, as in ``Record``."""
+    events = result.solution.record.events
+    own: Array = events[events[:, FILM] == b]
+    return own
+
+
+def number_of_events(result: DriveResult, b: int) -> int:
+    """Number of all events of one bearing, also of those that are not kept one by one."""
+    return int(np.sum(result.solution.record.counts[b]))
+
+
+def breakdown_of(result: DriveResult, b: int) -> float:
+    """Voltage across the films at which the weakest position of a bearing breaks down [V], or infinity."""
+    return float(np.min(result.solution.elements[b].breakdown))
+
+
+def voltage_unit(largest: float) -> tuple[float, str]:
+    """Factor and unit in which a voltage [V] is at least 1, and nanovolts for none at all."""
+    return unit_for(max(largest, 1e-9), "V", least=1.0)
+
+
+# Share of time from which on a voltage is told [%].
+_TOLD = 1.0
+
+
+def voltages(result: DriveResult) -> str:
+    """Sentence: how often both bearings discharge, and at which voltages; or why none does."""
+    ends = _ends(result)
+    if not any(end["events"] for end in ends):
+        return f"No discharge in {_duration(result)}: {_largest(result)}{_limit(result)}"
+    rates = " and ".join(
+        f"{number_text(end['events_per_second'])} ({name})" for end, name in zip(ends, NAMES, strict=True)
+    )
+    mean = max(end["voltage_mean"] for end in ends if end["events"])
+    return f"{rates} discharges a second, mean {mean:.3g} V"
+
+
+def histogram(result: DriveResult) -> str:
+    """Sentence: for which share of time the bearing voltages are above the largest limit that matters."""
+    record = result.solution.record
+    shares = 100.0 * record.above / record.duration
+    told = np.flatnonzero(np.max(shares, axis=0) >= _TOLD)
+    if not told.size:
+        share = float(np.max(shares[:, 0]))
+        lead = (
+            f"Above {record.limits[0]:g} V for {share:.2g} % of the time" if share else "Low bearing voltage"
+        )
+        return f"{lead}: {_largest(result)}"
+    k = int(told[-1])
+    texts = [f"{share:.3g} %" for share in shares[:, k]]
+    if len(set(texts)) == 1:
+        return f"Voltage of both bearings above {record.limits[k]:g} V for {texts[0]} of the time"
+    told_of = " and ".join(f"{text} ({name})" for text, name in zip(texts, NAMES, strict=True))
+    return f"Above {record.limits[k]:g} V for {told_of} of the time"
+
+
+def spectrum(result: DriveResult) -> str:
+    """Sentence: the largest line of the shaft voltage, and the spacing of the lines."""
+    record = result.solution.record
+    line = 1 + int(np.argmax(record.spectrum[1:]))
+    largest, at = prefixed(float(record.spectrum[line]), "V"), prefixed(line / record.duration, "Hz")
+    spacing = prefixed(1.0 / record.duration, "Hz")
+    return f"Largest line of the shaft voltage {largest} at {at}; lines every {spacing}"
+
+
+def discharges(result: DriveResult) -> str:
+    """Sentence: mean energy of the discharges of each bearing, and the largest one."""
+    ends = _ends(result)
+    means = ", ".join(
+        f"{_energy(end['energy_mean'])} ({name})" if end["events"] else f"none ({name})"
+        for name, end in zip(NAMES, ends, strict=True)
+    )
+    largest = max(end["energy_largest"] for end in ends if end["events"])
+    return f"Mean energy of a discharge {means}; largest {_energy(largest)}"
+
+
+def remedies(result: DriveResult) -> str:
+    """Sentence: which remedy has the fewest discharges, beside those of the drive as it is."""
+    (_, own), *others = variants(result)
+    rates = [sum(end["events_per_second"] for end in pair) for _, pair in others]
+    least, now = min(rates), sum(end["events_per_second"] for end in own)
+    best = [name for (name, _), rate in zip(others, rates, strict=True) if rate == least]
+    if not now + max(rates):
+        highest = max(
+            end["events_per_second_high"] for pair in (own, *(pair for _, pair in others)) for end in pair
+        )
+        return f"No discharge, with or without remedies: at most {number_text(highest)} a second"
+    if not least < now:
+        return f"No remedy lowers the {number_text(now)} discharges a second of both bearings"
+    names = " and ".join(textwrap.shorten(name, 40, placeholder=" ...") for name in best[:3])
+    if not least:
+        return f"No discharge with {names}; {number_text(now)} a second as it is"
+    left = "leaves" if len(best) == 1 else "leave"
+    return f"{names} {left} {number_text(least)} of the {number_text(now)} discharges a second"
+
+
+def case_lines(result: DriveResult) -> list[str]:
+    """Lines: title of the case, speed, temperature and simulated time."""
+    bearing, title = result.case.bearings[0].bearing, result.case.title
+    parts = [
+        textwrap.shorten(title, 70, placeholder=" ..."),
+        f"{rpm(bearing.inner_speed):.4g} rpm",
+        f"{bearing.oil_temperature - 273.15:.4g} °C",
+        f"{_duration(result)} simulated",
+    ]
+    return [", ".join(filter(None, parts))]
+
+
+def arc_line(result: DriveResult) -> str:
+    """Line: what charges, energies and currents rest on."""
+    arc, kept = result.case.breakdown.arc_resistance, len(result.solution.record.events)
+    text = f"charges, energies and currents follow from an arc of {amount(arc, 'Ω')}, which is an assumption"
+    if kept < sum(number_of_events(result, b) for b in range(len(ENDS))):
+        text += f"; of the first {kept} discharges"
+    return text
+
+
+def _energy(value: float) -> str:
+    return prefixed(value, "J")
+
+
+def _largest(result: DriveResult) -> str:
+    """Clause: the largest bearing voltage."""
+    peaks = result.solution.record.peak
+    b = int(np.argmax(peaks))
+    return f"at most {prefixed(float(peaks[b]), 'V')} ({NAMES[b]})"
+
+
+def _limit(result: DriveResult) -> str:
+    """Clause: the lowest voltage at which films break down."""
+    breakdown = min(breakdown_of(result, b) for b in range(len(ENDS)))
+    return f", films break down at {breakdown:.3g} V" if math.isfinite(breakdown) else ""
+
+
+def _ends(result: DriveResult) -> list[dict[str, float]]:
+    return [end_summary(result.solution, b) for b in range(len(ENDS))]
+
+
+def _duration(result: DriveResult) -> str:
+    return amount(result.solution.record.duration, "s")
+
+
+# Decades of the share of time that are drawn at most.
+_DECADES = 1e-6
+
+# Share of time at the lower end of the axis over the largest one, at most.
+_LOW = 1e-2
+
+# Breakdown voltage over the largest voltage up to which it is drawn.
+_NEAR_LIMIT = 1.5
+
+# Least number of bins on each side of zero that are drawn.
+_BINS = 3
+
+
+def time_at_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
+    """Draw the share of time at the voltages across the films of both bearings.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of the drive to draw.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with a logarithmic share, and with the breakdown voltages where they are near.
+    """
+    ax = axes_or_new(ax)
+    record = result.solution.record
+    most = _most(result)
+    factor, unit = voltage_unit(most)
+    width = float(record.edges[1] - record.edges[0])
+    shares = 100.0 * record.histogram / record.duration
+    for b, values in enumerate(shares):
+        look: dict[str, Any] = {"fill": True, "alpha": 0.35, "lw": 0.0} if b == 0 else {"lw": 1.1}
+        ax.stairs(values, factor * record.edges, color=COLOURS[b], label=NAMES[b], **look)
+        if b == 0:
+            ax.stairs(values, factor * record.edges, color=COLOURS[b], lw=0.7)
+    _log_share(ax, shares)
+    for k, volts in enumerate(_breakdowns(result)):
+        for sign in (1.0, -1.0):
+            label = "_" if k or sign < 0.0 else "breakdown, weakest position"
+            ax.axvline(sign * factor * volts, label=label, **THRESHOLD)
+    ax.set_xlim(-factor * most, factor * most)
+    ax.set_xlabel(f"voltage across the films [{unit}]")
+    ax.set_ylabel(f"share of time\nper {factor * width:.3g} {unit} [%]")
+    legend_above(ax, columns=3)
+    return ax
+
+
+def time_above(result: DriveResult, ax: Axes | None = None) -> Axes:
+    """Draw the share of time above a voltage, whatever its sign, with the limits of the summary as dots.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of the drive to draw.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with a logarithmic share.
+    """
+    ax = axes_or_new(ax)
+    record = result.solution.record
+    most = _most(result)
+    factor, unit = voltage_unit(most)
+    edges, shares = shares_above(result)
+    for b, values in enumerate(shares):
+        known = values > 0.0
+        ax.plot(factor * edges[known], values[known], color=COLOURS[b], lw=1.1, ls=("-", (0, (5, 2)))[b])
+        above = 100.0 * record.above[b] / record.duration
+        seen = above > 0.0
+        look: dict[str, Any] = {
+            "ls": "none",
+            "marker": "os"[b],
+            "ms": (8.0, 4.0)[b],
+            "mfc": ("white", COLOURS[b])[b],
+        }
+        ax.plot(factor * record.limits[seen], above[seen], color=COLOURS[b], **look)
+    _log_share(ax, shares)
+    for volts in _breakdowns(result):
+        ax.axvline(factor * volts, **THRESHOLD)
+    ax.set_xlim(0.0, factor * most)
+    ax.set_xlabel(f"voltage across the films, without its sign [{unit}]")
+    ax.set_ylabel("share of time\nabove it [%]")
+    return ax
+
+
+def shares_above(result: DriveResult) -> tuple[Array, Array]:
+    """Voltages from 0 on [V], and the share of time in which each film has a larger one [%].
+
+    Returns
+    -------
+    edges : ndarray, shape (m,)
+        Edges of the bins that are not negative.
+    shares : ndarray, shape (2, m)
+        Share of time above each edge, in either direction.
+    """
+    record = result.solution.record
+    half = record.histogram.shape[1] // 2
+    both = record.histogram[:, half:] + record.histogram[:, half - 1 :: -1]
+    beyond = np.cumsum(both[:, ::-1], axis=1)[:, ::-1]
+    shares: Array = 100.0 * np.column_stack([beyond, np.zeros(2)]) / record.duration
+    return record.edges[half:], shares
+
+
+def _most(result: DriveResult) -> float:
+    """Largest voltage on the axis [V]."""
+    record = result.solution.record
+    width = float(record.edges[1] - record.edges[0])
+    return max(1.05 * float(np.max(record.peak)), _BINS * width)
+
+
+def _breakdowns(result: DriveResult) -> list[float]:
+    """Breakdown voltages of both bearings that are near enough to be drawn [V], equal ones once."""
+    found = sorted({breakdown_of(result, b) for b in range(2)})
+    return [volts for volts in found if volts <= _NEAR_LIMIT * float(np.max(result.solution.record.peak))]
+
+
+def _log_share(ax: Axes, shares: Array) -> None:
+    """Logarithmic axis of shares of time [%], over at most some decades."""
+    ax.set_yscale("log")
+    known = shares[shares > 0.0]
+    top = float(np.max(known, initial=1.0))
+    least = max(float(np.min(known, initial=top)), _DECADES * top)
+    ax.set_ylim(min(0.5 * least, _LOW * top), 2.0 * top)
+    ax.yaxis.set_major_locator(LogLocator(numticks=6))
+    ax.yaxis.set_minor_formatter(NullFormatter())
+
+
+# Number of points that are drawn for each decade of frequency, and part of the largest line that is drawn.
+_POINTS, _LEAST = 400, 1e-6
+
+
+def shaft_spectrum(result: DriveResult, ax: Axes | None = None) -> Axes:
+    """Draw the amplitude spectrum of the shaft voltage, without the line at 0 Hz.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of the drive to draw, with a spectrum.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes of both logarithms. Where lines are too close to be seen apart, the largest one is drawn.
+    """
+    ax = axes_or_new(ax)
+    frequencies, amplitudes = highest_lines(result)
+    least, most = shown_range(amplitudes)
+    factor, unit = voltage_unit(float(np.max(amplitudes)))
+    ax.plot(frequencies, factor * amplitudes, color=BLUE, lw=0.8)
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlim(0.8 * frequencies[0], 1.25 * frequencies[-1])
+    ax.set_ylim(factor * least, factor * most)
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(LogLocator(numticks=9))
+        axis.set_minor_formatter(NullFormatter())
+    ax.set_xlabel("frequency [Hz]")
+    ax.set_ylabel(f"amplitude of the shaft voltage [{unit}]")
+    return ax
+
+
+def shown_range(amplitudes: Array) -> tuple[float, float]:
+    """Ends of a logarithmic axis of amplitudes, with room below the least and above the largest one."""
+    return 0.5 * float(np.min(amplitudes)), 3.0 * float(np.max(amplitudes))
+
+
+def has_spectrum(result: DriveResult) -> bool:
+    """Whether a result has a spectrum with a line above 0 Hz to draw."""
+    return bool(np.any(result.solution.record.spectrum[1:] > 0.0))
+
+
+def highest_lines(result: DriveResult) -> tuple[Array, Array]:
+    """Largest line of the spectrum in each of many parts of a decade of frequency.
+
+    Returns
+    -------
+    frequencies, amplitudes : ndarray, shape (m,)
+        Frequency [Hz] and amplitude [V] of each of these lines, in the order of frequency. Amplitudes below
+        a millionth of the largest one are raised to it, so that a logarithmic axis has them.
+    """
+    amplitudes = result.solution.record.spectrum
+    lines = np.arange(1, amplitudes.size)
+    part = np.floor(_POINTS * np.log10(lines))
+    starts = np.flatnonzero(np.diff(part, prepend=-1.0))
+    # Largest amplitude first within each part.
+    order = np.lexsort((-amplitudes[lines], part))
+    kept = lines[order[starts]]
+    least = _LEAST * float(np.max(amplitudes[lines]))
+    return kept / result.solution.record.duration, np.maximum(amplitudes[kept], least)
+
+
+# Letters on a line of a name, and lines of it; distance of both bearings from the middle of their row.
+_LETTERS, _LINES, _BESIDE = 20, 2, 0.16
+
+AS_IT_IS = "as it is"
+
+
+def variants(result: DriveResult) -> Iterator[tuple[str, list[dict[str, Any]]]]:
+    """Name, and summary of both bearings, of the drive as it is and of each remedy."""
+    solutions = [(AS_IT_IS, result.solution), *((title, found) for title, _, found in result.remedies)]
+    for name, solution in solutions:
+        yield name, [end_summary(solution, b) for b in range(len(ENDS))]
+
+
+def rates(result: DriveResult, ax: Axes | None = None) -> Axes:
+    """Draw the discharges per second of the drive and its remedies, with bounds of 95 %.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of a drive with remedies.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with a row for the drive as it is and for each remedy. An arrow is an upper bound where no
+        discharge happened.
+    """
+    ax = axes_or_new(ax)
+    rows = list(variants(result))
+    ends = [end for _, pair in rows for end in pair]
+    known = [end["events_per_second_low"] for end in ends] + [end["events_per_second"] for end in ends]
+    highest = [end["events_per_second_high"] for end in ends]
+    least = min([value for value in (*known, *highest) if value > 0.0])
+    bottom = 10.0 ** math.floor(math.log10(0.5 * least))
+    for row, (_, pair) in enumerate(rows):
+        for b, end in enumerate(pair):
+            at = _place(row, b)
+            look: dict[str, Any] = {"color": COLOURS[b], "lw": 1.3}
+            low, high = end["events_per_second_low"], end["events_per_second_high"]
+            if end["events"]:
+                ax.plot([max(low, bottom), high], [at, at], **look)
+                ax.plot([end["events_per_second"]], [at], marker="os"[b], ms=5.0, **look)
+            else:
+                ax.plot([bottom, high], [at, at], ls=":", **look)
+                ax.plot([high], [at], marker="<", ms=5.5, mfc="white", **look)
+    _log_axis(ax, bottom, 2.0 * max(highest))
+    ax.set_xlabel(DRIVE_BOOK["end.events_per_second"].label)
+    _rows(ax, [name for name, _ in rows])
+    return ax
+
+
+def energies(result: DriveResult, ax: Axes | None = None) -> Axes:
+    """Draw the mean energy of a discharge of the drive and its remedies.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of a drive with remedies.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with a row for the drive as it is and for each remedy.
+    """
+    ax = axes_or_new(ax)
+    rows = list(variants(result))
+    found = [end["energy_mean"] for _, pair in rows for end in pair if end["events"]]
+    factor, unit = unit_for(max(found, default=1e-9), "J", least=1.0)
+    for row, (_, pair) in enumerate(rows):
+        for b, end in enumerate(pair):
+            if end["events"]:
+                ax.plot(
+                    [factor * end["energy_mean"]], [_place(row, b)], marker="os"[b], color=COLOURS[b], ms=5.0
+                )
+        if not any(end["events"] for end in pair):
+            ax.text(
+                0.03, row, "no discharge", transform=ax.get_yaxis_transform(), va="center",
+                color=GREY, fontsize="small",
+            )  # fmt: skip
+    positive = [factor * value for value in found if value > 0.0]
+    if positive and max(positive) > 20.0 * min(positive):
+        _log_axis(ax, 0.5 * min(positive), 2.0 * max(positive))
+    else:
+        ax.set_xlim(0.0, 1.15 * max(positive, default=1.0))
+    ax.set_xlabel(f"{DRIVE_BOOK['end.energy_mean'].label} [{unit}]")
+    _rows(ax, [name for name, _ in rows])
+    ax.tick_params(labelleft=False)
+    return ax
+
+
+def legend_of_remedies(axes: list[Axes]) -> None:
+    """Legend above the first panel: both bearings, and the bounds."""
+    from matplotlib.lines import Line2D
+
+    handles = [
+        Line2D([], [], color=COLOURS[b], marker="os"[b], ms=5.0, lw=1.3, label=f"{NAMES[b]}, bounds of 95 %")
+        for b in range(2)
+    ]
+    legend_above(axes[0], handles, columns=1)
+
+
+def _place(row: int, b: int) -> float:
+    """Height of a bearing in its row."""
+    return row + (_BESIDE if b else -_BESIDE)
+
+
+def _rows(ax: Axes, names: list[str]) -> None:
+    """Rows with their names, from top to bottom, and lines between them."""
+    ax.set_ylim(len(names) - 0.5, -0.5)
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.set_yticks(np.arange(len(names)), labels=[_broken(name) for name in names])
+    ax.tick_params(axis="y", length=0.0)
+    for row in range(1, len(names)):
+        ax.axhline(row - 0.5, color=GREY, lw=0.4, alpha=0.5)
+
+
+def _broken(name: str) -> str:
+    """Name on few short lines."""
+    return "\n".join(textwrap.wrap(literal(name), _LETTERS, max_lines=_LINES, placeholder=" ..."))
+
+
+def _log_axis(ax: Axes, low: float, high: float) -> None:
+    ax.set_xscale("log")
+    ax.set_xlim(low, high)
+    ax.xaxis.set_major_locator(LogLocator(numticks=5))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+
+
+Draw = Callable[[DriveResult, Axes], Axes]
+
+
+def _no_legend(_axes: list[Axes]) -> None:
+    """The panels have legends of their own."""
+
+
+@dataclass(frozen=True)
+class _Drawing:
+    """Figure of a drive: its panels, how they stand, its size [inches], its title, and its legend."""
+
+    panels: tuple[Draw, ...]
+    rows: int
+    size: tuple[float, float]
+    finding: Callable[[DriveResult], str]
+    legend: Callable[[list[Axes]], None] = _no_legend
+    shared: bool = False
+
+
+def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
+    """Figures of a drive by the names of their files.
+
+    Figures with nothing to show are left out: a spectrum in a file of version 1.0, distributions without
+    discharges, remedies where the file has none, and voltages over time where no time was recorded.
+    """
+    over_time, over_voltage, over_frequency, of_events, side_by_side = DRIVE_FIGURE_FILES
+    found: dict[str, _Drawing] = {}
+    if len(result.solution.record.trace) > 1:
+        panels = VOLTAGE_PANELS
+        found[over_time] = _Drawing(panels, 3, (6.3, 5.4), voltages, legend_of, shared=True)
+    found[over_voltage] = _Drawing((time_at_voltage, time_above), 2, (6.3, 5.0), histogram)
+    if has_spectrum(result):
+        found[over_frequency] = _Drawing((shaft_spectrum,), 1, (6.3, 3.6), spectrum)
+    if len(result.solution.record.events):
+        found[of_events] = _Drawing(DISTRIBUTIONS, 2, (6.3, 5.0), discharges, legend_of_discharges)
+    if result.remedies:
+        height = 1.7 + 0.5 * (1 + len(result.remedies))
+        found[side_by_side] = _Drawing((rates, energies), 1, (6.9, height), remedies, legend_of_remedies)
+    return found
+
+
+def figure(result: DriveResult, name: str) -> Figure:
+    """Figure of a drive.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of the drive.
+    name : str
+        Name of its file, such as "drive_voltages.png".
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+
+    Raises
+    ------
+    InputError
+        Where the drive has no figure of this name.
+    """
+    drawing = drawing_of(drive_figures_of(result), name)
+    lines = [drawing.finding(result), *case_lines(result)]
+    if drawing.finding is discharges:
+        lines.append(arc_line(result))
+    with style():
+        axes = new_panels(drawing.rows, len(drawing.panels) // drawing.rows, drawing.size)
+        for draw, ax in zip(drawing.panels, axes, strict=True):
+            draw(result, ax)
+        drawing.legend(axes)
+        if drawing.shared:
+            share_below(axes)
+        return titled(axes[0], "\n".join(lines), converged=result.converged)
+
+
+def save_drive_figures(result: DriveResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Draw the figures of a drive as files.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of the drive.
+    folder : Path
+        Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+
+    Returns
+    -------
+    list of Path
+        Files written: those of ``drive_figures_of``.
+    """
+    names = drive_figures_of(result)
+    return [file for name in names for file in save_figure(figure(result, name), folder / name, formats)]
+
+
+# Breakdown voltage over the largest voltage of a panel up to which it is drawn, and room around the curves.
+_NEAR, _ROOM = 1.8, 1.12
+
+
+def time_axis(result: DriveResult) -> Along:
+    """Axis of the time of the trace, from its begin."""
+    begin, span = _begin(result), _span(result)
+    factor, unit = unit_for(span, "s", least=1.0)
+    scale, unit_of_begin = unit_for(begin, "s", least=1.0)
+    since = "" if begin < 1e-3 * span else f" after {scale * begin:.4g} {unit_of_begin}"
+    return Along(f"time{since}", unit, (0.0, factor * span))
+
+
+def source_panel(result: DriveResult) -> Panel:
+    """Common-mode voltage of the source, without its ringing."""
+    volts = result.solution.record.trace[:, 1]
+    largest = float(np.max(np.abs(volts), initial=0.0))
+    factor, unit = voltage_unit(largest)
+    curve = Curve("common mode", _times(result), factor * volts, MIDDLE_GREY, width=0.9)
+    return _around_zero("common mode", unit, [curve], factor * largest)
+
+
+def bearing_panel(result: DriveResult, b: int) -> Panel:
+    """Voltage across the films of a bearing with its discharges, and its breakdown voltage where near."""
+    volts, (times, peaks) = result.solution.record.trace[:, 2 + b], shown_discharges(result, b)
+    largest = max(float(np.max(np.abs(part), initial=0.0)) for part in (volts, peaks))
+    factor, unit = voltage_unit(largest)
+    curves = [Curve(NAMES[b], _times(result), factor * volts, COLOURS[b], width=0.9)]
+    breakdown = breakdown_of(result, b)
+    if breakdown <= _NEAR * largest:
+        scattered = " (63 %)" if math.isfinite(result.solution.elements[b].shape) else ""
+        ends = np.array(time_axis(result).window)
+        for sign, name in ((1.0, f"breakdown, weakest position{scattered}"), (-1.0, "")):
+            level = np.full(2, sign * factor * breakdown)
+            curves.append(Curve(name, ends, level, BLACK, "dash", 0.9))
+        largest = max(largest, breakdown)
+    if times.size:
+        curves.append(Curve("discharge", times, factor * peaks, BLACK, marker="ring"))
+    return _around_zero(NAMES[b], unit, curves, factor * largest)
+
+
+def shown_discharges(result: DriveResult, b: int) -> tuple[Array, Array]:
+    """Times of the discharges of a bearing in the trace, in the unit of the axis; voltages [V]."""
+    own, begin = events_of(result, b), _begin(result)
+    here = own[(own[:, ON] >= begin) & (own[:, ON] <= begin + _span(result))]
+    return _times(result, here[:, ON]), here[:, VOLTAGE]
+
+
+def _begin(result: DriveResult) -> float:
+    """Begin of the trace [s]."""
+    trace = result.solution.record.trace
+    return max(float(trace[0, 0]), 0.0) if len(trace) else 0.0
+
+
+def _around_zero(title: str, unit: str, curves: list[Curve], largest: float) -> Panel:
+    top = _ROOM * largest or 1.0
+    return Panel(title, unit, curves, top, -top)
+
+
+def _span(result: DriveResult) -> float:
+    """Time that the trace covers [s]."""
+    trace = result.solution.record.trace
+    return float(trace[-1, 0]) - _begin(result) if len(trace) > 1 else 1e-12
+
+
+def _times(result: DriveResult, times: Array | None = None) -> Array:
+    """Times [s], or those of the trace, from its begin in the unit of the axis."""
+    factor, _ = unit_for(_span(result), "s", least=1.0)
+    since: Array = (result.solution.record.trace[:, 0] if times is None else times) - _begin(result)
+    return factor * since
+
+
+def source_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
+    """Draw the common-mode voltage of the source over a short time, without its ringing."""
+    return _draw(source_panel(result), result, ax)
+
+
+def bearing_voltage(result: DriveResult, ax: Axes | None = None, *, b: int) -> Axes:
+    """Draw the voltage across the films of bearing ``b``, 0 at the drive end, and mark its discharges."""
+    return _draw(bearing_panel(result, b), result, ax)
+
+
+# Panels of the figure, from top to bottom.
+VOLTAGE_PANELS: tuple[Callable[[DriveResult, Axes], Axes], ...] = (
+    source_voltage,
+    *(partial(bearing_voltage, b=b) for b in range(2)),
+)
+
+
+def legend_of(axes: list[Axes]) -> None:
+    """Legend above the first panel, with what any of the panels shows."""
+    found: dict[str, Artist] = {}
+    for ax in axes[1:]:
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            if label not in NAMES:
+                found.setdefault(label, handle)
+    if found:
+        legend_above(axes[0], list(found.values()))
+
+
+def _draw(panel: Panel, result: DriveResult, ax: Axes | None) -> Axes:
+    ax = axes_or_new(ax)
+    draw_panel(panel, ax, time_axis(result))
+    for line in ax.get_lines():
+        # The trace ends with a discharge, whose mark would be cut at the edge.
+        line.set_clip_on(line.get_marker() == "None")
+    return ax
+
+
+# Quantities of a discharge, and their columns of a record.
+QUANTITIES = (("voltage", VOLTAGE), ("charge", CHARGE), ("energy", ENERGY), ("peak_current", PEAK))
+
+# Number of bins of a distribution, and values outside of which lie too few discharges to be seen [%].
+_LEAST_EVENTS, _MOST = 8, 40
+_SHOWN = (0.05, 99.95)
+
+# Relative difference of values below which they are shown as nearly equal.
+_NARROW = 0.05
+
+
+def distribution(result: DriveResult, ax: Axes | None = None, *, quantity: int = 0) -> Axes:
+    """Draw how a quantity of the discharges of both bearings is distributed.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of a drive with discharges.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+    quantity : int
+        Number of the quantity in ``QUANTITIES``.
+
+    Returns
+    -------
+    Axes
+        Axes with the share of the discharges of each bearing. Bins have equal ratios where the values differ
+        by more than a factor of 20; the outer ones hold what lies beyond.
+    """
+    ax = axes_or_new(ax)
+    name, column = QUANTITIES[quantity]
+    about = EVENT_KEYS[name]
+    values = [np.abs(events_of(result, b)[:, column]) for b in range(2)]
+    edges, log = bins_of(np.concatenate(values))
+    factor, prefixed = unit_for(float(edges[-1]), about.unit, least=1.0)
+    edges = factor * edges
+    for b, own in enumerate(values):
+        if not own.size:
+            continue
+        counts, _ = np.histogram(np.clip(factor * own, edges[0], edges[-1]), edges)
+        share = 100.0 * counts / own.size
+        if b == 0:
+            ax.stairs(share, edges, color=COLOURS[b], fill=True, alpha=0.35, lw=0.0, label=_label(result, b))
+        ax.stairs(share, edges, color=COLOURS[b], lw=1.1, label="_" if b == 0 else _label(result, b))
+    scale_axis(ax.xaxis, f"{about.label} [{prefixed}]", values=edges, log=log)
+    if not log:
+        ax.xaxis.set_major_locator(MaxNLocator(5))
+    ax.set_xlim(edges[0], edges[-1])
+    ax.set_ylim(0.0, None)
+    ax.set_ylabel("discharges [%]")
+    return ax
+
+
+# Panels of the figure, row by row.
+DISTRIBUTIONS = tuple(partial(distribution, quantity=number) for number in range(len(QUANTITIES)))
+
+
+def legend_of_discharges(axes: list[Axes]) -> None:
+    """Legend above the first panel."""
+    legend_above(axes[0], columns=1)
+
+
+def _label(result: DriveResult, b: int) -> str:
+    return f"{NAMES[b]}: {number_of_events(result, b)} discharges"
+
+
+def bins_of(values: Array) -> tuple[Array, bool]:
+    """Edges of the bins of a distribution of positive values, and whether they have equal ratios.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        Values of all discharges, of which the rarest are left out.
+    """
+    low, high = np.percentile(values[values > 0.0] if np.any(values) else [1.0], _SHOWN)
+    log = is_wide(np.array([low, high]))
+    return _edges(float(low), float(high), values.size, log=log), log
+
+
+def _edges(low: float, high: float, number: int, *, log: bool) -> Array:
+    """Edges of bins, about as many as the square root of the number of values."""
+    bins = int(np.clip(np.sqrt(number), _LEAST_EVENTS, _MOST))
+    if log:
+        return np.asarray(np.geomspace(low, high, bins + 1))
+    room = _NARROW * high if high - low < _NARROW * high else 0.0
+    return np.linspace(low - room, high + room, bins + 1)

@@ -1,1 +1,0 @@
-"""Figures of measurements beside computed values."""

@@ -1,0 +1,436 @@
+"""Figures of sweeps by name and as files, with their findings, and the figure of a sensitivity analysis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.bearing_touching import OF_TIME, time_text
+from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.errors import InputError, shown
+from ehlectric.figures.bearing_figure_files import save_speed_figures
+from ehlectric.figures.figure_names import SENSITIVITY_FIGURE, in_formats, map_files
+from ehlectric.figures.style import axes_or_new, figure_of, legend_above, new_panels, save_figure, style
+from ehlectric.figures.sweep_lines import LinePath, joined, lines_of, value_lines
+from ehlectric.figures.sweep_maps import value_map
+from ehlectric.figures.sweep_points import (
+    TIME_SHARES,
+    held_text,
+    labelled,
+    name_figure,
+    range_text,
+    voltage_text,
+)
+from ehlectric.quantities.formats import Scale, number_text
+from ehlectric.quantities.palette import BLUE, GREY, ORANGE
+from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.result import SweepResults
+from ehlectric.sweep.sensitivity import LEVEL, Sensitivity, sensitivity
+from ehlectric.sweep.slices import Slice, numbers_of, spaced_log, take
+from ehlectric.sweep.sweep_inputs import breakdown_of, ranked_value
+
+
+def of_slice(results: SweepResults, selection: Slice) -> str:
+    """Sentence: range of the drawn value; of a discharge, where breakdown is expected."""
+    margin = selection.margin[np.isfinite(selection.margin)]
+    if not (selection.of_discharge and margin.size):
+        label, scale = labelled(results, selection.value, selection.values)
+        finite = selection.values[np.isfinite(selection.values)]
+        if selection.value in TIME_SHARES:
+            return _of_time(finite)
+        low, high = (number_text(scale.of(float(of(finite)))) for of in (np.min, np.max))
+        ends = low if low == high else f"{low} to {high}"
+        return f"{label.name[:1].upper()}{label.name[1:]}: {ends} {scale.unit}".rstrip()
+    return _of_margins(results, selection, margin) + _intermittent(selection)
+
+
+def _of_time(shares: Array) -> str:
+    """Sentence: range of the shares of time in which contacts short bearings."""
+    low, high = (time_text(float(of(shares))) for of in (np.min, np.max))
+    ends = high if low == high else f"{low.removesuffix(OF_TIME)} to {high}"
+    return f"Contacts short the bearing {ends}"
+
+
+def _intermittent(selection: Slice) -> str:
+    """Clause: the number of points at which contacts open and close, so that no voltage is computed."""
+    count = int(np.sum(selection.intermittent))
+    return f"; at {count} more, contacts open and close (λ < 1), discharges are likely" if count else ""
+
+
+def _of_margins(results: SweepResults, selection: Slice, margin: Array) -> str:
+    """Sentence: where breakdown is expected, from the margins of the points that have one."""
+    below = int(np.sum(margin < 1.0))
+    applied = f"{selection.breakdown.voltage_name} {voltage_text(selection)}"
+    points = f"{margin.size} points" + " with a voltage" * bool(np.any(selection.intermittent))
+    everywhere = f"at all {points}" if margin.size > 1 else "at the point"
+    least, most = (ratio_text(float(of(margin))) for of in (np.min, np.max))
+    if not below:
+        return f"No breakdown expected {everywhere}: minimum margin {least} ({applied})"
+    if below == margin.size:
+        return f"Breakdown expected {everywhere}: maximum margin {most} ({applied})"
+    where = _where(results, selection) or f"at {below} of {margin.size} points"
+    return f"Breakdown expected {where} ({applied})"
+
+
+def _where(results: SweepResults, selection: Slice) -> str:
+    """Clause: the values of x below or above which breakdown is expected, if there is one for each line."""
+    log_x = spaced_log(results, selection.x, selection.along)
+    numbers = selection.y is not None and selection.numeric
+    log_y = numbers and spaced_log(results, str(selection.y), np.array(selection.across))
+    margins = replace(selection, value=selection.breakdown.margin)
+    lines = lines_of(margins, log=log_y)
+    if not joined(margins, lines):
+        return ""
+    path = LinePath(results, margins, log_x, log_y)
+    crossings = [crossing(*path.values(line)) for line in lines]
+    found = [one for one in crossings if one is not None]
+    sides = {side for _, side in found}
+    if len(found) < len(lines) or len(sides) > 1:
+        return ""
+    label, scale = labelled(results, selection.x, selection.along)
+    places = sorted(scale.of(at) for at, _ in found)
+    texts = list(dict.fromkeys(f"{float(f'{places[k]:.3g}'):g}" for k in (0, -1)))
+    clause = f"{sides.pop()} {' to '.join(texts)} {scale.unit or label.name}"
+    if len(texts) == 1 or selection.y is None:
+        return clause
+    return f"{clause}, depending on {label_of(selection.y, results.case).name}"
+
+
+def crossing(x: Array, margin: Array) -> tuple[float, str] | None:
+    """Place at which a margin passes 1, with "below" or "above" for the side of breakdown.
+
+    None where it does not pass 1 exactly once, or has gaps.
+
+    Examples
+    --------
+    >>> crossing(np.array([1.0, 2.0, 3.0]), np.array([0.5, 0.9, 1.1]))
+    (2.5, 'below')
+    """
+    if not np.all(np.isfinite(margin)):
+        return None
+    low = margin < 1.0
+    (changes,) = np.nonzero(low[:-1] != low[1:])
+    if changes.size != 1:
+        return None
+    k = int(changes[0])
+    part = (1.0 - margin[k]) / (margin[k + 1] - margin[k])
+    return round(float(x[k] + part * (x[k + 1] - x[k])), 12), "below" if low[0] else "above"
+
+
+def of_sensitivity(results: SweepResults, analysis: Sensitivity) -> str:
+    """Sentence: the input with the largest part of the variance, and the share of samples that break down."""
+    most: Any = max(analysis.indices, key=lambda index: index.total)
+    value = label_of(analysis.value, results.case).name
+    name = label_of(most.key, results.case).name
+    text = f"{name[:1].upper()}{name[1:]} has {100.0 * most.total:.0f} % of the variance"
+    if analysis.share_below_voltage is None:
+        return f"{text} of the {value}"
+    voltage = breakdown_of(results.case, analysis.value).voltage_name
+    return f"{text}; {100.0 * analysis.share_below_voltage:.3g} % of the samples are below the {voltage}"
+
+
+# Probabilities marked in the distribution.
+_MARKED = (0.05, 0.5, 0.95)
+
+# An index is drawn as 0 if its interval contains 0 or it is below _ZERO, and if the interval is within
+# _NOTHING of 0.
+_ZERO, _NOTHING = 0.01, 0.05
+
+
+def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
+    """Draw the cumulative distribution of a value, with its 5, 50 and 95 % quantiles.
+
+    For a breakdown voltage or a margin, the applied voltage is drawn too.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of the design "sobol".
+    analysis : Sensitivity
+        Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the share of samples below each value. The samples are the solved points of A and B.
+    """
+    ax = axes_or_new(ax)
+    samples = np.sort(_drawn(results, analysis.value))
+    label, scale = labelled(results, analysis.value, samples)
+    shares = np.arange(1, samples.size + 1) / samples.size
+    ax.step(scale.of(samples), shares, where="post", color=BLUE)
+    marked = [scale.of(analysis.spread.quantiles[q]) for q in _MARKED]
+    ax.vlines(marked, 0.0, _MARKED, color=BLUE, lw=0.8, ls=":")
+    (dots,) = ax.plot(marked, _MARKED, ls="none", marker="o", ms=4.0, color=BLUE)
+    text = ", ".join(f"{100.0 * q:g}" for q in _MARKED) + " %: "
+    text += ", ".join(f"{at:.3g}" for at in marked)
+    dots.set_label(f"{text} {scale.unit}".rstrip())
+    handles: list[Artist] = [dots]
+    if analysis.share_below_voltage is not None:
+        handles.append(_applied(results, analysis, ax, scale))
+    ax.set(xlabel=label.axis(scale), ylabel=f"share of {samples.size} samples below", ylim=(0.0, 1.04))
+    legend_above(ax, handles, columns=1)
+    return ax
+
+
+def _drawn(results: SweepResults, value: str) -> Array:
+    """Values at the solved points of the matrices A and B of the Sobol design."""
+    values = numbers_of(results, value)[: 2 * results.samples]
+    return np.asarray(values[np.isfinite(values)])
+
+
+def _applied(results: SweepResults, analysis: Sensitivity, ax: Axes, scale: Scale) -> Line2D:
+    """Draw the applied voltage or its range; the title says which part of the samples is below it."""
+    about = breakdown_of(results.case, analysis.value)
+    volts = results.values(about.voltage)[: 2 * results.samples]
+    volts = volts[np.isfinite(volts)]
+    ends = scale.of(np.array([volts.min(), volts.max()])) if analysis.value == about.value else np.ones(2)
+    line = ax.axvline(ends[0], color=ORANGE, lw=1.4, ls="--")
+    if ends[1] > ends[0]:
+        ax.axvspan(*ends, color=ORANGE, alpha=0.2, lw=0.0)
+    line.set_label(f"{about.voltage_name} {range_text(volts, 'V')}")
+    return line
+
+
+def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
+    """Draw the first-order and the total sensitivity index of each input with their confidence intervals.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of the design "sobol".
+    analysis : Sensitivity
+        Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
+    ax : Axes, optional
+        Axes to draw on; axes of a new figure if omitted.
+
+    Returns
+    -------
+    Axes
+        Axes with the indices as bars, the input with the largest total index on top.
+    """
+    ax = axes_or_new(ax)
+    ordered = sorted(analysis.indices, key=lambda index: index.total)
+    rows = np.arange(len(ordered))
+    kinds = (("total", BLUE, 0.19), ("first_order", ORANGE, -0.19))
+    for kind, colour, shift in kinds:
+        middle = np.array([getattr(index, kind) for index in ordered])
+        ends = np.array([getattr(index, f"{kind}_interval") for index in ordered]).T
+        ax.barh(rows + shift, middle, height=0.36, color=colour, label=kind.replace("_", " "))
+        # With few rows, the estimate may lie outside its bootstrap interval.
+        reach = np.maximum([middle - ends[0], ends[1] - middle], 0.0)
+        # Beside a bar of no length, its interval would look like a stray mark.
+        none = (np.abs(middle) < _ZERO) | ((ends[0] <= 0.0) & (ends[1] >= 0.0))
+        drawn = ~none | (np.max(np.abs([middle, *ends]), axis=0) > _NOTHING)
+        look: dict[str, Any] = {"fmt": "none", "ecolor": "black", "elinewidth": 0.9, "capsize": 2.5}
+        ax.errorbar(middle[drawn], (rows + shift)[drawn], xerr=reach[:, drawn], **look)
+        for row in np.flatnonzero(~drawn):
+            ax.text(0.01, rows[row] + shift, "0", va="center", fontsize="small", color=colour)
+    ax.axvline(0.0, color="black", lw=0.7)
+    ax.set_yticks(rows, labels=[label_of(i.key, results.case).name for i in ordered])
+    highest = max(1.0, *(max(i.total_interval[1], i.first_order_interval[1]) for i in ordered))
+    lowest = min(0.0, *(i.first_order_interval[0] for i in ordered))
+    ax.set_xlim(1.05 * lowest, 1.03 * highest)
+    ax.set_xlabel(f"part of the variance\n{100.0 * LEVEL:g} % intervals of {analysis.used} rows")
+    ax.grid(axis="x", color=GREY, alpha=0.25, lw=0.5)
+    ax.set_axisbelow(True)
+    legend_above(ax)
+    return ax
+
+
+def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
+    """Figure of the distribution of a value beside the sensitivity indices of the inputs.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of the design "sobol".
+    analysis : Sensitivity
+        Sensitivity of the results, as ``sensitivity`` gives it.
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+    """
+    with style():
+        high = max(3.4, 1.6 + 0.42 * len(analysis.indices))
+        left, right = new_panels(1, 2, (8.4, high))
+        distribution(results, analysis, left)
+        parts(results, analysis, right)
+        dropped = (
+            f"{analysis.dropped} of {analysis.rows} rows dropped: not solved" if analysis.dropped else ""
+        )
+        doubtful = f"{analysis.doubtful} of {analysis.used} used rows have points that must not be used"
+        more = ", ".join(filter(None, [dropped, doubtful if analysis.doubtful else ""]))
+        name_figure(left, results, of_sensitivity(results, analysis), more)
+    return figure_of(left)
+
+
+def save_sensitivity(
+    results: SweepResults, analysis: Sensitivity, path: Path, formats: Sequence[str] = ("png",)
+) -> list[Path]:
+    """Write the distribution of a value beside the sensitivity indices, as a file of each format."""
+    return save_figure(sensitivity_figure(results, analysis), path, formats)
+
+
+_SPEED = "bearing.inner_speed"
+
+# Functions that draw a value over varied keys, by the first word of the file's name; sizes [inches].
+FIGURES: Mapping[str, Callable[..., Axes]] = {"map": value_map, "lines": value_lines}
+_SIZES = {"map": (6.3, 4.7), "lines": (6.3, 4.3)}
+
+
+def figure(
+    results: SweepResults,
+    name: str,
+    *,
+    x: str = "",
+    y: str | None = None,
+    value: str = "",
+    at: Mapping[str, str] | None = None,
+) -> Figure:
+    """Figure of a sweep.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of the sweep.
+    name : str
+        Name of its file: "map_KEY.png" or "lines_KEY.png" with a dotted key of the summary, or
+        "sensitivity.png".
+    x : str, optional
+        Varied key along the horizontal axis of a map or of lines.
+    y : str, optional
+        Second varied key; a map needs it.
+    value : str, optional
+        Dotted key of the summary whose sensitivity is drawn; by default a breakdown voltage.
+    at : mapping of str to str, optional
+        Values of the other varied keys.
+
+    Returns
+    -------
+    Figure
+        The figure, with its title.
+
+    Raises
+    ------
+    InputError
+        Where there is no figure of this name, or as ``take`` and ``sensitivity`` raise it.
+    """
+    (name,) = in_formats([name])
+    if name == SENSITIVITY_FIGURE:
+        indices = sensitivity(results, value or ranked_value(results.case))
+        return sensitivity_figure(results, indices)
+    kind, _, key = name.removesuffix(".png").partition("_")
+    if kind not in FIGURES or name not in map_files(key):
+        allowed = f"map_KEY.png, lines_KEY.png or {SENSITIVITY_FIGURE}"
+        raise InputError("figure", got=shown(name), takes=allowed)
+    if kind == "map" and y is None:
+        raise InputError.missing("y", "a varied key, for a map")
+    taken = take(results, x, y, key, at)
+    with style():
+        ax = new_panels(1, 1, _SIZES[kind])[0]
+        FIGURES[kind](results, x, y, key, at=at, ax=ax)
+        name_figure(ax, results, of_slice(results, taken), held_text(results, taken))
+    return figure_of(ax)
+
+
+def save_maps(
+    results: SweepResults,
+    x: str,
+    y: str | None,
+    value: str,
+    folder: Path,
+    *,
+    at: Mapping[str, str] | None = None,
+    formats: Sequence[str] = ("png",),
+) -> list[Path]:
+    """Draw a value of a sweep as a map and as lines, as files.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of the sweep.
+    x : str
+        Varied key whose values are numbers.
+    y : str or None
+        Second varied key. There is no map without it, or where its values are texts.
+    value : str
+        Dotted key of the summary.
+    folder : Path
+        Folder of the files; it must exist.
+    at : mapping of str to str, optional
+        Values of the other varied keys.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        As ``take`` raises it.
+    """
+    numeric = take(results, x, y, value, at).numeric
+    pairs = zip(map_files(value), map_files(value, at), strict=True)
+    wanted = [pair for pair in pairs if (y is not None and numeric) or pair[0].startswith("lines_")]
+    return [
+        file
+        for name, path in wanted
+        for file in save_figure(figure(results, name, x=x, y=y, at=at), folder / path, formats)
+    ]
+
+
+def save_speeds(
+    results: SweepResults,
+    taken: Slice,
+    folder: Path,
+    formats: Sequence[str] = ("png",),
+    *,
+    at: Mapping[str, str] | None = None,
+) -> list[Path]:
+    """Draw capacitance and breakdown voltages of bearings over the speed, as files.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of the sweep.
+    taken : Slice
+        Points to draw. Points that are not solved or must not be used are left out.
+    folder : Path
+        Folder of the files; it must exist.
+    formats : sequence of str
+        Formats of the files, of "png", "svg" and "pdf".
+    at : mapping of str to str, optional
+        Values of the other varied keys, for the names of the files.
+
+    Returns
+    -------
+    list of Path
+        Files written; none where the slice is not over the speed of a bearing alone.
+    """
+    if taken.x != _SPEED or taken.y is not None or taken.free:
+        return []
+    points = [
+        (float(speed), dict(point.summary))
+        for speed, point in zip(taken.along, taken.points, strict=True)
+        if point.solved and not point.doubtful and point.summary is not None
+    ]
+    # The title of the case may name values that the sweep changes.
+    title = ", ".join(filter(None, [results.title, held_text(results, taken).removeprefix("at ")]))
+    return save_speed_figures(points, folder, title, formats=formats, at=at) if points else []

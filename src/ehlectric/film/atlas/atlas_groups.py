@@ -1,0 +1,181 @@
+"""Nodes of the atlas: dimensionless groups, the film problems that have them, and the numbers stored of
+each film.
+
+A smooth, fully flooded, isothermal contact has Moes' groups M and L, and for points the ratio k of the
+semi-axes, k = a/b with a across entrainment. The scales of the film equations follow from them alone. For
+lines
+
+    lambda = 3 pi^2/(8 M^2),   alpha p_h = L (M/(2 pi))^(1/2),   H_Moes = (8 M/pi) H,
+
+and for points, with q = (2/pi) R_D(0, k^2, 1) and N = M q^(1/4)/k^(3/4),
+
+    lambda = 4 pi/N^(4/3),   alpha p_h = 3 L M^(1/3)/(2 pi k q^(2/3)),   H_Moes = (q M)^(2/3) H
+
+with H = h R/b^2 and H_Moes = (h/R) (eta0 u_s/(E' R))^(-1/2); R is the radius along entrainment.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from scipy.special import elliprd
+
+from ehlectric.arrays import Array
+from ehlectric.film.deflection import point_geometry
+from ehlectric.film.flow import Fluid
+from ehlectric.film.mesh import Width
+from ehlectric.film.problem import FilmProblem
+from ehlectric.formulas.film_line import LineContact, moes
+from ehlectric.formulas.film_point import PointContact, nijenbanning_venner_moes
+
+# Speed parameter eta0 u_s/(E' R) with which formulas in SI units are evaluated; it cancels.
+_U = 1e-11
+
+# Domain: least inlet and sides in semi-axes, and factors of the length sqrt(2 h R) over which a thick film
+# builds up, at which the domain costs the film at most 0.15 %.
+_INLET, _OUTLET, _INLET_LENGTHS = 4.5, 1.5, 18.0
+_SIDE, _SIDE_LENGTHS = 1.6, 7.0
+
+
+# Tolerance of the scaled residual, at which films change by less than 1e-5, and Newton steps on a grid.
+TOLERANCE = 1e-7
+_STEPS = 40
+
+# Exponent of the load group in the lubricant coordinate Y = L N^(1/6). In bearings L falls and N rises with
+# the viscosity and the speed, so that L and N are correlated, whereas Y and N are hardly so.
+SKEW = 1.0 / 6.0
+
+
+@dataclass(frozen=True)
+class Groups:
+    """Moes' groups of a contact.
+
+    Attributes
+    ----------
+    moes_m, moes_l : float
+        M and L, dimensionless. L is made with the coefficient of ``atlas.coefficient``.
+    ratio : float or None
+        Ratio k of the semi-axes, across over along entrainment; None for a line contact.
+    """
+
+    moes_m: float
+    moes_l: float
+    ratio: float | None = None
+
+    @property
+    def _q(self) -> float:
+        """Factor q = (2/pi) R_D(0, k^2, 1) of b^3 = q F Rx/E'."""
+        assert self.ratio is not None
+        return 2.0 / math.pi * float(elliprd(0.0, self.ratio**2, 1.0))
+
+    @property
+    def radius_ratio(self) -> float:
+        """Ry/Rx, from the ratio of the semi-axes."""
+        assert self.ratio is not None
+        k2 = self.ratio**2
+        return float(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2))
+
+    @property
+    def load_group(self) -> float:
+        """N of a point contact, M of a line contact: the group of the velocity parameter lambda."""
+        if self.ratio is None:
+            return self.moes_m
+        return float(self.moes_m * self._q**0.25 / self.ratio**0.75)
+
+    @property
+    def velocity_parameter(self) -> float:
+        """Velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h)."""
+        if self.ratio is None:
+            return 3.0 * math.pi**2 / (8.0 * self.moes_m**2)
+        return float(4.0 * math.pi / self.load_group ** (4.0 / 3.0))
+
+    @property
+    def hertz_number(self) -> float:
+        """Product alpha p_h, the Hertz pressure in units of 1/alpha."""
+        if self.ratio is None:
+            return self.moes_l * math.sqrt(self.moes_m / (2.0 * math.pi))
+        moved = self.moes_m ** (1.0 / 3.0) / self._q ** (2.0 / 3.0)
+        return float(1.5 / math.pi * self.moes_l * moved / self.ratio)
+
+    @property
+    def thickness_unit(self) -> float:
+        """Film thickness in Moes' unit that corresponds to H = h R/b^2 = 1."""
+        if self.ratio is None:
+            return 8.0 * self.moes_m / math.pi
+        return float((self._q * self.moes_m) ** (2.0 / 3.0))
+
+    @property
+    def formula(self) -> float:
+        """Central film in Moes' unit by the formula of Moes, or of Nijenbanning, Venner and Moes."""
+        speed, coefficient = 0.5 * _U, self.moes_l / _U**0.25
+        if self.ratio is None:
+            line = LineContact(1.0, 1.0, self.moes_m * _U**0.5, speed, 1.0, coefficient)
+            return float(moes(line).central_thickness / _U**0.5)
+        load = self.moes_m * _U**0.75
+        point = PointContact(1.0, self.radius_ratio, 1.0, load, speed, 1.0, coefficient)
+        return float(nijenbanning_venner_moes(point).central_thickness / _U**0.5)
+
+
+def lubricant_coordinate(groups: Groups) -> float:
+    """Coordinate Y = L N^(1/6) of a contact with the load group N, M for a line contact.
+
+    Examples
+    --------
+    >>> lubricant_coordinate(Groups(64.0, 10.0))
+    20.0
+    """
+    return float(groups.moes_l * groups.load_group**SKEW)
+
+
+def film_problem(
+    groups: Groups, laws: tuple[Callable[..., Any], Callable[..., Any]], alpha: float, nodes: int
+) -> FilmProblem:
+    """Dimensionless film problem of a contact with Moes' groups and an oil.
+
+    Parameters
+    ----------
+    groups : Groups
+        Groups of the contact.
+    laws : tuple of callable
+        Viscosity law ln(eta/eta0) and density law rho/rho0 over pressure [Pa].
+    alpha : float
+        Coefficient [1/Pa] with which L is made.
+    nodes : int
+        Number of nodes along and across a point contact, and along a line contact.
+    """
+    pressure = groups.hertz_number / alpha
+    guess = groups.formula / groups.thickness_unit
+    length = math.sqrt(guess)
+    fluid = Fluid(_over(laws[1], pressure), _over(laws[0], pressure), groups.velocity_parameter, 0.0)
+    problem = FilmProblem(
+        fluid,
+        nodes=nodes,
+        inlet=-max(_INLET, _INLET_LENGTHS * length),
+        outlet=_OUTLET if groups.ratio is not None else 2.0,
+        thickness_guess=guess,
+        wedge_order=3,
+        tolerance=TOLERANCE,
+        max_iterations=_STEPS,
+    )
+    if groups.ratio is None:
+        return problem
+    k = groups.ratio
+    load = (groups._q * groups.moes_m) ** (1.0 / 3.0)
+    compliance = 3.0 / math.pi**2 / k * groups.moes_m ** (1.0 / 3.0) * groups._q ** (-2.0 / 3.0) / load
+    least = min(4.5, _SIDE + 1.4 / k)
+    side = max(least * k, _SIDE * k + _SIDE_LENGTHS * length * math.sqrt(groups.radius_ratio))
+    geometry = point_geometry(radius_ratio=1.0 / groups.radius_ratio, ellipse_ratio=k, compliance=compliance)
+    return replace(problem, geometry=geometry, width=Width(nodes=nodes, side=side))
+
+
+def _over(law: Callable[..., Any], pressure: float) -> Callable[[Array], tuple[Array, Array]]:
+    """Law over P = p/``pressure`` from a law over pressure [Pa]."""
+
+    def scaled(ratio: Array) -> tuple[Array, Array]:
+        value, slope = law(pressure * ratio)
+        return value, pressure * slope
+
+    return scaled

@@ -1,0 +1,155 @@
+"""Tables of the atlas: interpolation between its nodes, its error, its range, and nodes filled from their
+neighbours.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import NdBSpline, make_interp_spline
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.errors import InputError
+
+# Numbers of each film, in this order.
+#   central: rho(0) h(0)/rho0 in Moes' unit.           minimum: h_min in Moes' unit.
+#   mean: mean of h over the Hertz zone in Moes' unit. pressure: p(0)/p_h.
+#   zone: mean of rho(0) h(0)/(rho h) over the Hertz zone.
+#   inlet, outlet: integral of dA/h before and behind the middle of the contact, outside the Hertz zone and
+#   inside x from -4.5 b to 1.5 b (lines: -4 b to 2 b) and 1.6 a + 1.4 b (at most 4.5 a) at the sides, over
+#   the same integral of the dry gap plus h(0).
+#   minimum_x, minimum_y: place of the minimum in semi-axes b and a.
+NAMES = ("central", "minimum", "mean", "pressure", "zone", "inlet", "outlet", "minimum_x", "minimum_y")
+
+# The error of a spline through every node over that of a spline through every second one: a sixteenth for
+# smooth values; kinks, where the minimum changes its place or a spike passes the centre, do worse.
+HALVED = 1.0 / 5.0
+
+# Relative distance within which a coordinate is that of a node.
+_ALIKE = 1e-9
+
+# What a coordinate is that is not a group of Moes.
+_MEANING = {"moes_n": " in N, which is M times a function of k", "moes_y": " in Y, which is L N^(1/6)"}
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Films of one kind of contact on a tensor grid in the logarithms of its coordinates.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the coordinates, for messages.
+    axes : tuple of ndarray
+        Nodes along each axis.
+    values, errors : ndarray, shape (..., n)
+        Stored numbers at the nodes, and the errors of their discretisation.
+    solved : ndarray of bool, shape (...)
+        Nodes with a converged film.
+    """
+
+    names: tuple[str, ...]
+    axes: tuple[Array, ...]
+    values: Array
+    errors: Array
+    solved: Mask
+
+    @cached_property
+    def _spline(self) -> NdBSpline:
+        return tensor_spline([np.log(axis) for axis in self.axes], self.values)
+
+    @cached_property
+    def _error(self) -> NdBSpline:
+        """Error of discretisation and interpolation, linear between nodes."""
+        total = self.errors + self.interpolation_errors
+        return tensor_spline([np.log(axis) for axis in self.axes], total, degree=1)
+
+    @cached_property
+    def interpolation_errors(self) -> Array:
+        """Estimated error of interpolation near each node, from a spline through every second node.
+
+        At a node of the coarser grid it is the largest one of its neighbours.
+        """
+        logs = [np.log(axis) for axis in self.axes]
+        # Both ends of an axis belong to every second node, so that nothing is extrapolated.
+        every = [np.unique(np.append(np.arange(0, axis.size, 2), axis.size - 1)) for axis in logs]
+        nodes = [axis[index] for axis, index in zip(logs, every, strict=True)]
+        coarse = tensor_spline(nodes, self.values[np.ix_(*every)])
+        at = np.stack(np.meshgrid(*logs, indexing="ij"), axis=-1)
+        missed = np.where(self.solved[..., np.newaxis], np.abs(coarse(at) - self.values), 0.0)
+        return HALVED * _largest_near(missed)
+
+    def __call__(self, *at: float) -> tuple[Array, Array]:
+        """Stored numbers and their errors at a point, which must lie in the range of the table."""
+        self.check(*at)
+        logs = np.log(at)[np.newaxis]
+        return self._spline(logs)[0], self._error(logs)[0]
+
+    def check_range(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table."""
+        for name, axis, value in zip(self.names, self.axes, at, strict=True):
+            if not axis[0] <= value <= axis[-1]:
+                said = f"{axis[0]:.4g} to {axis[-1]:.4g}, the range of the atlas{_MEANING.get(name, '')}"
+                raise InputError(name, got=f"{value:.4g}", takes=said)
+
+    def check(self, *at: float) -> None:
+        """Raise an InputError for a point outside the table, or in a cell with a node without a film."""
+        self.check_range(*at)
+        cell = []
+        for axis, value in zip(self.axes, at, strict=True):
+            i = int(np.argmin(np.abs(axis - value)))
+            # On a node, as round contacts are, only the node itself decides.
+            j = i if abs(axis[i] - value) <= _ALIKE * value else i + 1 if value > axis[i] else i - 1
+            cell.append(slice(min(i, j), max(i, j) + 1))
+        if not self.solved[tuple(cell)].all():
+            where = ", ".join(f"{name} = {value:.4g}" for name, value in zip(self.names, at, strict=True))
+            raise InputError(
+                "atlas", got=where, takes="a contact near solved ones; the atlas has no film there: solve it"
+            )
+
+
+def tensor_spline(logs: list[Array], values: Array, degree: int = 3) -> NdBSpline:
+    """Spline through values (..., n) on a tensor grid; lower degrees where an axis has few nodes."""
+    knots, degrees, coefficients = [], [], values
+    for number, axis in enumerate(logs):
+        k = min(degree, axis.size - 1)
+        spline = make_interp_spline(axis, np.moveaxis(coefficients, number, 0), k)
+        coefficients = np.moveaxis(spline.c, 0, number)
+        knots.append(spline.t)
+        degrees.append(k)
+    return NdBSpline(tuple(knots), np.ascontiguousarray(coefficients), tuple(degrees))
+
+
+def _largest_near(values: Array) -> Array:
+    """Largest value of a node and its neighbours along each axis but the last."""
+    for axis in range(values.ndim - 1):
+        ends = [(1, 1) if i == axis else (0, 0) for i in range(values.ndim)]
+        wide = np.pad(values, ends, mode="edge")
+        n = values.shape[axis]
+        values = np.maximum.reduce([np.take(wide, range(i, i + n), axis) for i in range(3)])
+    return values
+
+
+@lru_cache(maxsize=1)
+def _file() -> dict[str, Any]:
+    """Content of the data file, read at the first use."""
+    with files(__package__).joinpath("films.npz").open("rb") as file, np.load(file) as arrays:
+        return {name: arrays[name] for name in arrays.files}
+
+
+@lru_cache(maxsize=2)
+def table(kind: str) -> Table:
+    """Table of "points" or "lines"."""
+    data, names = _file(), ("moes_n", "moes_y", "ratio") if kind == "points" else ("moes_m", "moes_y")
+    parts = ("load", "lubricant", "ratio")[: len(names)]
+    return Table(
+        names,
+        tuple(data[f"{kind}_{part}"] for part in parts),
+        np.asarray(data[f"{kind}_values"], dtype=float),
+        np.asarray(data[f"{kind}_errors"], dtype=float),
+        data[f"{kind}_solved"],
+    )

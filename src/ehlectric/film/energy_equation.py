@@ -1,0 +1,877 @@
+"""Energy equation of the film: temperature across the film and on both surfaces, for a film whose pressure
+is given.
+
+Heat balance of the columns of the film as small linear systems, one for each node of the grid.
+In mapped coordinates zeta = z/h, with the filling theta of a cavitated gap,
+
+    theta h rho c (u T_x + v T_y) - c (q_x,x + q_y,y) T_zeta = theta/h (k T_zeta)_zeta + theta h S,
+    q(zeta) = theta h Int_0^zeta rho u,      S = tau_x u_z + tau_y v_z - (T/rho) (d rho/dT) (u p_x + v p_y)
+
+The convection conserves mass, and needs no velocity across the film. Across the film the balance is a weak
+form on Gauss-Lobatto nodes, so that the sum of a column is its balance of heat with both surfaces. Along x
+the convection is an upstream difference of second order where the oil flows forward and of first order where
+it flows back; across the contact it is of first order.
+
+Energy equation of the film with both surfaces: one march along x for all columns across it.
+The march solves the columns from the inlet to the outlet. The fluxes into the bodies at the column itself are
+implicit, those of the columns before it enter by the history of the moving surfaces. In the reverse flow of
+the inlet the columns depend on those behind them; there one banded system of all columns is exact. Three
+parts are taken from the last iterate: the history of the surfaces in the reverse flow, the heat that a slow
+body conducts upstream, and the convection across the contact. The march is repeated for the last two.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
+
+import numpy as np
+from scipy.linalg import lapack, matmul_toeplitz
+from scipy.special import k0e, k1e
+
+from ehlectric.arrays import Array, IntArray
+from ehlectric.film.across_film import Across, Properties, on_mesh
+from ehlectric.film.hot_oil import Body, HotOil
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.shear_flow import Columns
+
+
+@cache
+def derivative(degree: int) -> Array:
+    """Matrix of the derivative by zeta at the nodes of ``Across.of(degree)``.
+
+    Parameters
+    ----------
+    degree : int
+        Degree of the polynomial across the film.
+
+    Returns
+    -------
+    ndarray, shape (nz, nz)
+        Exact for polynomials of this degree; its rows sum to zero.
+
+    Notes
+    -----
+    J.-P. Berrut and L. N. Trefethen, SIAM Rev. 46 (2004) 501, doi:10.1137/S0036144502417715, section 9.3.
+
+    Examples
+    --------
+    >>> zeta = Across.of(4).zeta
+    >>> bool(np.allclose(derivative(4) @ zeta**3, 3.0 * zeta**2))
+    True
+    """
+    zeta = Across.of(degree).zeta
+    apart = zeta[:, np.newaxis] - zeta + np.eye(zeta.size)
+    scale = 1.0 / np.prod(apart, axis=1)
+    matrix = scale / scale[:, np.newaxis] / apart
+    matrix -= np.diag(np.diag(matrix))
+    return np.asarray(matrix - np.diag(matrix.sum(axis=1)))
+
+
+def conduction(across: Across, conductivity: Array) -> Array:
+    """Matrix of conduction across the film in its weak form, the integral of k T' phi' over zeta.
+
+    Parameters
+    ----------
+    across : Across
+        Nodes across the film.
+    conductivity : ndarray, shape (nz, ...)
+        Thermal conductivity at the nodes.
+
+    Returns
+    -------
+    ndarray, shape (..., nz, nz)
+        Symmetric matrix; its rows sum to zero.
+
+    Examples
+    --------
+    A linear temperature conducts the same heat through both surfaces:
+
+    >>> nodes = Across.of(4)
+    >>> heat = conduction(nodes, np.full(5, 2.0)) @ nodes.zeta
+    >>> bool(np.allclose(heat, [-2.0, 0.0, 0.0, 0.0, 2.0]))
+    True
+    """
+    slope = derivative(across.zeta.size - 1)
+    weighted = np.moveaxis(conductivity, 0, -1) * across.weights
+    return np.asarray(slope.T @ (weighted[..., np.newaxis] * slope))
+
+
+# Peclet number u b/(2 kappa) above which the fast limit replaces the exact solution: they differ by less than
+# 1e-3 there, and the fast limit does not act upstream.
+_FAST = 1000.0
+
+# Least Peclet number. The temperature of a body at rest under a line contact has no steady state; it rises as
+# the logarithm of time.
+_SLOWEST = 0.01
+
+# Influence upstream over that downstream above which a body counts as slow.
+_SLOW = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Surface of a moving half-space on a uniform grid along its motion.
+
+    Attributes
+    ----------
+    bulk : float
+        Temperature of the body far from the contact [K].
+    downstream : ndarray, shape (nx,)
+        Temperature rise at 0, 1, ... cells behind a cell with unit flux [K m^2/W].
+    upstream : ndarray, shape (nx,)
+        Temperature rise at 0, 1, ... cells before a cell with unit flux; the first is zero, as the cell
+        itself belongs to ``downstream``.
+    """
+
+    bulk: float
+    downstream: Array
+    upstream: Array
+
+    @property
+    def is_slow(self) -> bool:
+        """Whether a flux heats much of the surface upstream of itself."""
+        return float(self.upstream.sum()) > _SLOW * float(self.downstream.sum())
+
+    def rise(self, flux: Array) -> Array:
+        """Temperature rise (nx, ny) [K] by a flux (nx, ny) into the body [W/m^2]."""
+        return np.asarray(self.downstream[0] * flux + self.rise_behind(flux) + self.rise_ahead(flux))
+
+    def rise_behind(self, flux: Array) -> Array:
+        """Part of the temperature rise (n, ny) [K] at the first n nodes by the flux further upstream."""
+        nodes = len(flux)
+        column = np.concatenate([[0.0], self.downstream[1:nodes]])
+        return np.asarray(matmul_toeplitz((column, np.zeros(nodes)), flux))
+
+    def rise_ahead(self, flux: Array) -> Array:
+        """Part of the temperature rise (nx, ny) [K] by the flux further downstream."""
+        if not self.upstream.any():
+            return np.zeros_like(flux)
+        return np.asarray(matmul_toeplitz((np.zeros(self.upstream.size), self.upstream), flux))
+
+
+def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half_width: float) -> Surface:
+    """Surface of a body that moves along x under a flux that is constant in each cell of a grid.
+
+    Parameters
+    ----------
+    body : Body
+        Thermal properties and bulk temperature.
+    speed : float
+        Speed along x [m/s], >= 0.
+    nodes : int
+        Number of nodes nx; each is the middle of its cell.
+    spacing : float
+        Length of a cell [m].
+    half_width : float
+        Half-width of the contact [m], the length of the Peclet number.
+
+    Returns
+    -------
+    Surface
+        Influence of the flux in a cell on the temperature at the nodes.
+
+    Notes
+    -----
+    H. S. Carslaw and J. C. Jaeger, Conduction of Heat in Solids, 2nd ed., Oxford 1959, sections 2.9 (fast
+    limit) and 10.7: a line source on a half-space gives T = Q/(pi k) exp(xi) K0(abs(xi)), xi = u x/(2 kappa).
+    The integral over a cell is in closed form, as d/dxi [xi exp(xi) (K0 + K1)] = exp(xi) K0.
+
+    Examples
+    --------
+    Far downstream of the front the fast limit is 2 q sqrt(x/(pi rho c k u)), exactly at the nodes:
+
+    >>> steel = Body(300.0, 46.0, 470.0, 7850.0)
+    >>> surface = moving_surface(steel, 50.0, nodes=100, spacing=1e-5, half_width=1e-3)
+    >>> x = 1e-5 * (np.arange(100) + 0.5)
+    >>> exact = 2.0 * 1e8 * np.sqrt(x / (np.pi * 7850.0 * 470.0 * 46.0 * 50.0))
+    >>> bool(np.allclose(surface.rise(np.full((100, 1), 1e8))[:, 0], exact))
+    True
+    """
+    edges = spacing * (np.arange(nodes + 1, dtype=np.float64) - 0.5)
+    per_length = speed / (2.0 * body.diffusivity)
+    if per_length * half_width > _FAST:
+        scale = np.sqrt(np.pi * body.density * body.heat_capacity * body.thermal_conductivity * speed)
+        downstream = np.diff(2.0 * np.sqrt(np.maximum(edges, 0.0))) / scale
+        return Surface(body.temperature, downstream, np.zeros(nodes))
+    per_length = max(per_length, _SLOWEST / half_width)
+    scale = np.pi * body.thermal_conductivity * per_length
+    downstream = np.diff(_line_source(per_length * edges)) / scale
+    upstream = np.diff(-_line_source(-per_length * edges)) / scale
+    upstream[0] = 0.0
+    return Surface(body.temperature, downstream, upstream)
+
+
+def _line_source(xi: Array) -> Array:
+    """Integral of exp(t) K0(abs(t)) from 0 to xi, of any sign."""
+    size = np.abs(xi)
+    near = np.where(size > 0.0, size, 1.0)
+    k0, k1 = k0e(near), k1e(near)
+    behind = near * (k0 + k1) - 1.0
+    ahead = -(near * np.exp(-2.0 * near) * (k0 - k1) + 1.0)
+    return np.where(size > 0.0, np.where(xi > 0.0, behind, ahead), 0.0)
+
+
+# Smallest eigenvalue of the matrix of the cosines between differences, over the largest one.
+_DEPENDENT = 1e-12
+
+
+class Mixing:
+    """Anderson acceleration: the next iterate from the last few iterates and their images.
+
+    The combination of the last images is taken whose change is smallest in a weighted norm of least squares.
+
+    Parameters
+    ----------
+    depth : int
+        Number of earlier iterates.
+    weights : ndarray, shape (n,), or float
+        Weights of the components in the norm.
+
+    Notes
+    -----
+    D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305.
+
+    Examples
+    --------
+    A linear map of two unknowns is solved after three images:
+
+    >>> mixing, x = Mixing(depth=5), np.zeros(2)
+    >>> for _ in range(4):
+    ...     x = mixing(x, np.array([[0.5, 0.4], [-0.3, 0.9]]) @ x + 1.0)
+    >>> bool(np.allclose(x, np.linalg.solve([[0.5, -0.4], [0.3, 0.1]], np.ones(2))))
+    True
+    """
+
+    def __init__(self, depth: int = 5, weights: Array | float = 1.0) -> None:
+        self._depth = depth
+        self._weights = weights
+        self._images: list[Array] = []
+        self._changes: list[Array] = []
+
+    def __call__(self, point: Array, image: Array) -> Array:
+        """Next iterate from an iterate and its image, both (n,)."""
+        change = image - point
+        self._images.append(image)
+        self._changes.append(change)
+        del self._images[: -self._depth - 1], self._changes[: -self._depth - 1]
+        if len(self._changes) == 1:
+            return image
+        differences = np.stack([change - other for other in self._changes[:-1]])
+        differences *= self._weights
+        # The differences shrink from iterate to iterate: they are compared by direction.
+        lengths = np.maximum(np.linalg.norm(differences, axis=1), 1e-300)
+        products = differences @ differences.T / np.outer(lengths, lengths)
+        wanted = differences @ (self._weights * change) / lengths
+        # Nearly dependent differences are left out: they would combine far iterates with large factors.
+        factors = np.linalg.lstsq(products, wanted, rcond=_DEPENDENT)[0] / lengths
+        following = np.array(image)
+        for factor, other in zip(factors, self._images[:-1], strict=True):
+            following -= factor * (image - other)
+        return following
+
+    def forget(self) -> None:
+        """Start anew from the next iterate."""
+        self._images.clear()
+        self._changes.clear()
+
+
+# Flow of mass over the largest one of its column that is zero but for rounding.
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class Stream:
+    """Flow and properties of the oil in all columns, SI units.
+
+    Arrays have the shape (nz, nx, ny), or (nx, ny) for quantities of a node. A symmetric contact has its
+    line of symmetry at the first line.
+
+    Attributes
+    ----------
+    across : Across
+        Nodes across the film.
+    dx, dy : float
+        Spacings of the grid [m]; ``dy`` is zero for a line contact.
+    symmetric : bool
+        Whether the grid covers only the half y >= 0.
+    thickness, filling : ndarray, shape (nx, ny)
+        Film thickness h [m], and the share theta of it that oil fills.
+    u, v : ndarray
+        Velocities along and across entrainment [m/s].
+    density, heat_capacity, conductivity : ndarray
+        Density [kg/m^3], volumetric heat capacity rho c [J/(m^3 K)] and thermal conductivity [W/(m K)].
+    heating, heating_slope : ndarray
+        Shear heating [W/m^3], and its derivative by temperature at a fixed shear rate [W/(m^3 K)].
+    compression : ndarray
+        -(1/rho) (d rho/dT) (u p_x + v p_y) [W/(m^3 K)]; times T it is the heating by compression.
+    compression_p : ndarray
+        Derivative of ``compression`` by the pressure at its own node [1/(s K)].
+    """
+
+    across: Across
+    dx: float
+    dy: float
+    symmetric: bool
+    thickness: Array
+    filling: Array
+    u: Array
+    v: Array
+    density: Array
+    heat_capacity: Array
+    conductivity: Array
+    heating: Array
+    heating_slope: Array
+    compression: Array
+    compression_p: Array
+
+
+@dataclass(frozen=True, eq=False)
+class HeatColumns:
+    """Linear systems A_i T_i = r_i + b_i T_(i-1) + bb_i T_(i-2) + f_i T_(i+1) of the columns of a film.
+
+    Attributes
+    ----------
+    matrix : ndarray, shape (nx, ny, nz, nz)
+        Matrix A without the heat that flows into the bodies [W/(m^2 K)].
+    right : ndarray, shape (nx, ny, nz)
+        Sources [W/m^2].
+    right_p : ndarray, shape (nx, ny, nz)
+        Derivative of the sources by the pressure at the node of the column [W/(m^2 Pa)].
+    before, second, after : ndarray, shape (nx, ny, nz)
+        Factors b, bb and f of the columns upstream and downstream.
+    from_left, from_right : ndarray, shape (nx, ny, nz)
+        Factors of the columns at smaller and at larger y.
+    """
+
+    matrix: Array
+    right: Array
+    right_p: Array
+    before: Array
+    second: Array
+    after: Array
+    from_left: Array
+    from_right: Array
+
+    @classmethod
+    def of(cls, stream: Stream, temperature: Array) -> HeatColumns:
+        """Columns for a flow, linearised about a temperature (nz, nx, ny) [K].
+
+        Shear heating is linearised at a fixed shear rate. Cooling by expansion is implicit; heating by
+        compression is explicit.
+        """
+        across, filled = stream.across, stream.filling * stream.thickness
+        volume = across.weights[:, np.newaxis, np.newaxis] * filled
+        specific = stream.heat_capacity / stream.density
+        flow = _Convection.of(stream)
+        carried = across.weights[:, np.newaxis, np.newaxis] * specific
+        cooling = np.minimum(stream.compression, 0.0)
+        warming = np.maximum(stream.compression, 0.0)
+        neighbours = [carried * part for part in flow.neighbours]
+        diagonal = sum(neighbours) - volume * (stream.heating_slope + cooling)
+        source = volume * (stream.heating - stream.heating_slope * temperature + warming * temperature)
+        upward = specific * np.tensordot(across.cumulative, flow.divergence, axes=1)
+        # In the wide gap far upstream the nodes do not resolve the layers between forward and reverse flow.
+        # Conduction that brings the Peclet number of a cell down to two keeps the temperature there bounded.
+        # The flow in it is the larger one of the sums from both surfaces.
+        cell = np.gradient(across.zeta)[:, np.newaxis, np.newaxis]
+        conducted = stream.filling / stream.thickness * stream.conductivity
+        larger = np.maximum(np.abs(upward), np.abs(upward - upward[-1]))
+        matrix = conduction(across, np.maximum(conducted, 0.5 * larger * cell))
+        # No oil passes surface b; the discrete balance of mass at a node is another one than here.
+        upward -= across.zeta[:, np.newaxis, np.newaxis] * upward[-1]
+        upward *= across.weights[:, np.newaxis, np.newaxis]
+        matrix -= _last(upward)[..., np.newaxis] * derivative(across.zeta.size - 1)
+        index = np.arange(across.zeta.size)
+        matrix[..., index, index] += _last(diagonal)
+        source_p = volume * stream.compression_p * temperature
+        return cls(matrix, *(_last(part) for part in (source, source_p, *neighbours)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Convection:
+    """Mass that flows to each node from its neighbours, over the spacing, (nz, nx, ny) [kg/(m^2 s)].
+
+    D(m T) - T D(m) with the upstream difference D of the mass flow m: the factors of the neighbours, whose
+    sum is that of the node itself, and the divergence D(m). The heat of the whole film is thereby in balance.
+    """
+
+    neighbours: tuple[Array, ...]  # of the columns i - 1, i - 2, i + 1 and of the lines j - 1 and j + 1
+    divergence: Array
+
+    @classmethod
+    def of(cls, stream: Stream) -> _Convection:
+        """Convection of a stream."""
+        mass = stream.filling * stream.thickness * stream.density
+        forward, back = _parts(mass * stream.u / stream.dx)
+        # The columns upstream of the first one have the inlet temperature, and the flow of the first column.
+        one = np.concatenate([forward[:, :1], forward[:, :-1]], axis=1)
+        two = np.concatenate([one[:, :1], one[:, :-1]], axis=1)
+        ahead = np.concatenate([back[:, 1:], np.zeros_like(back[:, :1])], axis=1)
+        divergence = 1.5 * forward - 2.0 * one + 0.5 * two + back - ahead
+        divergence[:, -1] = (1.5 * forward - 2.0 * one + 0.5 * two)[:, -1]
+        left = right = np.zeros_like(forward)
+        if stream.dy:
+            upward, down = _parts(mass * stream.v / stream.dy)
+            first = down[..., 1:2] if stream.symmetric else upward[..., :1]
+            left = np.concatenate([first, upward[..., :-1]], axis=2)
+            right = np.concatenate([down[..., 1:], down[..., -1:]], axis=2)
+            divergence += upward - left + down - right
+        return cls((2.0 * one, -0.5 * two, ahead, left, right), divergence)
+
+
+def _parts(flow: Array) -> tuple[Array, Array]:
+    """Parts of a flow towards larger and towards smaller positions, both not negative."""
+    # At a surface at rest the flow is zero but for rounding, and rounding is no reverse flow.
+    flow = np.where(np.abs(flow) > _ROUNDING * np.max(np.abs(flow), axis=0), flow, 0.0)
+    return np.maximum(flow, 0.0), np.maximum(-flow, 0.0)
+
+
+def _last(values: Array) -> Array:
+    """Values (nz, nx, ny) with the axis across the film last."""
+    return np.ascontiguousarray(np.moveaxis(values, 0, -1))
+
+
+def stream_of(
+    oil: HotOil,
+    columns: Columns,
+    temperature: Array,
+    *,
+    pressure: Array,
+    thickness: Array,
+    filled: Array,
+    mesh: Mesh,
+    length: float,
+    pressure_scale: float,
+    speed: float,
+    stress: float,
+) -> Stream:
+    """Flow and properties of the oil, SI units.
+
+    Parameters
+    ----------
+    oil : HotOil
+        Oil over pressure and temperature.
+    columns : Columns
+        Dimensionless stresses and speeds across the film.
+    temperature : ndarray, shape (nz, nx, ny)
+        Temperature [K].
+    pressure, thickness : ndarray, shape (nx, ny)
+        Pressure [Pa] and film thickness [m].
+    filled : ndarray, shape (nx, ny)
+        Share of the gap that oil fills.
+    mesh : Mesh
+        Grid.
+    length, pressure_scale, speed, stress : float
+        Half-width b [m], Hertz pressure [Pa], entrainment speed [m/s], and scale of the stresses [Pa].
+
+    Returns
+    -------
+    Stream
+        Velocities, properties and sources of heat.
+    """
+    u, v = speed * columns.speed
+    viscosity = oil.log_viscosity(pressure, temperature)
+    density = oil.density(pressure, temperature)
+    heating = columns.heating * (stress * speed / thickness)
+    along = upstream_slope(pressure, u, mesh.dx * length)
+    across = columns.gradient[1] * (pressure_scale / length)
+    expansion = -density.by_temperature / density.value
+    return Stream(
+        across=columns.across,
+        dx=mesh.dx * length,
+        dy=0.0 if mesh.dy is None else mesh.dy * length,
+        symmetric=mesh.symmetric,
+        thickness=thickness,
+        filling=filled,
+        u=u,
+        v=v,
+        density=density.value,
+        heat_capacity=oil.heat_capacity(pressure, temperature).value,
+        conductivity=oil.thermal_conductivity(pressure, temperature).value,
+        heating=heating,
+        heating_slope=np.minimum(0.0, heating * columns.softening * viscosity.by_temperature),
+        compression=np.where(filled < 1.0, 0.0, expansion * (u * along + v * across)),
+        compression_p=np.where(filled < 1.0, 0.0, expansion * np.abs(u) / (mesh.dx * length)),
+    )
+
+
+def upstream_slope(pressure: Array, u: Array, dx: float) -> Array:
+    """Slope of the pressure along the way that the oil has come.
+
+    Heat of compression from the node upstream to this one depends on no pressure further downstream. The
+    difference is of first order: one of second order overshoots behind the pressure spike, where the oil
+    cools by expansion within two nodes.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Pressure [Pa].
+    u : ndarray, shape (nz, nx, ny)
+        Velocity along x [m/s].
+    dx : float
+        Spacing [m].
+
+    Returns
+    -------
+    ndarray, shape (nz, nx, ny)
+        Upstream difference [Pa/m].
+
+    Examples
+    --------
+    >>> pressure = np.array([[0.0], [1.0], [4.0], [9.0]])
+    >>> upstream_slope(pressure, np.array([1.0, -1.0]).reshape(2, 1, 1), 1.0)[:, 2, 0].tolist()
+    [3.0, 5.0]
+    """
+    rises = np.diff(pressure, axis=0) / dx
+    edge = np.zeros_like(pressure[:1])
+    return np.where(u > 0.0, np.concatenate([edge, rises]), np.concatenate([rises, edge]))
+
+
+# Largest number of marches, and the change of temperature [K] at which they stand.
+_MARCHES, _STANDS = 25, 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Heat:
+    """Temperature of the film and heat flow into both bodies.
+
+    Attributes
+    ----------
+    temperature : ndarray, shape (nz, nx, ny)
+        Temperature [K] at the nodes across the film; the first and the last are the surfaces.
+    flux : ndarray, shape (2, nx, ny)
+        Heat flow into body a and body b [W/m^2].
+    by_pressure : ndarray, shape (nz, nx, ny)
+        Derivative of the temperature by the pressure at its own node, by heat of compression [K/Pa]; zero in
+        the columns with reverse flow and before them.
+    """
+
+    temperature: Array
+    flux: Array
+    by_pressure: Array
+
+
+def solve_energy(
+    columns: HeatColumns,
+    surfaces: tuple[Surface, Surface],
+    last: Heat,
+    *,
+    inlet_temperature: float,
+    symmetric: bool = False,
+    marches: int = _MARCHES,
+    enough: float = 0.02,
+) -> Heat:
+    """Temperature of the film for a given flow.
+
+    Parameters
+    ----------
+    columns : HeatColumns
+        Linear systems of the columns.
+    surfaces : tuple of Surface
+        Surfaces a and b.
+    last : Heat
+        Last iterate.
+    inlet_temperature : float
+        Temperature of the oil that enters [K].
+    symmetric : bool
+        Whether the first line is a line of symmetry.
+    marches : int
+        Largest number of marches.
+    enough : float
+        Change of temperature in a march, over that in the first one, at which to stop.
+
+    Returns
+    -------
+    Heat
+        Temperature and heat flow into the bodies.
+    """
+    march = _March.of(columns, surfaces)
+    lagged = any(surface.is_slow for surface in surfaces) or bool(columns.from_left.any())
+    now, mixing, first = last, Mixing(), 0.0
+    for _ in range(marches if lagged else 1):
+        new = march(now, inlet_temperature, symmetric=symmetric)
+        change = float(np.max(np.abs(new.temperature - now.temperature)))
+        first = max(first, change)
+        if not change > max(_STANDS, enough * first):
+            break
+        mixed = mixing(
+            np.concatenate([now.temperature.ravel(), now.flux.ravel()]),
+            np.concatenate([new.temperature.ravel(), new.flux.ravel()]),
+        )
+        size = now.temperature.size
+        temperature, flux = mixed[:size].reshape(now.temperature.shape), mixed[size:].reshape(now.flux.shape)
+        now = replace(now, temperature=temperature, flux=flux)
+    return replace(new, by_pressure=march.by_pressure)
+
+
+@dataclass(frozen=True, eq=False)
+class _March:
+    """Factorised columns: a banded system up to the end of the reverse flow, and inverses behind it.
+
+    Behind the reverse flow the temperatures of a column and its fluxes into the bodies are a known part plus
+    ``chain`` times the temperatures of the two columns before it and the rise of both surfaces by the fluxes
+    before it.
+    """
+
+    columns: HeatColumns
+    surfaces: tuple[Surface, Surface]
+    entry: _Entry | None
+    inverse: Array  # of the n columns behind the entry, (n, ny, nz, nz)
+    chain: Array  # (n, ny, nz + 2, 2 nz + 2)
+
+    @classmethod
+    def of(cls, columns: HeatColumns, surfaces: tuple[Surface, Surface]) -> _March:
+        matrix, own = columns.matrix.copy(), _own(surfaces)
+        nz = len(matrix[0, 0])
+        for row, resistance in zip((0, -1), own, strict=True):
+            matrix[..., row, row] += 1.0 / resistance
+        back = np.flatnonzero(np.any(columns.after[:-1], axis=(1, 2)))
+        entry = _Entry.of(matrix, columns, int(back[-1]) + 2) if back.size else None
+        behind = slice(entry.count if entry else 0, None)
+        inverse: Array = np.asarray(np.linalg.inv(matrix[behind]), dtype=np.float64)
+        chain = np.empty((*inverse.shape[:2], nz + 2, 2 * nz + 2))
+        chain[..., :nz, :nz] = inverse * columns.second[behind, :, np.newaxis]
+        chain[..., :nz, nz:-2] = inverse * columns.before[behind, :, np.newaxis]
+        chain[..., :nz, -2:] = inverse[..., :: nz - 1] / own
+        chain[..., nz:, :] = chain[..., : nz : nz - 1, :] / own[:, np.newaxis]
+        chain[..., nz:, -2:] -= np.diag(1.0 / own)
+        return cls(columns, surfaces, entry, inverse, chain)
+
+    def __call__(self, last: Heat, inlet_temperature: float, *, symmetric: bool) -> Heat:
+        columns, surfaces, own = self.columns, self.surfaces, _own(self.surfaces)
+        nx, ny, nz = columns.right.shape
+        old = np.moveaxis(last.temperature, 0, -1)
+        right = columns.right + self._from_sides(old, inlet_temperature, symmetric=symmetric)
+        # Surface temperatures (nx, ny, 2) without the fluxes at the column itself and, so far, before it.
+        rest = np.stack([s.bulk + s.rise_ahead(q) for s, q in zip(surfaces, last.flux, strict=True)], axis=-1)
+        # Temperatures along each line, with two columns of the inlet temperature before the first one.
+        new = np.full((ny, (nx + 2) * nz + 2), inlet_temperature)
+        columns_of = new[:, 2 * nz : -2].reshape(ny, nx, nz)
+        flux = np.ascontiguousarray(last.flux.swapaxes(1, 2))
+        start = 0
+        if self.entry is not None:
+            start = self.entry.count
+            before = [s.rise_behind(q[:start]) for s, q in zip(surfaces, last.flux, strict=True)]
+            rest[:start] += np.stack(before, axis=-1)
+            right[:start, :, :: nz - 1] += rest[:start] / own
+            found = self.entry(right[:start], inlet_temperature)
+            columns_of[:, :start] = found.swapaxes(0, 1)
+            flux[..., :start] = ((found[..., :: nz - 1] - rest[:start]) / own).transpose(2, 1, 0)
+        right[start:, :, :: nz - 1] += rest[start:] / own
+        known = (self.inverse @ right[start:, ..., np.newaxis])[..., 0]
+        known = np.concatenate([known, (known[..., :: nz - 1] - rest[start:]) / own], axis=-1)
+        tails = np.stack([surface.downstream[::-1, np.newaxis] for surface in surfaces])
+        for i, chain, part in zip(range(start, nx), self.chain, known, strict=True):
+            place = (i + 2) * nz
+            # Until the column is known, its place holds the rise of both surfaces.
+            new[:, place : place + 2] = (flux[..., :i] @ tails[:, nx - 1 - i : nx - 1])[..., 0].T
+            column = (chain @ new[:, place - 2 * nz : place + 2, np.newaxis])[..., 0] + part
+            new[:, place : place + nz], flux[..., i] = column[:, :nz], column[:, nz:].T
+        temperature = np.ascontiguousarray(columns_of.transpose(2, 1, 0))
+        return replace(last, temperature=temperature, flux=np.ascontiguousarray(flux.swapaxes(1, 2)))
+
+    @property
+    def by_pressure(self) -> Array:
+        """Derivative of the temperature (nz, nx, ny) by the pressure at its own node [K/Pa]."""
+        found = np.zeros_like(self.columns.right_p)
+        start = len(found) - len(self.inverse)
+        found[start:] = (self.inverse @ self.columns.right_p[start:, ..., np.newaxis])[..., 0]
+        return np.ascontiguousarray(np.moveaxis(found, -1, 0))
+
+    def _from_sides(self, old: Array, inlet_temperature: float, *, symmetric: bool) -> Array | float:
+        """Heat that the flow across the contact carries from the neighbouring lines of the last iterate."""
+        if not self.columns.from_left.any() and not self.columns.from_right.any():
+            return 0.0
+        padded = np.pad(old, ((0, 0), (1, 1), (0, 0)), constant_values=inlet_temperature)
+        if symmetric:
+            padded[:, 0] = old[:, 1]
+        return np.asarray(self.columns.from_left * padded[:, :-2] + self.columns.from_right * padded[:, 2:])
+
+
+def _own(surfaces: tuple[Surface, Surface]) -> Array:
+    """Rise of both surfaces by a unit flux at the same column, shape (2,)."""
+    return np.array([surface.downstream[0] for surface in surfaces])
+
+
+@dataclass(frozen=True, eq=False)
+class _Entry:
+    """Columns of the inlet up to the first one behind the reverse flow, as one factorised banded system.
+
+    The lines along x are independent parts of it. All couplings of the columns are diagonal.
+    """
+
+    columns: HeatColumns
+    count: int  # columns along x
+    factors: Array
+    pivots: IntArray
+
+    @classmethod
+    def of(cls, matrix: Array, columns: HeatColumns, count: int) -> _Entry:
+        """Factorise ``count`` columns; ``matrix`` has the fluxes into the bodies at each column."""
+        ny, nz = columns.right.shape[1:]
+        lower, upper = 2 * nz, nz
+        # Band storage of LAPACK, each column of the matrix in one row here, with room for the pivoting.
+        band = np.zeros((ny, count, nz, 2 * lower + upper + 1))
+        row, column = np.indices((nz, nz))
+        node, centre = np.arange(nz), lower + upper
+        lines = [values[:count].swapaxes(0, 1) for values in (columns.before, columns.second, columns.after)]
+        before, second, after = lines
+        band[:, :, column, centre + row - column] = matrix[:count].swapaxes(0, 1)
+        band[:, :-1, node, centre + nz] = -before[:, 1:]
+        band[:, :-2, node, centre + 2 * nz] = -second[:, 2:]
+        band[:, 1:, node, centre - nz] = -after[:, :-1]
+        flat = band.reshape(-1, band.shape[-1]).T
+        factors, pivots, _ = lapack.dgbtrf(flat, lower, upper, overwrite_ab=1)
+        return cls(columns, count, factors, pivots)
+
+    def __call__(self, right: Array, inlet_temperature: float) -> Array:
+        """Temperatures (count, ny, nz) for a right side with the fluxes of the columns before each."""
+        right = right.copy()
+        right[0] += (self.columns.before[0] + self.columns.second[0]) * inlet_temperature
+        right[1] += self.columns.second[1] * inlet_temperature
+        lines = right.swapaxes(0, 1)
+        nz = right.shape[-1]
+        found, _ = lapack.dgbtrs(self.factors, 2 * nz, nz, lines.reshape(-1), self.pivots)
+        return np.asarray(found.reshape(lines.shape).swapaxes(0, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class FrozenTemperature:
+    """Temperature across the film as a ``Profile`` of its flow.
+
+    The temperature belongs to a pressure p0. Where the pressure changes, the temperature follows it by the
+    heat of compression, T + T_p (p - p0). Without T_p, film and temperature converge slowly at the pressure
+    spike, which heats the oil in passing. Viscosity ratio and density are linear in p - p0 as well: they are
+    computed only once, and exact where film and temperature have converged.
+
+    Attributes
+    ----------
+    across : Across
+        Nodes across the film.
+    mesh : Mesh
+        Mesh of the temperature.
+    heat : Heat
+        Temperature T at the pressure ``pressure``, and its derivative T_p.
+    pressure : ndarray, shape (nx, ny)
+        Pressure P0 over p_h, not below ambient.
+    oil : HotOil
+        Oil over pressure and temperature.
+    inlet_temperature : float
+        Temperature of the oil whose laws the fluid of the film problem has [K].
+    pressure_scale : float
+        Hertz pressure p_h [Pa].
+    """
+
+    across: Across
+    mesh: Mesh
+    heat: Heat
+    pressure: Array
+    oil: HotOil
+    inlet_temperature: float
+    pressure_scale: float
+    _on_meshes: dict[tuple[int, int, float], tuple[Properties, Array]] = field(
+        default_factory=dict, init=False, repr=False
+    )
+
+    def at(self, pressure: Array) -> Heat:
+        """Heat with the temperature at a pressure P (nx, ny) that is not below ambient."""
+        change = self.pressure_scale * (pressure - self.pressure)
+        return replace(self.heat, temperature=self.heat.temperature + self.heat.by_pressure * change)
+
+    @cached_property
+    def properties(self) -> Properties:
+        """Properties at the pressure P0, on the mesh of the temperature."""
+        p = self.pressure_scale * self.pressure
+        with_inlet = np.concatenate([self.heat.temperature, np.full((1, *p.shape), self.inlet_temperature)])
+        viscosity, density = self.oil.log_viscosity(p, with_inlet), self.oil.density(p, self.heat.temperature)
+        cold = self.oil.density(np.zeros(1), np.full(1, self.inlet_temperature)).value[0]
+        log_ratio_p = viscosity.by_pressure[:-1] - viscosity.by_pressure[-1]
+        log_ratio_p += self.heat.by_pressure * viscosity.by_temperature[:-1]
+        density_p = density.by_pressure + self.heat.by_pressure * density.by_temperature
+        return Properties(
+            log_ratio=viscosity.value[:-1] - viscosity.value[-1],
+            log_ratio_p=self.pressure_scale * log_ratio_p,
+            density=density.value / cold,
+            density_p=self.pressure_scale / cold * density_p,
+        )
+
+    def _on(self, mesh: Mesh) -> tuple[Properties, Array]:
+        """Properties at P0, and P0, on another mesh of the same contact."""
+        key = (*mesh.shape, float(mesh.x[0]))
+        if key not in self._on_meshes:
+            values = (on_mesh(each, self.mesh, mesh) for each in vars(self.properties).values())
+            pressure = on_mesh(self.pressure[np.newaxis], self.mesh, mesh)[0]
+            self._on_meshes[key] = Properties(*values), pressure
+        return self._on_meshes[key]
+
+    def __call__(self, pressure: Array, mesh: Mesh) -> Properties:
+        """Properties at a pressure P (nx, ny) that is not below ambient."""
+        known, of = self._on(mesh)
+        change = pressure - of
+        return Properties(
+            log_ratio=known.log_ratio + known.log_ratio_p * change,
+            log_ratio_p=known.log_ratio_p,
+            density=known.density + known.density_p * change,
+            density_p=known.density_p,
+        )
+
+
+def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> float:
+    """Heat that neither the bodies nor the oil take up, over the heat that is made.
+
+    Parameters
+    ----------
+    stream : Stream
+        Flow and sources of the film.
+    heat : Heat
+        Temperature and heat flow into the bodies.
+    inlet_temperature : float
+        Temperature of the oil that enters [K].
+
+    Returns
+    -------
+    float
+        Relative imbalance, >= 0. Heat and cold of compression count with their size.
+
+    Notes
+    -----
+    The heat that the oil carries is the flow of c (T - T_inlet) through the edges of the grid, less what the
+    change of c along the way takes up. Nothing here uses the discrete equations of the columns.
+    """
+    weights = stream.across.weights[:, np.newaxis, np.newaxis]
+    filled = weights * stream.filling * stream.thickness
+    area = _trapezoid(stream.u.shape[1], stream.dx)[:, np.newaxis] * _lines(stream)
+    compression = stream.compression * heat.temperature
+    made = np.sum(filled * (stream.heating + compression), axis=0)
+    size = np.sum(filled * (stream.heating + np.abs(compression)), axis=0)
+    rise = heat.temperature - inlet_temperature
+    carried = filled * stream.heat_capacity
+    # div(c m (T - T0)) with the mass flow m, less (T - T0) m grad c
+    specific = stream.heat_capacity / stream.density
+    through = np.sum(carried * stream.u * rise, axis=0)
+    out = float(np.sum(_lines(stream) * (through[-1] - through[0])))
+    slope = np.gradient(specific, stream.dx, axis=1) * stream.u
+    if stream.dy:
+        slope += np.gradient(specific, stream.dy, axis=2) * stream.v
+        sides = np.sum(carried * stream.v * rise, axis=0)
+        along = _trapezoid(stream.u.shape[1], stream.dx)
+        left = 0.0 if stream.symmetric else float(along @ sides[:, 0])
+        out += (2.0 if stream.symmetric else 1.0) * float(along @ sides[:, -1]) - left
+    changed = np.sum(filled * stream.density * slope * rise, axis=0)
+    into_bodies = heat.flux.sum(axis=0)
+    left_over = float(np.sum(area * (made - into_bodies + changed))) - out
+    return abs(left_over) / max(float(np.sum(area * size)), 1e-300)
+
+
+def _trapezoid(count: int, spacing: float) -> Array:
+    weights = np.full(count, spacing)
+    weights[[0, -1]] *= 0.5
+    return weights
+
+
+def _lines(stream: Stream) -> Array:
+    """Weights of the integral across the contact, with the half y < 0 of a symmetric one."""
+    if not stream.dy:
+        return np.ones(1)
+    return _trapezoid(stream.u.shape[2], (2.0 if stream.symmetric else 1.0) * stream.dy)

@@ -1,0 +1,434 @@
+"""Films on grids that are refined until the estimate of the error is small enough, and films with a supply
+of oil.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.film_error import (
+    LEAST_UNSEEN,
+    UNSEEN,
+    expected_error,
+    richardson,
+    rough_film_error,
+    side_deficit,
+    upstream_deficits,
+)
+from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.nested import (
+    DIRECT,
+    NESTED_TOLERANCE,
+    filled_state,
+    levels_of,
+    nested_iteration,
+)
+from ehlectric.film.newton import GridSolution, Progress, State
+from ehlectric.film.patch import Patch
+from ehlectric.film.problem import FilmProblem, OilSupply
+from ehlectric.film.starved_solver import Course, StarvedFilm, at_centre_line, film_of_ratio, taken_layer
+from ehlectric.runtime.stored import number
+
+# Number of successive grids without an error estimate after which refinement stops. Each grid takes several
+# times as long as the grid before.
+UNKNOWN = 3
+
+
+@dataclass(frozen=True)
+class RefinedSolution:
+    """Solution of a film on its last grid, which may be a patch of a coarser grid over the whole domain.
+
+    Attributes
+    ----------
+    problem : FilmProblem
+        Problem of the last grid.
+    solutions : list of GridSolution
+        Solutions on all grids, as ``nested_iteration`` returns them.
+    patch : Patch or None
+        Patch that the last grid covers; None if it covers the whole domain.
+    """
+
+    problem: FilmProblem
+    solutions: list[GridSolution]
+    patch: Patch | None = None
+
+    @property
+    def last(self) -> GridSolution:
+        """Solution on the last grid."""
+        return self.solutions[-1]
+
+    @property
+    def whole(self) -> GridSolution:
+        """Solution on the last grid over the whole domain."""
+        return self.last if self.patch is None else self.patch.coarse
+
+    @property
+    def fraction(self) -> Array | None:
+        """Part of the gap that oil fills on the last grid, shape (nx, ny); None if it is not carried."""
+        return self.last.fraction
+
+    @cached_property
+    def error(self) -> float | None:
+        """Relative discretisation error, estimated from the last grids; None if unknown.
+
+        A grid that is far too coarse has a film of its own, of which successive grids differ little. The
+        estimate is then at least 0.5.
+        """
+        error = rough_film_error(self.problem, self.last, self.coarser)
+        posed = self.problem if self.patch is None else self.patch.problem
+        times = 1 if self.patch is None else self.patch.times(self.last.level.mesh)
+        expected = expected_error(posed, times)
+        if error is not None and expected is not None and expected > UNSEEN:
+            return max(error, LEAST_UNSEEN)
+        return error
+
+    @cached_property
+    def coarser(self) -> list[GridSolution]:
+        """Last solutions on the coarser grids for the same surfaces, from the finest on."""
+        if any(g.status == "converged" and _alike(g, self.last) for g in self.solutions[:-1]):
+            # The roughness was raised in steps on the finest grid, so the film of the coarser grid belongs to
+            # other surfaces.
+            return []
+        found = [self.last]
+        for solution in reversed(self.solutions):
+            if solution.level.mesh.dx > 1.1 * found[-1].level.mesh.dx:
+                found.append(solution)
+        return found[1:]
+
+
+def refined_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
+    """Solve the film, and refine its grid until the discretisation error is below the target of the problem.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact. Without a ``target_error`` only its own grid is solved.
+    progress : callable or None
+        Function that is called with (nodes, Newton step, residual) before every Newton step.
+
+    Returns
+    -------
+    RefinedSolution
+        Solutions on all grids.
+
+    Notes
+    -----
+    The spacings are halved along both axes, in a point contact only on a patch where its film is decided.
+    The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain, or
+    after three grids in succession whose error is unknown because a film did not converge.
+    """
+    found = RefinedSolution(problem, nested_iteration(problem, progress))
+    target, unknown, times = problem.target_error, 0, 1
+    while target is not None:
+        error, times = found.error, 2 * times
+        problem.tell(found.last.level.mesh, error)
+        unknown = unknown + 1 if error is None else 0
+        if (error is not None and error <= target) or unknown >= UNKNOWN:
+            break
+        if times * (problem.nodes - 1) + 1 > problem.most_nodes:
+            break
+        # A finer grid has other spots of a rough contact. A smooth one may touch on a coarse grid only.
+        if found.last.touches and problem.added_gap is not None:
+            break
+        found = _finer(found, progress)
+    return found
+
+
+def _finer(found: RefinedSolution, progress: Progress | None) -> RefinedSolution:
+    """Solution with half of the spacings, on a patch where there is one."""
+    patch = found.patch
+    if patch is None and found.error is not None:
+        patch = Patch.around(found.problem, found.last)
+    if patch is None:
+        finer = found.problem.doubled()
+    else:
+        finer = patch.refined(2 * patch.times(found.last.level.mesh))
+    return RefinedSolution(finer, nested_iteration(finer, progress, found.solutions), patch)
+
+
+def _alike(solution: GridSolution, other: GridSolution) -> bool:
+    """Whether two solutions have the same grid."""
+    return (
+        solution.level.mesh.shape == other.level.mesh.shape and solution.level.mesh.dx == other.level.mesh.dx
+    )
+
+
+# Largest number of times that the grid of a point contact is refined, over the whole domain.
+_MOST_REFINED_POINT = 2
+
+# Multiple of the largest number of Newton steps of a flooded film: where the meniscus moves upstream, it does
+# so by few nodes in each step.
+_MORE = 3
+
+# Relative excess of the flow of a flooded film over its supply that is rounding.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Starvation:
+    """Supply of oil of a solved film, and the flooded film beside it, SI units.
+
+    Attributes
+    ----------
+    oil_layer : float or None
+        Thickness of the layer of oil on both surfaces together, on the line y = 0 [m]. None for the flooded
+        film of a point contact that was asked for by its ratio of 1: the least layer that floods it depends
+        on the domain.
+    film_ratio : float or None
+        Central film thickness over that of the flooded film; None if the flooded film did not converge.
+    meniscus : float or None
+        Position of the first node on the line y = 0 that oil fills [m]; None if the film is flooded, or if
+        oil fills the gap at the inlet edge on this line.
+    flooded_minimum_thickness, flooded_central_thickness : float or None
+        Minimum and central film thickness of the flooded film on the same grid [m]; None if it did not
+        converge.
+    flooded_inlet_deficit, flooded_side_deficit : float or None
+        Shares of the reduced pressure of the flooded film that are missing because the domain is too small.
+        None if the film did not converge; a line contact has none at its sides.
+    """
+
+    oil_layer: float | None = field(metadata=number())
+    film_ratio: float | None = field(metadata=number())
+    meniscus: float | None = field(metadata=number())
+    flooded_minimum_thickness: float | None = field(metadata=number())
+    flooded_central_thickness: float | None = field(metadata=number())
+    flooded_inlet_deficit: float | None = field(default=None, metadata=number())
+    flooded_side_deficit: float | None = field(default=None, metadata=number())
+
+
+@dataclass(frozen=True)
+class StarvedSolution(RefinedSolution):
+    """Starved film on its last grid, with those on the coarser ones and the flooded film.
+
+    Attributes
+    ----------
+    flooded : GridSolution or None
+        Flooded film on the last grid.
+    film : StarvedFilm or None
+        Starved film on the last grid; None if the flooded film needs no more oil than there is.
+    layer : ndarray, shape (ny,), or None
+        Thickness H of the layer of oil at the lines of the last grid; None where it is not known.
+    """
+
+    flooded: GridSolution | None = None
+    film: StarvedFilm | None = None
+    layer: Array | None = None
+
+    @cached_property
+    def error(self) -> float | None:
+        """Relative discretisation error, estimated from the last grids; None if unknown.
+
+        The position of the meniscus is known to a node, which in a point contact changes the film.
+        """
+        order = self.problem.wedge_order
+        if self.film is None:
+            return rough_film_error(self.problem, self.last, self.coarser)
+        error = rough_film_error(replace(self.problem, wedge_order=max(2, order)), self.last, self.coarser)
+        if error is None or (self.problem.width is None and order > 1):
+            return error
+        films = [(grid.level.mesh, grid.state.thickness) for grid in (self.last, self.coarser[0])]
+        return max(error, richardson(films[0], films[1], order=1))
+
+    @property
+    def fraction(self) -> Array | None:
+        """Part of the gap that oil fills, shape (nx, ny); None for a flooded film."""
+        return None if self.film is None else self.film.fraction
+
+    @property
+    def by_ratio(self) -> bool:
+        """Whether the film is asked for as a part of the flooded one, which it depends on."""
+        return self.problem.supply is not None and self.problem.supply.film_ratio is not None
+
+    @property
+    def inlet_deficit(self) -> float:
+        """Share of the reduced pressure missing upstream: of the flooded film if it sets the film.
+
+        No pressure builds up upstream of a meniscus.
+        """
+        if not self.by_ratio and self.film is not None and self._meniscus is not None:
+            return 0.0
+        return self._inlet_deficit(self._decisive)
+
+    @property
+    def side_deficit(self) -> float:
+        """Share of the reduced pressure missing at the sides: of the flooded film if it sets the film.
+
+        No pressure is cut off where no node beside the sides of the domain is filled.
+        """
+        if not self.by_ratio and self.film is not None and not np.any(self.film.content.filled[:, -2]):
+            return 0.0
+        return self._side_deficit(self._decisive)
+
+    @property
+    def starvation(self) -> Starvation:
+        """Supply of oil and flooded film in SI units."""
+        assert self.flooded is not None
+        scales, mesh, flooded = self.problem.scales, self.last.level.mesh, self.flooded
+        layer = None if self.layer is None else scales.thickness * at_centre_line(self.last.level, self.layer)
+        meniscus = None if self._meniscus is None else scales.length * self._meniscus
+        if flooded.status != "converged":
+            return Starvation(layer, None, meniscus, None, None)
+        thickness = flooded.state.thickness
+        return Starvation(
+            oil_layer=layer,
+            film_ratio=at_centre(mesh, self.last.state.thickness) / at_centre(mesh, thickness),
+            meniscus=meniscus,
+            flooded_minimum_thickness=scales.thickness * float(np.min(thickness)),
+            flooded_central_thickness=scales.thickness * at_centre(mesh, thickness),
+            flooded_inlet_deficit=self._inlet_deficit(flooded),
+            flooded_side_deficit=None if self.problem.width is None else self._side_deficit(flooded),
+        )
+
+    @property
+    def _meniscus(self) -> float | None:
+        """Position X of the meniscus on the line Y = 0."""
+        return None if self.film is None else meniscus_of(self.last.level.mesh, self.film.content.filled)
+
+    @property
+    def _decisive(self) -> GridSolution:
+        """Film whose domain must be large enough."""
+        return self.flooded if self.by_ratio and self.flooded is not None else self.last
+
+    def _inlet_deficit(self, grid: GridSolution) -> float:
+        mass = grid.final.coefficients.density * grid.state.thickness
+        of = self.problem
+        return upstream_deficits(of.fluid, of.geometry, grid.level.mesh, grid.state.pressure, mass)[0]
+
+    def _side_deficit(self, grid: GridSolution) -> float:
+        return side_deficit(self.problem, grid.level.mesh, grid.state.pressure, grid.state.thickness)
+
+
+def meniscus_of(mesh: Mesh, filled: Mask) -> float | None:
+    """Position X of the first node on the line Y = 0 that oil fills; None if that is on the inlet edge."""
+    line = filled[:, int(np.argmin(np.abs(mesh.y)))]
+    first = int(np.argmax(line))
+    return float(mesh.x[first]) if first > 0 else None
+
+
+def supplied_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
+    """Solve the film of a problem: the starved one where its supply of oil is given, or the flooded one.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Dimensionless problem of the contact.
+    progress : callable or None
+        Function that is called with (nodes, Newton step, residual) before every Newton step.
+
+    Returns
+    -------
+    RefinedSolution
+        Solutions on all grids; a ``StarvedSolution`` where the supply of oil is given.
+    """
+    if problem.supply is None:
+        return refined_solution(problem, progress)
+    return _refined(problem, problem.supply, progress)
+
+
+def _refined(problem: FilmProblem, supply: OilSupply, progress: Progress | None) -> StarvedSolution:
+    """Starved film whose grid is refined until its discretisation error is below the target.
+
+    The flooded film is solved on each grid first. The grid is refined over the whole domain, that of a point
+    contact at most twice.
+    """
+    flooded = nested_iteration(problem, progress)
+    found = _on_grids(problem, supply, flooded, [], progress)
+    target, doubled, unknown = problem.target_error, 0, 0
+    problem.tell(found.last.level.mesh, found.error)
+    while target is not None and (found.error is None or found.error > target):
+        doubled, unknown = doubled + 1, unknown + 1 if found.error is None else 0
+        if unknown >= UNKNOWN:
+            break
+        if problem.width is not None and doubled > _MOST_REFINED_POINT:
+            break
+        finer = problem.doubled()
+        if finer.nodes > problem.most_nodes or found.last.status != "converged":
+            break
+        problem, flooded = finer, nested_iteration(finer, progress, flooded)
+        found = _on_grids(problem, supply, flooded, found.solutions, progress, found.film)
+        problem.tell(found.last.level.mesh, found.error)
+    return found
+
+
+def _on_grids(
+    problem: FilmProblem,
+    supply: OilSupply,
+    flooded: list[GridSolution],
+    known: list[GridSolution],
+    progress: Progress | None,
+    film: StarvedFilm | None = None,
+) -> StarvedSolution:
+    """Starved film on all grids of a problem that are finer than the known ones, from the coarsest on.
+
+    ``film`` is the starved film on the finest known grid.
+    """
+    solutions, last = list(known), film
+    coarsest = known[-1].level.nodes if known else 0
+    found = None
+    for posed, full in _grids(problem, flooded, coarsest):
+        finest = posed.nodes == problem.nodes
+        course = _course(posed, full, progress, finest=finest)
+        near = None if last is None else filled_state(course.level, last.solution, last.content.filled)
+        layer, last = _supplied(course, supply, near, last)
+        solution = full if last is None else last.solution
+        solutions.append(solution)
+        found = StarvedSolution(posed, solutions, flooded=full, film=last, layer=layer)
+        if last is not None and last.solution.status != "converged":
+            last = None
+    assert found is not None
+    return found
+
+
+def _grids(
+    problem: FilmProblem, flooded: list[GridSolution], coarsest: int
+) -> list[tuple[FilmProblem, GridSolution]]:
+    """Problem and flooded film on each grid with more nodes than ``coarsest``, from the coarsest on."""
+    on_grid = {solution.level.nodes: solution for solution in flooded}
+    grids = []
+    while problem.nodes in on_grid and problem.nodes > coarsest:
+        grids.append((problem, on_grid[problem.nodes]))
+        width = None if problem.width is None else problem.width.coarser()
+        problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
+    return grids[::-1]
+
+
+def _course(
+    problem: FilmProblem, flooded: GridSolution, progress: Progress | None, *, finest: bool
+) -> Course:
+    """Equations of the starved film on the grid of a problem."""
+    levels = levels_of(problem)
+    mesh = levels[0].mesh
+    direct = problem.width is None and problem.nodes <= DIRECT
+    return Course(
+        fluid=problem.fluid,
+        levels=levels[:1] if direct else levels,
+        order=problem.wedge_order,
+        flooded=flooded,
+        dry_pressure=np.broadcast_to(problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape),
+        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        max_iterations=_MORE * problem.max_iterations,
+        progress=progress,
+    )
+
+
+def _supplied(
+    course: Course, supply: OilSupply, near: tuple[State, Mask] | None, last: StarvedFilm | None
+) -> tuple[Array | None, StarvedFilm | None]:
+    """Layer of oil on a grid and its film; None where the flooded film needs no more oil than there is."""
+    if supply.layer is None:
+        assert supply.film_ratio is not None
+        return film_of_ratio(course, supply.film_ratio, near, last)
+    layer = supply.layer(course.level.mesh.y)
+    return layer, None if is_flooded(course, layer) else course.solved(layer, near)
+
+
+def is_flooded(course: Course, layer: Array) -> bool:
+    """Whether the flooded film of a course takes no more oil at any line than a layer (ny,) supplies."""
+    if course.flooded.status != "converged":
+        return False
+    enough = layer >= (1.0 - _ROUNDING) * taken_layer(course)
+    return bool(np.all(enough, where=course.level.mesh.inner[1]))

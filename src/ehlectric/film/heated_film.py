@@ -1,0 +1,826 @@
+"""Films with heat and shear thinning: pressure, film thickness and temperature solved together, with their
+error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.across_film import Across, on_mesh
+from ehlectric.film.energy_equation import (
+    FrozenTemperature,
+    Heat,
+    HeatColumns,
+    Mixing,
+    Stream,
+    Surface,
+    energy_imbalance,
+    moving_surface,
+    solve_energy,
+    stream_of,
+)
+from ehlectric.film.film_solver import RefinedSolution, refined_solution
+from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
+from ehlectric.film.levels import Level
+from ehlectric.film.mesh import at_centre
+from ehlectric.film.nested import DIRECT, NESTED_TOLERANCE, interpolated_state, levels_of
+from ehlectric.film.newton import GridSolution, NewtonStep, Progress, State, Status, newton
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
+from ehlectric.film.shear_laws import UNBOUNDED
+from ehlectric.film.starved_solver import conserving_film, forms_again
+from ehlectric.runtime.threads import quiet_solution
+
+# Degree of the polynomial across the film.
+DEGREE = 12
+
+# Largest change of temperature in one outer loop [K].
+_MOST_CHANGE = 40.0
+
+# Largest number of outer loops. In all loops but the last the film has this number of Newton steps at most,
+# as far as this residual: its temperature is still to change.
+_LOOPS, _STEPS, _LOOSE = 60, 2, 1e-3
+
+# Multiple of the Newton steps of a film that carries its oil, whose cavities grow by few nodes a step.
+_CARRYING = 3
+
+# Distance of the temperature, relative to its largest rise and absolute [K], and relative distance of the
+# central film thickness, at which film and temperature stand. The multiples are those of the finest grid, of
+# the next coarser one, which gives the estimates of the errors, and of all others.
+_RISE, _KELVIN, _FILM = 3e-3, 5e-3, 5e-5
+_MULTIPLES = (1.0, 5.0, 25.0)
+
+# Largest number of solutions of the energy equation with the film held, and of the turns that have them. From
+# the cold, each brings the viscosity down by a factor of e at most; later turns begin hot.
+_HELD, _HELD_TURNS = 60, 15
+
+# Largest ratio of two successive changes in the estimate of the distance.
+_SLOWEST = 0.9
+
+
+@dataclass(frozen=True, eq=False)
+class HeatedGrid:
+    """Film with heat on one grid.
+
+    Attributes
+    ----------
+    solution : GridSolution
+        Pressure and film thickness.
+    heat : Heat or None
+        Temperature and heat flow into the bodies; None for an isothermal film.
+    flow : ShearedFlow
+        Flow with the rheology at this temperature.
+    loops : int
+        Number of outer loops.
+    """
+
+    solution: GridSolution
+    heat: Heat | None
+    flow: ShearedFlow
+    loops: int
+
+    @property
+    def converged(self) -> bool:
+        """Whether film and temperature stand."""
+        return self.solution.status == "converged"
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """Outer iteration on one grid.
+
+    Attributes
+    ----------
+    problem : FilmProblem
+        Problem on the grid; it has ``physics``.
+    levels : list of Level
+        Grid, and the coarser grids of its preconditioner.
+    tolerance : float
+        Tolerance of the residual of the film.
+    finer : int
+        Number of finer grids that follow.
+    progress : callable or None
+        Function that is called before every Newton step.
+    careful : bool
+        Whether properties are evaluated again at the pressure of each film, and changes count as they are and
+        not as parts of a geometric sequence: slower, and it converges for hotter films.
+    held : bool
+        Whether the flow follows the temperature within the first turns, until the energy equation has
+        converged for a held film.
+    degree : int
+        Degree of the polynomial across the film.
+    filled : ndarray of bool, shape (nx, ny), or None
+        Nodes that oil fills at first, of a film that carries its oil through cavities; None of one whose
+        cavities count as full.
+    """
+
+    problem: FilmProblem
+    levels: list[Level]
+    tolerance: float
+    finer: int
+    progress: Progress | None
+    careful: bool = False
+    held: bool = False
+    degree: int = DEGREE
+    filled: Mask | None = None
+
+    @property
+    def physics(self) -> Physics:
+        """Rheology and heat."""
+        assert self.problem.physics is not None
+        return self.problem.physics
+
+    @property
+    def stress_scale(self) -> float:
+        """Scale of the shear stress p_h b/R [Pa]."""
+        scales = self.problem.scales
+        return scales.pressure * scales.thickness / scales.length
+
+    def flow(self, state: State, heat: Heat | None) -> ShearedFlow:
+        """Flow with the rheology, and with the temperature that a film has at the pressure of a state."""
+        physics, thermal, profile = self.physics, self.physics.thermal, None
+        if thermal is not None and heat is not None:
+            profile = FrozenTemperature(
+                Across.of(self.degree),
+                self.levels[0].mesh,
+                heat,
+                self._clipped(state),
+                thermal.oil,
+                thermal.inlet_temperature,
+                self.problem.scales.pressure,
+            )
+        return ShearedFlow(
+            rheology=physics.rheology,
+            slide_to_roll_ratio=physics.slide_to_roll_ratio,
+            stress_scale=self.stress_scale,
+            pressure_scale=self.problem.scales.pressure,
+            profile=profile,
+        )
+
+    def _clipped(self, state: State) -> Array:
+        """Pressure of a state, not below ambient."""
+        return np.maximum(state.pressure, self.problem.fluid.ambient_pressure)
+
+    def film(
+        self,
+        state: State,
+        heat: Heat | None,
+        *,
+        steps: int,
+        tolerance: float,
+        spike: bool,
+        filled: Mask | None = None,
+    ) -> tuple[GridSolution, ShearedFlow, Heat | None]:
+        """Film after at most ``steps`` Newton steps from a state, its flow, and the heat at its pressure.
+
+        With the nodes ``filled`` that oil fills at first, the film carries its oil through cavities.
+        """
+        flow = self.flow(state, heat)
+        fluid = replace(self.problem.fluid, flow=flow)
+        if filled is None:
+            solution = newton(
+                fluid,
+                self.levels,
+                state,
+                tolerance=tolerance,
+                max_iterations=steps,
+                min_iterations=1,
+                progress=self.progress,
+                eliminate_spike=spike and self.problem.width is None,
+            )
+        else:
+            solution = conserving_film(
+                fluid,
+                self.levels,
+                (state, filled),
+                order=self.problem.wedge_order,
+                tolerance=tolerance,
+                max_iterations=steps,
+                progress=self.progress,
+            )
+        if isinstance(flow.profile, FrozenTemperature):
+            heat = flow.profile.at(self._clipped(solution.state))
+        return solution, flow, heat
+
+    def columns(self, solution: GridSolution, flow: ShearedFlow) -> tuple[Columns, Array]:
+        """Stresses and speeds across the film, and the share of the gap that oil fills."""
+        state, mesh = solution.state, self.levels[0].mesh
+        found = flow.columns(self.problem.fluid, state.pressure, state.thickness, mesh)
+        if solution.fraction is not None:
+            return found, solution.fraction
+        mass = solution.final.coefficients.density * state.thickness
+        return found, filled_part(solution.final.full_film, mass)
+
+    def stream(self, solution: GridSolution, heat: Heat, columns: Columns, filled: Array) -> Stream:
+        """Flow of the energy equation at a film and a temperature."""
+        scales, thermal = self.problem.scales, self.physics.thermal
+        assert thermal is not None
+        return stream_of(
+            thermal.oil,
+            columns,
+            heat.temperature,
+            pressure=np.maximum(scales.pressure * solution.state.pressure, scales.ambient_pressure),
+            thickness=scales.thickness * solution.state.thickness,
+            filled=filled,
+            mesh=self.levels[0].mesh,
+            length=scales.length,
+            pressure_scale=scales.pressure,
+            speed=self.physics.mean_speed,
+            stress=self.stress_scale,
+        )
+
+    def surfaces(self, thermal: Thermal) -> tuple[Surface, Surface]:
+        """Surfaces of both bodies on the grid."""
+        mesh, length = self.levels[0].mesh, self.problem.scales.length
+        first, second = (
+            moving_surface(body, speed, nodes=mesh.x.size, spacing=mesh.dx * length, half_width=length)
+            for body, speed in zip(thermal.bodies, self.physics.speeds, strict=True)
+        )
+        return first, second
+
+    def start(self, thermal: Thermal) -> Heat:
+        """Temperature of a film that is nowhere heated: linear between the bodies."""
+        shape = self.levels[0].mesh.shape
+        a, b = (body.temperature for body in thermal.bodies)
+        zeta = Across.of(self.degree).zeta[:, np.newaxis, np.newaxis]
+        temperature = np.broadcast_to(a + (b - a) * zeta, (zeta.size, *shape)).copy()
+        return Heat(temperature, np.zeros((2, *shape)), np.zeros_like(temperature))
+
+    def __call__(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
+        """Film and temperature from an initial guess of both.
+
+        A film that forms again behind a cavity is solved once more, with the oil carried through it.
+        """
+        found = self._turns(state, heat, spike=spike)
+        full = found.solution.final.full_film
+        if self.filled is not None or not found.converged or not forms_again(full):
+            return found
+        again = replace(self, filled=full)._turns(found.solution.state, found.heat, spike=False)
+        if not again.converged:
+            return found
+        taken = found.solution.steps + again.solution.steps
+        return replace(again, solution=replace(again.solution, steps=taken), loops=found.loops + again.loops)
+
+    def _turns(self, state: State, heat: Heat | None, *, spike: bool) -> HeatedGrid:
+        """Film and temperature in turns, from an initial guess of both."""
+        thermal, most, filled = self.physics.thermal, self.problem.max_iterations, self.filled
+        if thermal is None:
+            if filled is not None:
+                most *= _CARRYING
+            solution, flow, _ = self.film(
+                state, None, steps=most, tolerance=self.tolerance, spike=spike, filled=filled
+            )
+            return HeatedGrid(solution, None, flow, 0)
+        heat = self.start(thermal) if heat is None else heat
+        surfaces, weight = self.surfaces(thermal), _weight(self.levels[0], state)
+        mixing, taken = _mixing(weight, heat), list[NewtonStep]()
+        allowed = _MULTIPLES[min(self.finer, len(_MULTIPLES) - 1)]
+        rises, films, central, ends = list[float](), list[float](), np.inf, False
+        for loop in range(_LOOPS):
+            steps, tolerance = (most, self.tolerance) if ends else (_STEPS, max(self.tolerance, _LOOSE))
+            if filled is not None:
+                steps *= _CARRYING
+            solution, flow, heat = self.film(
+                state, heat, steps=steps, tolerance=tolerance, spike=spike and loop == 0, filled=filled
+            )
+            assert heat is not None
+            filled = None if filled is None else solution.final.full_film
+            taken += solution.steps
+            before, central = central, at_centre(self.levels[0].mesh, solution.state.thickness)
+            films.append(abs(central - before) / (_FILM * central))
+            stands = ends and solution.status == "converged" and films[-1] < allowed
+            if stands or solution.status == "diverged":
+                break
+            if self.held and loop < _HELD_TURNS:
+                new = self._temperature_of_held(solution, heat, surfaces, weight, allowed)
+            else:
+                flow = self.flow(solution.state, heat) if self.careful else flow
+                new = self._heated(solution, heat, flow, surfaces)
+            if new is None:
+                solution = replace(solution, status="diverged")
+                break
+            rises.append(_change_between(weight, heat, new, thermal))
+            # Film and temperature that are close enough end with a film at the last temperature.
+            ends = max(self._distance(rises), self._distance(films)) < allowed
+            state = solution.state
+            heat = _mixed(mixing, heat, new)
+        else:
+            solution = replace(solution, status="stalled")
+        return HeatedGrid(replace(solution, steps=tuple(taken)), heat, flow, loop + 1)
+
+    def _temperature_of_held(
+        self,
+        solution: GridSolution,
+        heat: Heat,
+        surfaces: tuple[Surface, Surface],
+        weight: Array,
+        allowed: float,
+    ) -> Heat | None:
+        """Temperature of a held film together with its flow; None if it has no finite solution.
+
+        The heat of shear of a cold Newtonian film is many orders of magnitude too large. The film, and
+        above all its spike, would follow each temperature on the way. Where the pressure gradient and not the
+        slip drives the flow, the temperature of a film far from its solution may run away. The first
+        temperature counts then.
+        """
+        assert self.physics.thermal is not None
+        first = new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
+        for _ in range(_HELD):
+            if new is None or _change_between(weight, heat, new, self.physics.thermal) < allowed:
+                return new
+            if np.max(np.abs(new.temperature - heat.temperature)) > _MOST_CHANGE:
+                break
+            heat = new
+            new = self._heated(solution, heat, self.flow(solution.state, heat), surfaces)
+        return first
+
+    def _heated(
+        self, solution: GridSolution, heat: Heat, flow: ShearedFlow, surfaces: tuple[Surface, Surface]
+    ) -> Heat | None:
+        """Temperature by the energy equation of a film; None if it has no finite solution."""
+        thermal = self.physics.thermal
+        assert thermal is not None
+        stream = self.stream(solution, heat, *self.columns(solution, flow))
+        try:
+            new = solve_energy(
+                HeatColumns.of(stream, heat.temperature),
+                surfaces,
+                heat,
+                inlet_temperature=thermal.inlet_temperature,
+                symmetric=stream.symmetric,
+            )
+        except np.linalg.LinAlgError:
+            return None
+        return new if np.all(np.isfinite(new.temperature)) else None
+
+    def _distance(self, changes: list[float]) -> float:
+        """Distance from the limit after changes that fall in a geometric sequence, or the last change."""
+        if self.careful or len(changes) < 2 or not np.isfinite(changes[-2]):
+            return changes[-1]
+        ratio = min(_SLOWEST, changes[-1] / max(changes[-2], 1e-300))
+        return changes[-1] * ratio / (1.0 - ratio)
+
+
+def _change_between(weight: Array, heat: Heat, new: Heat, thermal: Thermal) -> float:
+    """Change of the temperature over that at which it stands."""
+    rise = float(np.max(new.temperature)) - thermal.inlet_temperature
+    change = np.max(weight * np.abs(new.temperature - heat.temperature))
+    return float(change) / close_enough(rise)
+
+
+def close_enough(rise: float) -> float:
+    """Change of the temperature [K] that is small enough on the finest grid, for a largest rise [K]."""
+    return _KELVIN + _RISE * abs(rise)
+
+
+def _weight(level: Level, state: State) -> Array:
+    """Weight of a change of temperature, shape (nx, ny): its effect on the pressure goes with 1/h^2.
+
+    The reverse flow far upstream would otherwise decide when the temperature stands.
+    """
+    return np.asarray(np.minimum(1.0, (at_centre(level.mesh, state.thickness) / state.thickness) ** 2))
+
+
+def _mixing(weight: Array, heat: Heat) -> Mixing:
+    """Acceleration of the outer iteration, in the weighted norm of the temperature."""
+    of_film = np.broadcast_to(weight, heat.temperature.shape).ravel()
+    return Mixing(weights=np.concatenate([of_film, np.zeros(heat.flux.size)]))
+
+
+def _mixed(mixing: Mixing, heat: Heat, new: Heat) -> Heat:
+    """Next temperature, at most 40 K from the last one."""
+    mixed = mixing(
+        np.concatenate([heat.temperature.ravel(), heat.flux.ravel()]),
+        np.concatenate([new.temperature.ravel(), new.flux.ravel()]),
+    )
+    size = heat.temperature.size
+    temperature = mixed[:size].reshape(heat.temperature.shape)
+    flux = mixed[size:].reshape(heat.flux.shape)
+    step = float(np.max(np.abs(temperature - heat.temperature)))
+    if step > _MOST_CHANGE:
+        mixing.forget()
+        part = _MOST_CHANGE / step
+        temperature = heat.temperature + part * (temperature - heat.temperature)
+        flux = heat.flux + part * (flux - heat.flux)
+    return replace(new, temperature=temperature, flux=flux)
+
+
+# Another way to solve a film: course and temperature -> course and initial temperature.
+Variation: TypeAlias = Callable[[Course, Heat], tuple[Course, Heat]]
+
+# Growth of the temperature at the pressure spike on a grid that is four times finer, over that from the next
+# coarser grid: as much again. Where the stress grows with the spike, the second doubling adds twice as much.
+_GROWTH, _GROWTH_UNBOUNDED = 1.0, 3.0
+
+# Smallest error that is stated [K].
+_LEAST = 0.1
+
+# Degree of the polynomial across the film with which the solution is compared.
+_FINE_DEGREE = 20
+
+
+def mid_film(temperature: Array) -> Array:
+    """Temperature at mid-film (nx, ny) [K], from that across the film (nz, nx, ny)."""
+    weights = Across.of(len(temperature) - 1).at(np.array([0.5]))[0]
+    return np.asarray(np.tensordot(weights, temperature, axes=1))
+
+
+def largest_rise(course: Course, grid: HeatedGrid) -> float | None:
+    """Largest rise of the mid-film temperature over that of the oil that enters [K]; None without heat."""
+    thermal = course.physics.thermal
+    if grid.heat is None or thermal is None:
+        return None
+    return float(np.max(mid_film(grid.heat.temperature))) - thermal.inlet_temperature
+
+
+def rise_error(found: list[tuple[Course, HeatedGrid]]) -> float | None:
+    """Estimated error of the largest rise of the mid-film temperature.
+
+    Parameters
+    ----------
+    found : list of (Course, HeatedGrid)
+        Films with heat on all grids, the finest one last.
+
+    Returns
+    -------
+    float or None
+        Sum of the errors by the grid along the film, by the polynomial across it and by properties of the oil
+        beyond the range in which its laws have values [K]. None without a converged film on the next coarser
+        grid, or where a solution for comparison did not converge.
+    """
+    along = _along(found)
+    if along is None:
+        return None
+    others = [_finer_across, _curved_oil] if _beyond(*found[-1]) else [_finer_across]
+    parts = [_change(*found[-2], other) for other in others]
+    known = [part for part in parts if part is not None]
+    return along + sum(known) if len(known) == len(parts) else None
+
+
+def _along(found: list[tuple[Course, HeatedGrid]]) -> float | None:
+    """Error by the grid along the film [K].
+
+    At first order the error is the difference to the next coarser grid, and half of the difference between
+    the two grids before. The larger one counts, as a difference of two maxima passes through zero. A peak
+    that the grid hardly shows may still become the largest one.
+    """
+    known = [(course, grid) for course, grid in found[-3:] if grid.converged and grid.heat is not None]
+    if len(known) < 2 or known[-2:] != found[-2:]:
+        return None
+    rises = [rise for each in reversed(known) if (rise := largest_rise(*each)) is not None]
+    changes = (0.5**k * abs(fine - coarse) for k, (fine, coarse) in enumerate(pairwise(rises)))
+    return max(*changes, _LEAST, close_enough(rises[0]), _growing_peak(*known[-2:]))
+
+
+def _growing_peak(coarse: tuple[Course, HeatedGrid], fine: tuple[Course, HeatedGrid]) -> float:
+    """Largest rise less that of the fine grid [K], if the growth from the coarse grid goes on."""
+    meshes = [course.levels[0].mesh for course, _ in (coarse, fine)]
+    before, now = (mid_film(grid.heat.temperature) for _, grid in (coarse, fine) if grid.heat is not None)
+    growth = np.maximum(now - on_mesh(before[np.newaxis], *meshes)[0], 0.0)
+    times = _GROWTH_UNBOUNDED if fine[0].physics.rheology.name in UNBOUNDED else _GROWTH
+    return float(np.max(now + times * growth) - np.max(now))
+
+
+def _beyond(course: Course, grid: HeatedGrid) -> bool:
+    """Whether the film is hotter than the range in which the laws of the oil have values."""
+    thermal = course.physics.thermal
+    assert thermal is not None and grid.heat is not None
+    return bool(np.max(grid.heat.temperature) > thermal.oil.highest)
+
+
+def _finer_across(course: Course, heat: Heat) -> tuple[Course, Heat]:
+    """Course and initial temperature of the film with a polynomial of higher degree across it."""
+    rows = Across.of(course.degree).at(Across.of(_FINE_DEGREE).zeta)
+    temperature, by_pressure = (np.tensordot(rows, v, axes=1) for v in (heat.temperature, heat.by_pressure))
+    finer = replace(heat, temperature=temperature, by_pressure=by_pressure)
+    return replace(course, degree=_FINE_DEGREE), finer
+
+
+def _curved_oil(course: Course, heat: Heat) -> tuple[Course, Heat]:
+    """Course of the film whose oil goes on beyond its range as parabolas, and not as straight lines."""
+    thermal = course.physics.thermal
+    assert thermal is not None
+    physics = replace(course.physics, thermal=replace(thermal, oil=replace(thermal.oil, curved=True)))
+    return replace(course, problem=replace(course.problem, physics=physics)), heat
+
+
+def _change(course: Course, grid: HeatedGrid, other: Variation) -> float | None:
+    """Change of the largest rise [K] by another way to solve the film; None if that does not converge."""
+    now = largest_rise(course, grid)
+    if now is None or grid.heat is None:
+        return None
+    course, heat = other(replace(course, finer=0), grid.heat)
+    varied = course(grid.solution.state, heat, spike=False)
+    rise = largest_rise(course, varied)
+    return abs(rise - now) if rise is not None and varied.converged else None
+
+
+# Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
+_FIRST, _FIRST_POINT = 151, 33
+
+# The same for the careful way.
+_FIRST_CAREFUL = 101
+
+# Parts of the slip of a film that does not converge at once.
+_SLIPS = (0.0, 0.03, 0.1, 0.3, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class HeatedSolution:
+    """Film with heat or shear thinning, and the film without both.
+
+    Attributes
+    ----------
+    refined : RefinedSolution
+        Film with heat and shear thinning on all of its grids.
+    simple : RefinedSolution
+        Isothermal Newtonian film on all of its grids.
+    temperature : ndarray, shape (nz, nx, ny), or None
+        Temperature [K] at the nodes across the film; None for an isothermal film.
+    zeta : ndarray, shape (nz,)
+        Positions z/h of these nodes.
+    mid_temperature : ndarray, shape (nx, ny), or None
+        Temperature at mid-film [K].
+    max_temperature_rise, temperature_rise_error : float or None
+        Largest rise of the mid-film temperature over that of the oil that enters [K], and the estimate of its
+        error (``accuracy.rise_error``).
+    shear_stress : ndarray, shape (nx, ny)
+        Shear stress along x at mid-film [Pa].
+    traction_coefficient, rolling_coefficient : float
+        Traction coefficient of the slip, and that of rolling.
+    power_loss : float
+        Friction power, [W/m] in a line and [W] in a point contact.
+    energy_imbalance : float or None
+        Heat of the film that the bodies and the oil do not take up, over all heat.
+    outer_iterations : int
+        Number of outer loops on all grids.
+    status : str
+        "converged", "stalled" or "diverged".
+    """
+
+    refined: RefinedSolution
+    simple: RefinedSolution
+    temperature: Array | None
+    zeta: Array
+    mid_temperature: Array | None
+    max_temperature_rise: float | None
+    temperature_rise_error: float | None
+    shear_stress: Array
+    traction_coefficient: float
+    rolling_coefficient: float
+    power_loss: float
+    energy_imbalance: float | None
+    outer_iterations: int
+    status: Status
+
+    @property
+    def surface_temperatures(self) -> Array | None:
+        """Temperatures of both surfaces [K], shape (2, nx, ny); None for an isothermal film."""
+        return None if self.temperature is None else self.temperature[[0, -1]]
+
+
+def film_of(problem: FilmProblem, progress: Progress | None = None) -> HeatedSolution:
+    """Solve the film with the physics of its problem, after the isothermal Newtonian film.
+
+    Parameters
+    ----------
+    problem : FilmProblem
+        Problem of the contact with its ``physics``.
+    progress : callable, optional
+        Function that is called with (nodes, Newton step, residual) before every Newton step.
+
+    Returns
+    -------
+    HeatedSolution
+        Both films, the temperature, and the friction.
+
+    Notes
+    -----
+    The grid is that on which the isothermal film reaches the ``target_error`` of the problem. The film with
+    heat is then solved on all grids from coarse to fine. In a point contact, the lines along x do not heat
+    one another through the bodies, so that a body with a Peclet number below about five gets too hot.
+    """
+    with quiet_solution():
+        return _solved(problem, progress)
+
+
+def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
+    """Both films, with heat on all grids from coarse to fine."""
+    assert problem.physics is not None
+    simple = refined_solution(replace(problem, physics=None), progress)
+    finest = _on(simple.problem if simple.patch is None else problem, simple.whole, problem)
+    found = _on_grids(finest, simple, progress, careful=False)
+    if not all(grid.converged for _, grid in found):
+        # Very hot films take more grids and more exact loops.
+        found = _on_grids(finest, simple, progress, careful=True)
+    return _solution(simple, found)
+
+
+def _on_grids(
+    finest: FilmProblem, simple: RefinedSolution, progress: Progress | None, *, careful: bool
+) -> list[tuple[Course, HeatedGrid]]:
+    """Film with heat on all grids; the quick way ends with the first grid that it does not solve."""
+    grids, least = [finest], _FIRST_CAREFUL if careful else _FIRST
+    if finest.width is not None:
+        least = _FIRST_POINT
+    while len(grids) < 2 or grids[-1].nodes // 2 + 1 >= least:
+        width = None if grids[-1].width is None else grids[-1].width.coarser()
+        grids.append(replace(grids[-1], nodes=grids[-1].nodes // 2 + 1, width=width))
+    found: list[tuple[Course, HeatedGrid]] = []
+    for finer, posed in reversed(list(enumerate(grids))):
+        course = replace(_course(posed, finer=finer, progress=progress), careful=careful)
+        if careful:
+            course, grid = _careful(course, simple, found)
+        else:
+            grid = course(*_start(course, simple, found), spike=True)
+        found.append((course, grid))
+        if not careful and not grid.converged:
+            break
+    return found
+
+
+def _careful(
+    course: Course, simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]
+) -> tuple[Course, HeatedGrid]:
+    """Film with heat on a grid by the first careful way that converges, that of the coarser grid first."""
+    before = bool(found) and found[-1][0].held
+    ways = [replace(course, held=held) for held in (before, not before)]
+    state, heat = _start(course, simple, found)
+    tried: list[tuple[Course, HeatedGrid]] = []
+    for way in ways:
+        tried.append((way, way(state, heat, spike=True)))
+        if tried[-1][1].converged:
+            return tried[-1]
+    if course.physics.slide_to_roll_ratio != 0.0:
+        for way in ways:
+            tried.append((way, _by_slip(way, simple)))
+            if tried[-1][1].converged:
+                return tried[-1]
+    return tried[0]
+
+
+def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmProblem:
+    """Problem with heat on the grid of the isothermal film over the whole domain."""
+    mesh, width = whole.level.mesh, posed.width
+    if width is not None:
+        across = mesh.whole_y.size if mesh.symmetric else mesh.y.size
+        width = replace(width, nodes=across)
+    return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=3)
+
+
+def _course(problem: FilmProblem, *, finer: int, progress: Progress | None) -> Course:
+    """Outer iteration on the grid of a problem."""
+    levels = levels_of(problem)
+    direct = problem.width is None and problem.nodes <= DIRECT
+    tolerance = problem.tolerance if finer == 0 else max(problem.tolerance, NESTED_TOLERANCE)
+    return Course(problem, levels[:1] if direct else levels, tolerance, finer, progress)
+
+
+def _by_slip(course: Course, simple: RefinedSolution) -> HeatedGrid:
+    """Film with heat on a grid from rolling to its own slip in steps, which converges from farther."""
+    first, second = course.physics.speeds
+    mean = course.physics.mean_speed
+    (state, heat), loops = _start(course, simple, []), 0
+    for part in _SLIPS:
+        speeds = mean + part * (first - mean), mean + part * (second - mean)
+        problem = replace(course.problem, physics=replace(course.physics, speeds=speeds))
+        grid = replace(course, problem=problem)(state, heat, spike=False)
+        loops += grid.loops
+        if grid.solution.status != "diverged":
+            state, heat = grid.solution.state, grid.heat
+    return replace(grid, loops=loops)
+
+
+def _start(
+    course: Course, simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]
+) -> tuple[State, Heat | None]:
+    """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid."""
+    level = course.levels[0]
+    if found and found[-1][1].converged:
+        coarse = found[-1][1]
+        state = interpolated_state(level, coarse.solution)
+        state = state.lifted(0.5 * float(coarse.solution.state.thickness.min()))
+        return state, None if coarse.heat is None else _finer(coarse.heat, coarse.solution.level, level)
+    for solution in reversed(simple.solutions):
+        if solution.level.mesh.shape == level.mesh.shape and simple.patch is None:
+            return solution.state, None
+    return interpolated_state(level, simple.whole), None
+
+
+def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:
+    """Temperature and fluxes on a finer grid, interpolated linearly."""
+    return Heat(*(on_mesh(values, coarse.mesh, level.mesh) for values in vars(heat).values()))
+
+
+def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -> HeatedSolution:
+    """Results of the film on its finest grid."""
+    course, last = found[-1]
+    problem, physics = course.problem, course.physics
+    mesh, state = course.levels[0].mesh, last.solution.state
+    columns, filled = course.columns(last.solution, last.flow)
+    friction = traction(
+        columns,
+        state.thickness,
+        mesh,
+        load=course.levels[0].load,
+        stress_ratio=course.stress_scale / problem.scales.pressure,
+        filled=filled,
+    )
+    scales, level = problem.scales, course.levels[0]
+    load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
+    heat = last.heat
+    middle = None if heat is None else mid_film(heat.temperature)
+    imbalance = None
+    if heat is not None and physics.thermal is not None:
+        stream = course.stream(last.solution, heat, columns, filled)
+        imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
+    return HeatedSolution(
+        refined=RefinedSolution(problem, [grid.solution for _, grid in found]),
+        simple=simple,
+        temperature=None if heat is None else heat.temperature,
+        zeta=columns.across.zeta,
+        mid_temperature=middle,
+        max_temperature_rise=largest_rise(course, last),
+        temperature_rise_error=rise_error(found),
+        shear_stress=course.stress_scale * columns.middle[0] * filled,
+        traction_coefficient=friction.sliding,
+        rolling_coefficient=friction.rolling,
+        power_loss=friction.power_loss(
+            load,
+            entrainment_speed=physics.mean_speed,
+            slide_to_roll_ratio=physics.slide_to_roll_ratio,
+        ),
+        energy_imbalance=imbalance,
+        outer_iterations=sum(grid.loops for _, grid in found),
+        status=last.solution.status,
+    )
+
+
+def film_status_of(found: HeatedSolution, status: Status) -> Status:
+    """Status of a film, "converged" only if its temperature converged with it and its surfaces are apart.
+
+    The equations of heat and shear know no surfaces that touch: a film thinner than the boundary film is no
+    solution of them.
+    """
+    if status != "converged":
+        return status
+    pierced = float(np.min(found.refined.last.state.thickness)) < found.refined.problem.boundary_film
+    return "stalled" if pierced else found.status
+
+
+def heated_film(
+    found: HeatedSolution,
+    shaped: Callable[[NDArray[Any]], NDArray[Any]],
+    *,
+    status: Status,
+    minimum_thickness: float | None,
+    central_thickness: float | None,
+) -> HeatedFilm:
+    """Heat and shear of a solution, at the nodes of the whole domain.
+
+    Parameters
+    ----------
+    found : HeatedSolution
+        Film with its temperature and shear stress.
+    shaped : callable
+        Function that brings nodal values (nx, ny) into their shape in the film.
+    status : str
+        Status of the film; without "converged" it has no friction.
+    minimum_thickness, central_thickness : float or None
+        Film thicknesses without heat and shear [m]; None if the film without them did not converge.
+
+    Returns
+    -------
+    HeatedFilm
+        Nodal values and totals, SI units.
+    """
+    physics = found.refined.problem.physics
+    assert physics is not None
+    converged = status == "converged"
+    rows, bodies = found.temperature, () if physics.thermal is None else physics.thermal.bodies
+    # Equal surfaces drag none of each other. The iteration leaves a stress of its tolerance.
+    alike = physics.slide_to_roll_ratio == 0.0 and len(set(bodies)) <= 1
+    return HeatedFilm(
+        rheology=physics.rheology.name,
+        # A slide-to-roll ratio is positive where surface 1 is the faster one.
+        shear_stress=-shaped(found.shear_stress),
+        traction_coefficient=(0.0 if alike else -found.traction_coefficient) if converged else None,
+        rolling_coefficient=found.rolling_coefficient if converged else None,
+        power_loss=found.power_loss if converged else None,
+        isothermal_minimum_thickness=minimum_thickness,
+        isothermal_central_thickness=central_thickness,
+        outer_iterations=found.outer_iterations,
+        zeta=None if rows is None else found.zeta,
+        temperature=None if rows is None else np.stack([shaped(row) for row in rows]),
+        mid_temperature=None if found.mid_temperature is None else shaped(found.mid_temperature),
+        max_temperature_rise=found.max_temperature_rise,
+        temperature_rise_error=found.temperature_rise_error,
+        energy_imbalance=found.energy_imbalance,
+    )

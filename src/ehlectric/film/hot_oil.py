@@ -1,0 +1,434 @@
+"""Oil over pressure and temperature, the data of a heated or sheared film, and its result in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError
+from ehlectric.film.shear_laws import Rheology
+from ehlectric.lubricant.oil import Oil
+from ehlectric.runtime.stored import number, stored
+from ehlectric.runtime.values import Values
+
+# Number of temperatures. With it ln(viscosity) of Roelands, Vogel and Yasutomi over 300 K is exact to 1e-6.
+_TEMPERATURES = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Property:
+    """Property of the oil over temperature at given pressures, computed as far as it is asked for.
+
+    Attributes
+    ----------
+    values, slopes : ndarray, shape (n, ...)
+        Chebyshev coefficients of the property and of its derivative by pressure.
+    t : ndarray
+        Temperature on the range of the series, mapped to -1 ... 1.
+    half_range : float
+        Half of this range [K].
+    curved : bool
+        Whether the property goes on beyond the range as a parabola, up to its vertex, in place of a line.
+    """
+
+    values: Array
+    slopes: Array
+    t: Array
+    half_range: float
+    curved: bool = False
+
+    @cached_property
+    def _inside(self) -> Array:
+        return np.clip(self.t, -1.0, 1.0)
+
+    @cached_property
+    def _polynomials(self) -> Array:
+        """Chebyshev polynomials at the temperatures, shape (n, nz, ...)."""
+        return _polynomials(self._inside, len(self.values))
+
+    def _series(self, coefficients: Array) -> Array:
+        """Chebyshev series (m, ...) at the temperatures, m <= n."""
+        of_each = self._polynomials[: len(coefficients)]
+        return np.asarray(np.einsum("k...,k...->...", of_each, coefficients), dtype=np.float64)
+
+    @cached_property
+    def _by_t(self) -> Array:
+        return self._series(_derived(self.values))
+
+    @cached_property
+    def _beyond(self) -> Array | None:
+        """Distance from the range, or None where all temperatures are inside."""
+        beyond = self.t - self._inside
+        return beyond if beyond.any() else None
+
+    @cached_property
+    def _curvature(self) -> Array:
+        """Second derivative by ``t`` at the end of the range, of parabolas; zero for straight lines."""
+        return self._series(_derived(_derived(self.values))) if self.curved else np.zeros_like(self.t)
+
+    @cached_property
+    def _reach(self) -> Array:
+        """Distance from the range, of a parabola at most that of its vertex."""
+        beyond = self.t - self._inside
+        slope, curvature = self._by_t, self._curvature
+        vertex = np.divide(-slope, curvature, out=np.full_like(slope, np.inf), where=curvature != 0.0)
+        return np.where(vertex * beyond > 0.0, np.sign(beyond) * np.minimum(abs(beyond), abs(vertex)), beyond)
+
+    @cached_property
+    def value(self) -> Array:
+        """Values of the property."""
+        inside = self._series(self.values)
+        if self._beyond is None:
+            return inside
+        return inside + (self._by_t + 0.5 * self._curvature * self._reach) * self._reach
+
+    @cached_property
+    def by_pressure(self) -> Array:
+        """Derivative by pressure [1/Pa]."""
+        inside = self._series(self.slopes)
+        if self._beyond is None:
+            return inside
+        return inside + self._series(_derived(self.slopes)) * self._beyond
+
+    @cached_property
+    def by_temperature(self) -> Array:
+        """Derivative by temperature [1/K]."""
+        if self._beyond is None:
+            return self._by_t / self.half_range
+        return (self._by_t + self._curvature * self._reach) / self.half_range
+
+
+@dataclass(frozen=True, eq=False)
+class HotOil:
+    """Oil over pressure and temperature.
+
+    Each property is a polynomial in temperature through the oils at the Chebyshev temperatures. Beyond the
+    range it goes on as a straight line.
+
+    Attributes
+    ----------
+    oils : tuple of Oil
+        Oils at the Chebyshev temperatures between ``lowest`` and ``highest``.
+    lowest, highest : float
+        Range of temperature [K].
+    curved : bool
+        Whether properties go on beyond the range as parabolas, up to their vertices, in place of lines.
+
+    Examples
+    --------
+    An oil whose viscosity falls by 3 % per kelvin:
+
+    >>> from ehlectric.lubricant.density import incompressible
+    >>> from ehlectric.lubricant.oil import BoundLaw, OfDensity
+    >>> from ehlectric.lubricant.electrical_laws import constant_permittivity
+    >>> from ehlectric.lubricant.viscosity import barus
+    >>> eps = OfDensity(BoundLaw(constant_permittivity, {"relative_permittivity": 2.2}))
+    >>> law = BoundLaw(barus, {"pressure_viscosity_coefficient": 2e-8})
+    >>> constant = lambda value: lambda p: (np.full_like(p, value), np.zeros_like(p))
+    >>> def at(temperature):
+    ...     viscosity = 0.04 * np.exp(-0.03 * (temperature - 313.15))
+    ...     return Oil(viscosity, 2.2, 1e5, law, BoundLaw(incompressible, {}), eps, density=870.0,
+    ...                thermal_conductivity_law=constant(0.14), heat_capacity_law=constant(1.7e6))
+    >>> oil = HotOil.through(at, 273.15, 473.15)
+    >>> found = oil.log_viscosity(np.array([1e8]), np.array([333.15]))
+    >>> round(float(found.value[0] - np.log(0.04)), 6), round(float(found.by_temperature[0]), 6)
+    (1.4, -0.03)
+    """
+
+    oils: tuple[Oil, ...]
+    lowest: float
+    highest: float
+    curved: bool = False
+
+    @classmethod
+    def through(
+        cls,
+        oil_at: Callable[[float], Oil],
+        lowest: float,
+        highest: float,
+        *,
+        temperatures: int = _TEMPERATURES,
+    ) -> HotOil:
+        """Oil through the oils at Chebyshev temperatures.
+
+        Parameters
+        ----------
+        oil_at : callable
+            Oil at a temperature [K].
+        lowest, highest : float
+            Range of temperature [K].
+        temperatures : int
+            Number of Chebyshev temperatures.
+
+        Raises
+        ------
+        InputError
+            If the oil has no density, thermal conductivity or heat capacity.
+        """
+        at = 0.5 * (lowest + highest) + 0.5 * (highest - lowest) * chebyshev.chebpts1(temperatures)
+        oils = tuple(oil_at(float(temperature)) for temperature in at)
+        for key, value in (
+            ("lubricant.density", oils[0].density),
+            ("lubricant.thermal_conductivity", oils[0].thermal_conductivity_law),
+            ("lubricant.heat_capacity", oils[0].heat_capacity_law),
+        ):
+            if value is None:
+                raise InputError(key, got="no value", takes="a value: the heat in the film depends on it")
+        return cls(oils, lowest, highest)
+
+    def log_viscosity(self, pressure: Array, temperature: Array) -> Property:
+        """Natural logarithm of the viscosity in Pa s.
+
+        ``pressure`` [Pa] has the shape (...), ``temperature`` [K] the shape (..., ) or (nz, ...).
+        """
+
+        def law(oil: Oil, pressure: Array) -> tuple[Array, Array]:
+            value, slope = oil.log_viscosity(pressure)
+            return value + np.log(oil.viscosity), slope
+
+        return self._between(law, pressure, temperature)
+
+    def density(self, pressure: Array, temperature: Array) -> Property:
+        """Density [kg/m^3]; pressure and temperature as for ``log_viscosity``."""
+
+        def law(oil: Oil, pressure: Array) -> tuple[Array, Array]:
+            value, slope = oil.density_ratio(pressure)
+            assert oil.density is not None
+            return oil.density * value, oil.density * slope
+
+        return self._between(law, pressure, temperature)
+
+    def thermal_conductivity(self, pressure: Array, temperature: Array) -> Property:
+        """Thermal conductivity [W/(m K)]; pressure and temperature as for ``log_viscosity``."""
+
+        def law(oil: Oil, pressure: Array) -> tuple[Array, Array]:
+            assert oil.thermal_conductivity_law is not None
+            return oil.thermal_conductivity_law(pressure)
+
+        return self._between(law, pressure, temperature)
+
+    def heat_capacity(self, pressure: Array, temperature: Array) -> Property:
+        """Volumetric heat capacity [J/(m^3 K)]; pressure and temperature as for ``log_viscosity``."""
+
+        def law(oil: Oil, pressure: Array) -> tuple[Array, Array]:
+            assert oil.heat_capacity_law is not None
+            return oil.heat_capacity_law(pressure)
+
+        return self._between(law, pressure, temperature)
+
+    @cached_property
+    def _to_coefficients(self) -> Array:
+        """Matrix from the values at the Chebyshev temperatures to the coefficients of the series."""
+        n = len(self.oils)
+        return np.asarray(np.linalg.inv(chebyshev.chebvander(chebyshev.chebpts1(n), n - 1)), dtype=np.float64)
+
+    def _between(
+        self, law: Callable[[Oil, Array], tuple[Array, Array]], pressure: Array, temperature: Array
+    ) -> Property:
+        """Values of a law at pressures and temperatures, with their derivatives."""
+        values = np.empty((len(self.oils), *pressure.shape))
+        slopes = np.empty_like(values)
+        for k, oil in enumerate(self.oils):
+            values[k], slopes[k] = law(oil, pressure)
+        half = 0.5 * (self.highest - self.lowest)
+        return Property(
+            np.tensordot(self._to_coefficients, values, axes=1),
+            np.tensordot(self._to_coefficients, slopes, axes=1),
+            (temperature - self.lowest) / half - 1.0,
+            half,
+            self.curved,
+        )
+
+
+def _derived(coefficients: Array) -> Array:
+    """Coefficients of the derivative of a Chebyshev series (n, ...), shape (n - 1, ...)."""
+    return np.tensordot(_derivative(len(coefficients)), coefficients, axes=1)
+
+
+@cache
+def _derivative(count: int) -> Array:
+    """Matrix from the coefficients of a Chebyshev series to those of its derivative, (count - 1, count)."""
+    return np.asarray(chebyshev.chebder(np.eye(count), axis=0))
+
+
+def _polynomials(t: Array, count: int) -> Array:
+    """Chebyshev polynomials of degree 0, 1, ... at t, shape (count, ...)."""
+    values = np.empty((count, *t.shape))
+    values[0], values[1] = 1.0, t
+    double = 2.0 * t
+    for k in range(2, count):
+        np.multiply(double, values[k - 1], out=values[k])
+        values[k] -= values[k - 2]
+    return values
+
+
+@dataclass(frozen=True)
+class Body:
+    """Body under the film that takes up its heat.
+
+    Attributes
+    ----------
+    temperature : float
+        Bulk temperature, that of the surface before it enters the contact [K].
+    thermal_conductivity : float
+        Thermal conductivity [W/(m K)].
+    heat_capacity : float
+        Specific heat capacity [J/(kg K)].
+    density : float
+        Density [kg/m^3].
+
+    Examples
+    --------
+    >>> steel = Body(313.15, thermal_conductivity=46.0, heat_capacity=470.0, density=7850.0)
+    >>> round(steel.diffusivity * 1e6, 2)
+    12.47
+    """
+
+    temperature: float
+    thermal_conductivity: float
+    heat_capacity: float
+    density: float
+
+    @property
+    def diffusivity(self) -> float:
+        """Thermal diffusivity k/(rho c) [m^2/s]."""
+        return self.thermal_conductivity / (self.density * self.heat_capacity)
+
+
+@dataclass(frozen=True)
+class Thermal:
+    """Conditions of the energy equation.
+
+    Attributes
+    ----------
+    bodies : tuple of Body
+        Body a (surface 1, at z = 0) and body b (surface 2, at z = h).
+    inlet_temperature : float
+        Temperature of the oil that enters [K]. The laws of the film problem without heat belong to it.
+    oil : HotOil
+        Properties of the oil over pressure and temperature.
+    """
+
+    bodies: tuple[Body, Body]
+    inlet_temperature: float
+    oil: HotOil
+
+
+@dataclass(frozen=True)
+class Physics:
+    """Rheology and heat of a film, beside its isothermal Newtonian problem.
+
+    Attributes
+    ----------
+    rheology : Rheology
+        Law between shear stress and shear rate, with its constants in SI units.
+    speeds : tuple of float
+        Speeds u_a and u_b of the surfaces 1 and 2 along x [m/s]; their mean is positive.
+    viscosity : float
+        Viscosity eta_0 in the velocity parameter of the problem [Pa s].
+    thermal : Thermal or None
+        Heat; None for an isothermal film.
+    """
+
+    rheology: Rheology
+    speeds: tuple[float, float]
+    viscosity: float
+    thermal: Thermal | None = None
+
+    @property
+    def mean_speed(self) -> float:
+        """Entrainment speed (u_a + u_b)/2 [m/s]."""
+        return 0.5 * (self.speeds[0] + self.speeds[1])
+
+    @property
+    def slide_to_roll_ratio(self) -> float:
+        """Slide-to-roll ratio (u_b - u_a)/u_m."""
+        return (self.speeds[1] - self.speeds[0]) / self.mean_speed
+
+
+_ACROSS = "from surface 1 to surface 2"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class HeatedFilm(Values):
+    """Heat and shear of a film in SI units, with nodal values (nx,), or (nx, ny) of a point contact.
+
+    Attributes
+    ----------
+    rheology : str
+        Name of the law between shear stress and shear rate, such as "eyring".
+    shear_stress : ndarray
+        Shear stress at mid-film along entrainment [Pa], positive where surface 1 is the faster one.
+    traction_coefficient : float or None
+        Mean shear stress at mid-film over the mean pressure, dimensionless; its sign is that of the stress.
+        None, as the other friction, if the film did not converge.
+    rolling_coefficient : float or None
+        Rolling friction over the load, dimensionless, of each of the two surfaces.
+    power_loss : float or None
+        Power that the film turns into heat [W]; of a line contact per length [W/m].
+    isothermal_minimum_thickness, isothermal_central_thickness : float or None
+        Film thicknesses of the same contact with an isothermal Newtonian film [m]; None if that film did not
+        converge.
+    outer_iterations : int
+        Number of alternations between the film and its temperature.
+    zeta : ndarray, shape (nz,), or None
+        Positions across the film from surface 1, at 0, to surface 2, at 1. None for an isothermal film.
+    temperature : ndarray, shape (nz, nx) or (nz, nx, ny), or None
+        Temperature in the film [K]; its first and last rows are those of the surfaces.
+    mid_temperature : ndarray or None
+        Temperature at mid-film [K].
+    max_temperature_rise : float or None
+        Largest temperature at mid-film less that of the oil in the inlet [K].
+    temperature_rise_error : float or None
+        Estimated error of ``max_temperature_rise`` by the grids along and across the film, the iteration and
+        extrapolated properties of the oil [K]; None if unknown.
+    energy_imbalance : float or None
+        Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
+    """
+
+    rheology: str = field(metadata=number("text"))
+    shear_stress: Array = field(
+        metadata=stored("nodes", "Pa", "finite", "shear stress at mid-film along entrainment", needed=False)
+    )
+    traction_coefficient: float | None = field(metadata=number())
+    rolling_coefficient: float | None = field(metadata=number())
+    power_loss: float | None = field(metadata=number("not negative or null"))
+    isothermal_minimum_thickness: float | None = field(metadata=number("positive or null"))
+    isothermal_central_thickness: float | None = field(metadata=number("positive or null"))
+    outer_iterations: int = field(metadata=number("whole"))
+    zeta: Array | None = field(
+        default=None,
+        metadata=stored("zeta", "1", "increasing", f"fraction of the film, {_ACROSS}", needed=False),
+    )
+    temperature: Array | None = field(
+        default=None,
+        metadata=stored("zeta nodes", "K", "positive", f"temperature in the film, {_ACROSS}", needed=False),
+    )
+    mid_temperature: Array | None = field(
+        default=None, metadata=stored("nodes", "K", "positive", "temperature at mid-film", needed=False)
+    )
+    max_temperature_rise: float | None = field(default=None, metadata=number())
+    temperature_rise_error: float | None = field(default=None, metadata=number())
+    energy_imbalance: float | None = field(default=None, metadata=number())
+
+    @property
+    def thermal(self) -> bool:
+        """Whether the temperature in the film was computed."""
+        return self.temperature is not None
+
+    @property
+    def surface_temperatures(self) -> Array | None:
+        """Temperatures of surfaces 1 and 2 [K], shape (2, nx) or (2, nx, ny); None of an isothermal film."""
+        return None if self.temperature is None else self.temperature[[0, -1]]
+
+    @property
+    def temperature_range(self) -> tuple[float, float] | None:
+        """Lowest and highest temperature in the film [K]; None of an isothermal film."""
+        if self.temperature is None:
+            return None
+        return float(np.min(self.temperature)), float(np.max(self.temperature))

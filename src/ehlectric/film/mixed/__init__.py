@@ -1,1 +1,0 @@
-"""Mixed lubrication: films that asperities pierce, and the pressure of the asperities."""

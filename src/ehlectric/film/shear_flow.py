@@ -1,0 +1,633 @@
+"""Flow of a shear-thinning oil through the faces of a grid, with its derivatives, its stress over the
+film, and traction.
+
+Flux through faces of a grid, from the properties of the oil at the nodes across the film.
+Nearly all columns of a film have stress differences below the characteristic stress of the law, for which few
+Gauss points across the film are exact. Only the columns at the pressure spike need many.
+
+Flow of a shear-thinning oil through the faces of a grid, with its derivatives.
+A face has the mean film thickness and density of its two nodes and the logarithmic mean of their fluidities,
+as for a Newtonian oil (``ehlectric.film.flow.mean_fluidity``). Where the viscosity varies across the film,
+the logarithm of its ratio to the viscosity of the reference temperature is the mean of the two nodes. The
+mass flux relative to the mean speed of the surfaces is, with the dimensionless flux of a column (``column``),
+
+    F = (12/lambda) H^2 S flux(a, w, q, g),    q = H dP/dX/S,    g = lambda SRR/(12 H S)
+
+Stresses are over p_h b/R, and S is the characteristic stress of the law. F is the mass
+flux less the mean density times u_m h. The wedge term is therefore that of a Newtonian oil with the mean
+density across the film.
+
+Traction of a lubricated contact: friction by sliding and by rolling, and the power that it takes.
+The shear stress in the film is tau = tau_m + (z - h/2) dp/dx. The mid-film stress tau_m drags both surfaces
+in opposite directions, and vanishes in pure rolling. The rest, h/2 dp/dx on each surface, resists the motion
+of both in the same direction. It remains in pure rolling, where the inlet has the larger film.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.across_film import (
+    Across,
+    Profile,
+    Properties,
+    Quadrature,
+    integrals,
+    over_columns,
+    to_points,
+)
+from ehlectric.film.flow import (
+    Coefficients,
+    FaceFlow,
+    Flow,
+    Fluid,
+    Sides,
+    evaluate,
+    logarithmic_mean,
+    with_mirror,
+)
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.shear_laws import Rheology
+from ehlectric.film.shear_stress import (
+    EvenStress,
+    Flux,
+    column_flux,
+    even_flux,
+    middle_stress,
+    middle_stresses,
+    plane_flux,
+    uniform_eyring,
+)
+
+# Largest stress difference over the characteristic stress for which few points are enough, and the number of
+# these points for uniform properties and for those of a temperature profile. The flux is then exact to 1e-10
+# for the Eyring law and to 1e-7 for Carreau's law.
+_SMALL, _FEW, _FEW_OF_PROFILE = 2.0, 8, 12
+
+# Number of columns, as around a pressure spike, up to which two quadratures take longer than the larger one.
+_TOGETHER = 100
+
+
+def flux_of(
+    rheology: Rheology,
+    mean: Array,
+    gradient: Array,
+    slip: Array,
+    profile: tuple[Array, Array] | None = None,
+) -> Flux:
+    """Flux along the first axis of columns with uniform properties or with a profile across the film.
+
+    Parameters
+    ----------
+    rheology : Rheology
+        Shear-thinning law.
+    mean : ndarray, shape (...)
+        Fluidity eta_0/eta of the columns, at the reference temperature.
+    gradient, slip : ndarray, shape (d, ...)
+        q and g of ``column``, along the axis of the flux and, for d = 2, along the other axis.
+    profile : tuple of ndarray, each of shape (nz, ...), optional
+        Logarithm of the viscosity over that at the reference temperature, and the density, at the nodes
+        across the film. Without it the viscosity is uniform and the density is one.
+
+    Returns
+    -------
+    Flux
+        Flux and derivatives; those by viscosity and density are by the values at the nodes across the film.
+
+    Examples
+    --------
+    >>> found = flux_of(Rheology(), np.ones(1), np.array([[1.2]]), np.array([[3.0]]))
+    >>> round(float(found.flux[0]), 12)
+    0.1
+    """
+    if profile is None and len(gradient) == 1 and rheology.name == "eyring":
+        return uniform_eyring(mean, gradient[0], slip[0])
+    shape, d = mean.shape, len(gradient)
+    mean, gradient, slip = mean.reshape(-1), gradient.reshape(d, -1), slip.reshape(d, -1)
+    nz = 1 if profile is None else len(profile[0])
+    ratio, layers = (None, None) if profile is None else (values.reshape(nz, -1) for values in profile)
+    few = _FEW if profile is None else _FEW_OF_PROFILE
+    small = (np.max(np.abs(gradient), axis=0) < _SMALL) | rheology.law.even
+    if mean.size <= _TOGETHER and not small.all():
+        small[:] = False
+    flux, by_gradient, by_slip = np.empty_like(mean), np.empty_like(gradient), np.empty_like(slip)
+    by_viscosity, by_weight = np.empty((nz, mean.size)), np.empty((nz, mean.size))
+    for part, quadrature in ((small, Quadrature.gauss(few)), (~small, Quadrature.gauss())):
+        if not part.any():
+            continue
+        found = _at_points(
+            rheology,
+            mean[part],
+            gradient[:, part],
+            slip[:, part],
+            None if ratio is None or layers is None else (ratio[:, part], layers[:, part]),
+            quadrature,
+        )
+        flux[part], by_gradient[:, part], by_slip[:, part] = found.flux, found.by_gradient, found.by_slip
+        by_viscosity[:, part] = found.by_viscosity
+        if profile is not None:
+            by_weight[:, part] = found.by_weight
+    return Flux(
+        flux.reshape(shape),
+        by_gradient.reshape(d, *shape),
+        by_slip.reshape(d, *shape),
+        by_viscosity.reshape(nz, *shape),
+        None if profile is None else by_weight.reshape(nz, *shape),
+    )
+
+
+def _at_points(
+    rheology: Rheology,
+    mean: Array,
+    gradient: Array,
+    slip: Array,
+    profile: tuple[Array, Array] | None,
+    quadrature: Quadrature,
+) -> Flux:
+    """Flux of some columns (n,) by one quadrature; arguments as for ``flux_of``."""
+    if profile is None:
+        fluidity, weight = mean[np.newaxis], quadrature.offset[:, np.newaxis]
+        return _by_law(rheology, fluidity, weight, gradient, slip, quadrature)
+    ratio, layers = profile
+    values, below = to_points(len(ratio) - 1, quadrature.offset.size)
+    found = _by_law(rheology, mean * np.exp(-values @ ratio), below @ layers, gradient, slip, quadrature)
+    assert found.by_weight is not None
+    by_ratio, by_layers = values.T @ found.by_viscosity, below.T @ found.by_weight
+    return Flux(found.flux, found.by_gradient, found.by_slip, by_ratio, by_layers)
+
+
+def _by_law(
+    rheology: Rheology,
+    fluidity: Array,
+    weight: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature,
+) -> Flux:
+    """Flux of columns by the equations of their law and of the number of axes."""
+    if rheology.law.even:
+        return even_flux(rheology, fluidity, weight, gradient, slip, quadrature)
+    if len(gradient) == 2:
+        return plane_flux(rheology, fluidity, weight, gradient, slip, quadrature)
+    return column_flux(rheology, fluidity, weight, gradient[0], slip[0], quadrature)
+
+
+# Degree of the polynomial across a film without a temperature profile, for stresses and speeds.
+_DEGREE = 8
+
+
+@dataclass(frozen=True)
+class ShearedFlow:
+    """Flow law of a shear-thinning oil, a value of ``Fluid.flow``.
+
+    Attributes
+    ----------
+    rheology : Rheology
+        Shear-thinning law.
+    stress_scale : float
+        Unit of the shear stress, p_h b/R [Pa], with half-width b and reduced radius R along entrainment.
+    pressure_scale : float
+        Hertz pressure p_h [Pa].
+    slide_to_roll_ratio : float
+        Slip of the surfaces over their mean speed, (u_2 - u_1)/u_m: positive where surface 2 is faster. The
+        ratio of a case is its negative.
+    profile : Profile or None
+        Viscosity and density across the film, at a fixed temperature; None where they are uniform.
+
+    Examples
+    --------
+    Between parallel surfaces an Eyring oil flows faster than a Newtonian one:
+
+    >>> constant = lambda p: (np.ones_like(p), np.zeros_like(p))
+    >>> isoviscous = lambda p: (np.zeros_like(p), np.zeros_like(p))
+    >>> fluid = Fluid(constant, isoviscous, velocity_parameter=0.1, ambient_pressure=0.0)
+    >>> pressure, mesh = np.array([[0.0], [1.0], [2.0]]), Mesh.over(3, 0.0, 1.0)
+    >>> law = ShearedFlow(Rheology("eyring", {"eyring_stress": 5e6}), stress_scale=1e7, pressure_scale=1e9)
+    >>> law(fluid, pressure, np.ones((3, 1)), mesh).along.flux[:, 0].round(1)
+    array([58.5, 58.5])
+    """
+
+    rheology: Rheology
+    stress_scale: float
+    pressure_scale: float
+    slide_to_roll_ratio: float = 0.0
+    profile: Profile | None = None
+
+    def __call__(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
+        """Flow through all faces at P (nx, ny) and H (nx, ny) on a mesh."""
+        k, properties = self._evaluate(fluid, pressure, thickness, mesh)
+        nodes = _Nodes.of(k, properties, pressure, thickness)
+        slip = fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0
+        if mesh.dy is None:
+            return Flow(k, self._through(nodes, mesh.dx, slip, fluid, None), None)
+        by_x, by_y = gradients(pressure, mesh)
+        along = self._through(nodes, mesh.dx, slip, fluid, by_y)
+        turned = nodes.turned(mesh)
+        across = self._through(turned, mesh.dy, slip, fluid, with_mirror(by_x, mesh).T, across=True)
+        return Flow(k, along, across)
+
+    def columns(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Columns:
+        """Stress, shear rate and speed across the film at the nodes, with central differences of P."""
+        k, properties = self._evaluate(fluid, pressure, thickness, mesh)
+        clipped = np.maximum(pressure, fluid.ambient_pressure)
+        degree = _DEGREE if self.profile is None else self.profile.across.zeta.size - 1
+        viscosity = np.exp(k.log_viscosity)[np.newaxis]
+        density = k.density[np.newaxis]
+        if properties is not None:
+            viscosity = viscosity * np.exp(properties.log_ratio)
+            density = properties.density
+        return columns_of(
+            self.rheology,
+            Across.of(degree),
+            (viscosity, density),
+            gradient=np.stack(gradients(pressure, mesh)),
+            thickness=thickness,
+            scale=self._scale(clipped)[0],
+            slip=fluid.velocity_parameter * self.slide_to_roll_ratio / 12.0,
+            speed_unit=12.0 / fluid.velocity_parameter,
+        )
+
+    def _evaluate(
+        self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh
+    ) -> tuple[Coefficients, Properties | None]:
+        """Coefficients at the nodes, with the mean density across the film, and the profile's properties."""
+        k = evaluate(fluid, pressure, thickness)
+        if self.profile is None:
+            return k, None
+        properties = self.profile(np.maximum(pressure, fluid.ambient_pressure), mesh)
+        weights = over_columns(self.profile.across.weights, pressure)
+        density = np.sum(weights * properties.density, axis=0)
+        return (
+            replace(
+                k,
+                density=density,
+                density_p=np.sum(weights * properties.density_p, axis=0),
+                eps=k.eps * density / k.density,
+                eps_p=k.eps_p * density / k.density,
+                eps_h=k.eps_h * density / k.density,
+            ),
+            properties,
+        )
+
+    def _scale(self, pressure: Array) -> tuple[Array, Array]:
+        """Characteristic stress of the law over ``stress_scale``, and its derivative by P."""
+        rheology = self.rheology
+        scale, slope = rheology.law.scale(pressure * self.pressure_scale, rheology.constants)
+        return scale / self.stress_scale, slope * self.pressure_scale / self.stress_scale
+
+    def _through(
+        self,
+        nodes: _Nodes,
+        spacing: float,
+        slip: float,
+        fluid: Fluid,
+        beside: Array | None,
+        *,
+        across: bool = False,
+    ) -> FaceFlow:
+        """Flow along the first axis; ``beside`` is the gradient of P along the other axis at the nodes."""
+        mean, by_before, by_after = logarithmic_mean(nodes.log_viscosity, nodes.fluidity)
+        gap = _mean(nodes.thickness)
+        difference = np.diff(nodes.pressure, axis=0)
+        lowest = fluid.ambient_pressure
+        scale, scale_p = self._scale(np.maximum(_mean(nodes.pressure), lowest))
+        gradient = (gap / spacing * difference / scale)[np.newaxis]
+        sliding = (slip / (gap * scale))[np.newaxis]
+        if beside is not None:
+            # The derivatives by the gradient along the other axis are left out of the Jacobian, as they reach
+            # nodes outside its stencil. They are products of both gradients; Newton's method takes a few more
+            # steps without them.
+            gradient = np.concatenate([gradient, (gap * _mean(beside) / scale)[np.newaxis]])
+            still = np.zeros_like(sliding)
+            sliding = np.concatenate([still, sliding] if across else [sliding, still])
+        found = flux_of(self.rheology, mean, gradient, sliding, nodes.profile())
+
+        size = 12.0 / fluid.velocity_parameter * gap**2 / spacing
+        of_scale = found.flux - np.sum(gradient * found.by_gradient + sliding * found.by_slip, axis=0)
+        of_gap = 2.0 * found.flux + np.sum(gradient * found.by_gradient - sliding * found.by_slip, axis=0)
+        by_scale = 0.5 * size * of_scale * np.where(_mean(nodes.pressure) > lowest, scale_p, 0.0)
+        amount = size * scale
+        mass = 1.0 if nodes.layers is not None else _mean(nodes.density)
+        half_gap = 0.5 * amount * mass * of_gap / gap
+        before, after = nodes.by_properties(found, by_before / mean, by_after / mean)
+        return FaceFlow(
+            flux=amount * mass * found.flux,
+            conductance=size * mass * found.by_gradient[0] * gap / spacing,
+            by_properties=Sides(amount * before + mass * by_scale, amount * after + mass * by_scale),
+            by_gap=Sides(half_gap, half_gap),
+        )
+
+
+def gradients(pressure: Array, mesh: Mesh) -> tuple[Array, Array]:
+    """Central differences dP/dX and dP/dY at the nodes, one-sided on the edges, each of shape (nx, ny)."""
+    by_x = np.asarray(np.gradient(pressure, mesh.dx, axis=0))
+    if mesh.dy is None:
+        return by_x, np.zeros_like(pressure)
+    by_y = np.asarray(np.gradient(with_mirror(pressure, mesh), mesh.dy, axis=1))
+    return by_x, by_y[:, 1:] if mesh.symmetric else by_y
+
+
+def _mean(values: Array) -> Array:
+    """Means of neighbours along the last but one axis."""
+    return np.asarray(0.5 * (values[..., 1:, :] + values[..., :-1, :]))
+
+
+@dataclass(frozen=True)
+class _Nodes:
+    """Quantities at nodes (n, m) that determine the flow along the first axis; profiles are (nz, n, m)."""
+
+    log_viscosity: Array
+    log_viscosity_p: Array
+    fluidity: Array
+    density: Array
+    density_p: Array
+    thickness: Array
+    pressure: Array
+    log_ratio: Array | None = None
+    log_ratio_p: Array | None = None
+    layers: Array | None = None
+    layers_p: Array | None = None
+
+    @classmethod
+    def of(cls, k: Coefficients, properties: Properties | None, pressure: Array, thickness: Array) -> _Nodes:
+        uniform = (k.log_viscosity, k.log_viscosity_p, k.fluidity, k.density, k.density_p)
+        if properties is None:
+            return cls(*uniform, thickness, pressure)
+        varying = (properties.log_ratio, properties.log_ratio_p, properties.density, properties.density_p)
+        return cls(*uniform, thickness, pressure, *varying)
+
+    def turned(self, mesh: Mesh) -> _Nodes:
+        """Quantities with the axes swapped, and the mirror image of a symmetric mesh."""
+
+        def turn(values: Array) -> Array:
+            if mesh.symmetric:
+                values = np.concatenate([values[..., 1:2], values], axis=-1)
+            return np.swapaxes(values, -1, -2)
+
+        fields = {name: value for name, value in vars(self).items() if value is not None}
+        return _Nodes(**{name: turn(value) for name, value in fields.items()})
+
+    def profile(self) -> tuple[Array, Array] | None:
+        """Logarithm of the viscosity ratio and density across the film at the faces, (nz, n - 1, m)."""
+        if self.log_ratio is None or self.layers is None:
+            return None
+        return _mean(self.log_ratio), _mean(self.layers)
+
+    def by_properties(self, found: Flux, before: Array, after: Array) -> tuple[Array, Array]:
+        """Derivatives of the mass flux by P of both nodes through viscosity and density.
+
+        ``before`` and ``after`` are the derivatives of ln of the mean fluidity by ln eta of both nodes.
+        """
+        of_all = -np.sum(found.by_viscosity, axis=0)
+        sides = []
+        for side, log_mean in ((slice(None, -1), before), (slice(1, None), after)):
+            uniform = of_all * log_mean * self.log_viscosity_p[side]
+            if self.log_ratio_p is None or self.layers_p is None or found.by_weight is None:
+                sides.append(_mean(self.density) * uniform + 0.5 * found.flux * self.density_p[side])
+                continue
+            varying = (
+                found.by_viscosity * self.log_ratio_p[:, side] + found.by_weight * self.layers_p[:, side]
+            )
+            sides.append(uniform + 0.5 * np.sum(varying, axis=0))
+        return sides[0], sides[1]
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Stress, shear rate and speed across the film at the nodes of a grid.
+
+    Attributes
+    ----------
+    across : Across
+        Nodes zeta across the film, nz of them.
+    stress : ndarray, shape (2, nz, nx, ny)
+        Shear stress along x and y over the stress scale p_h b/R.
+    rate : ndarray, shape (2, nz, nx, ny)
+        Derivative of ``speed`` by zeta; the shear rate is rate u_m/h.
+    speed : ndarray, shape (2, nz, nx, ny)
+        Speed of the oil along x and y over the entrainment speed u_m.
+    softening : ndarray, shape (nz, nx, ny)
+        d ln(tau)/d ln(eta) at a fixed shear rate; one for a Newtonian fluid.
+    viscosity, density : ndarray, shape (nz, nx, ny)
+        eta/eta_0 and rho/rho_0.
+    gradient : ndarray, shape (2, nx, ny)
+        dP/dX and dP/dY.
+    middle : ndarray, shape (2, nx, ny)
+        Stress at zeta = 1/2 over the stress scale.
+    """
+
+    across: Across
+    stress: Array
+    rate: Array
+    speed: Array
+    softening: Array
+    viscosity: Array
+    density: Array
+    gradient: Array
+    middle: Array
+
+    @property
+    def heating(self) -> Array:
+        """Heat of shear tau gamma_dot h/u_m over the stress scale, shape (nz, nx, ny)."""
+        return np.asarray(np.sum(self.stress * self.rate, axis=0))
+
+
+def columns_of(
+    rheology: Rheology,
+    across: Across,
+    properties: tuple[Array, Array],
+    *,
+    gradient: Array,
+    thickness: Array,
+    scale: Array,
+    slip: float,
+    speed_unit: float,
+) -> Columns:
+    """Stress, shear rate and speed at the nodes across the film.
+
+    Parameters
+    ----------
+    rheology : Rheology
+        Shear-thinning law.
+    across : Across
+        Nodes across the film.
+    properties : tuple of ndarray, each of shape (nz, nx, ny) or (1, nx, ny)
+        eta/eta_0 and rho/rho_0 across the film.
+    gradient : ndarray, shape (2, nx, ny)
+        dP/dX and dP/dY.
+    thickness : ndarray, shape (nx, ny)
+        Film thickness H.
+    scale : ndarray, shape (nx, ny)
+        Characteristic stress of the law over p_h b/R.
+    slip : float
+        Slip of the surfaces (u_2 - u_1)/u_m times lambda/12.
+    speed_unit : float
+        Unit of the slip over u_m, 12/lambda.
+
+    Returns
+    -------
+    Columns
+        State of the columns. The speed is the integral of the rate over the Gauss points of the flow, so that
+        it is that of the surface at zeta = 1.
+    """
+    viscosity, density = (np.broadcast_to(v, (across.zeta.size, *thickness.shape)) for v in properties)
+    values, _ = to_points(across.zeta.size - 1)
+    fluidity = np.exp(-np.tensordot(values, np.log(viscosity), axes=1))
+    quadrature = Quadrature.gauss()
+    reduced = thickness * gradient / scale
+    sliding = slip / (thickness * scale)
+    slips = np.stack([sliding, np.zeros_like(sliding)])
+    even = None
+    if rheology.law.even:
+        even = EvenStress.of(rheology, fluidity, reduced, slips, quadrature)
+        middle = even.middle
+    elif reduced[1].any():
+        middle = middle_stresses(rheology, fluidity, reduced, slips, quadrature)
+    else:
+        along = middle_stress(rheology, fluidity, reduced[0], sliding, quadrature)
+        middle = np.stack([along, np.zeros_like(along)])
+
+    def rates(offset: Array, fluidity: Array) -> tuple[Array, Array, Array]:
+        stress = middle[:, np.newaxis] + over_columns(offset, thickness) * reduced[:, np.newaxis]
+        size = speed_unit * thickness * scale * fluidity
+        if even is not None:
+            return stress, size * even.factor * stress, np.broadcast_to(even.softening, size.shape)
+        squared = np.sum(stress**2, axis=0)
+        factor, slope = rheology.law.factor(squared, rheology.constants)
+        return stress, size * factor * stress, factor / (factor + 2.0 * slope * squared)
+
+    stress, rate, softening = rates(across.zeta - 0.5, 1.0 / viscosity)
+    at_points = rates(quadrature.offset, fluidity)[1]
+    moved = np.moveaxis(np.tensordot(_up_to(across.zeta.size - 1), at_points, axes=(1, 1)), 0, 1)
+    start = np.zeros((2, 1, 1, 1))
+    start[0] = 1.0 - 0.5 * slip * speed_unit
+    return Columns(
+        across=across,
+        stress=scale * stress,
+        rate=rate,
+        speed=start + moved,
+        softening=softening,
+        viscosity=viscosity,
+        density=density,
+        gradient=gradient,
+        middle=scale * middle,
+    )
+
+
+@cache
+def _up_to(degree: int) -> Array:
+    """Integrals from 0 to each node of ``Across.of(degree)`` from values at the Gauss points, (nz, nq)."""
+    return integrals(Quadrature.gauss().offset + 0.5, Across.of(degree).zeta)
+
+
+@dataclass(frozen=True)
+class Traction:
+    """Friction of a contact, over its load.
+
+    Attributes
+    ----------
+    sliding : float
+        Traction coefficient: integral of the mid-film stress along x over the load; positive where surface 2
+        is faster.
+    rolling : float
+        Rolling coefficient: integral of h/2 dp/dx over the load, the resistance on each surface.
+    """
+
+    sliding: float
+    rolling: float
+
+    def power_loss(self, load: float, *, entrainment_speed: float, slide_to_roll_ratio: float) -> float:
+        """Power that the motion of the surfaces takes, sliding and rolling together.
+
+        Parameters
+        ----------
+        load : float
+            Load of the contact [N], or load per length of a line contact [N/m].
+        entrainment_speed : float
+            Mean speed u_m of the surfaces [m/s].
+        slide_to_roll_ratio : float
+            (u_2 - u_1)/u_m.
+
+        Returns
+        -------
+        float
+            Power loss [W], or [W/m] of a line contact: the stress on each surface times its speed.
+
+        Examples
+        --------
+        1 kN at a traction coefficient of 0.05, where the surfaces slide with 0.2 m/s:
+
+        >>> speeds = {"entrainment_speed": 2.0, "slide_to_roll_ratio": 0.1}
+        >>> round(Traction(0.05, 0.0).power_loss(1000.0, **speeds), 9)
+        10.0
+        """
+        return load * entrainment_speed * (self.sliding * slide_to_roll_ratio + 2.0 * self.rolling)
+
+
+def traction(
+    columns: Columns,
+    thickness: Array,
+    mesh: Mesh,
+    *,
+    load: float,
+    stress_ratio: float,
+    filled: Array | float = 1.0,
+) -> Traction:
+    """Traction and rolling coefficients of a contact.
+
+    Parameters
+    ----------
+    columns : Columns
+        Stress in the film at the nodes.
+    thickness : ndarray, shape (nx, ny)
+        Film thickness H.
+    mesh : Mesh
+        Grid.
+    load : float
+        Dimensionless load, the integral of P.
+    stress_ratio : float
+        Stress scale over pressure scale, b/R.
+    filled : ndarray, shape (nx, ny), or float
+        Part of the gap that the oil fills; the stress of a cavitated film is this part of that of a full one.
+
+    Returns
+    -------
+    Traction
+        Coefficients, dimensionless.
+    """
+    weights = stress_ratio / load * mesh.weights
+    sliding = np.sum(weights * filled * columns.middle[0])
+    rolling = np.sum(weights * 0.5 * thickness * columns.gradient[0])
+    return Traction(float(sliding), float(rolling))
+
+
+def filled_part(full_film: Mask, mass: Array) -> Array:
+    """Part of the gap that the oil fills behind the rupture of a stationary film.
+
+    Parameters
+    ----------
+    full_film : ndarray of bool, shape (nx, ny)
+        Nodes with a full film.
+    mass : ndarray, shape (nx, ny)
+        Mass rho H of a full film.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        One at the nodes with a full film and before the first of them; behind the last of them the mass at
+        the last full node over that of a full film, at most one.
+
+    Examples
+    --------
+    >>> full = np.array([[False], [True], [True], [False]])
+    >>> filled_part(full, np.array([[9.0], [2.0], [1.0], [4.0]]))[:, 0].tolist()
+    [1.0, 1.0, 1.0, 0.25]
+    """
+    row = np.arange(len(mass))[:, np.newaxis]
+    last = np.maximum.accumulate(np.where(full_film, row, -1), axis=0)
+    carried = np.take_along_axis(mass, np.maximum(last, 0), axis=0)
+    return np.where(full_film | (last < 0), 1.0, np.minimum(1.0, carried / mass))

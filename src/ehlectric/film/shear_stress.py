@@ -1,0 +1,611 @@
+r"""Shear stress and flow in one column of the film: along one axis, along both axes, and where the oil is
+even across it.
+
+Shear stress and flow in one column of the film, for stresses along one axis.
+The stress changes linearly across the film, tau(zeta) = t + q (zeta - 1/2) with q = h dp/dx. The mid-film
+stress t follows from the slip of the two surfaces, and the flux from t:
+
+    Int a phi(tau) dzeta = g,    flux = Int w a phi(tau) dzeta,    phi(r) = r f(r^2)
+
+All quantities are dimensionless: stresses over the characteristic stress of the law, a = eta_0/eta over zeta,
+g the slip over the film thickness, and w the oil mass below zeta less half of that of the film. The flux is
+thereby that of the oil relative to the mean speed of the surfaces (integration by parts of Int rho u dzeta).
+It is the generalised Reynolds equation of P. Yang and S. Wen, J. Tribol. 112 (1990) 631,
+doi:10.1115/1.2920308, without its effective viscosities.
+
+Stress and flow in one column of the film where the rate factor f is the same across the film.
+A Newtonian oil has f = 1. At a limiting shear stress the stress law alone would put all slip into a layer at
+one surface, and the flux would jump with the sign of the pressure gradient. Where the oil shears is not known
+there. The slip is therefore spread evenly: f is that of the mean stress Int a tau dzeta/Int a dzeta, which
+the limit bounds. The part of the stress that balances the pressure gradient is not limited. Stress and flux
+have closed forms,
+
+    x = g/Int a,    tau_mean = r(abs(x)) x/abs(x),    f = abs(x)/r,    flux = B0 x + f K q
+
+with B0 = Int w a dzeta, K the covariance of w and zeta with the weight a, and the notation of ``column``.
+
+Shear stress and flow in one column of the film, for stresses along both axes of a point contact.
+The equations are those of ``column`` with vectors: the stress tau(zeta) = t + q (zeta - 1/2) has two
+components, and the shear rate has the direction of the stress. The mid-film stress t follows from two
+conditions, the slip along both axes, by Newton's method. The two conditions are the gradient of a convex
+function of t, so that there is one solution.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.across_film import GAUSS, Quadrature, over_columns
+from ehlectric.film.shear_laws import Constants, Rheology, ShearLaw
+
+# Largest number of Newton steps for a mid-film stress, and the step at which it is exact.
+_MOST_STEPS, _EXACT = 80, 1e-12
+
+# Step below which Newton's method has converged up to rounding, so that it needs no bracket.
+_CLOSE = 1e-9
+
+# Half the stress difference over the Eyring stress beyond which hyperbolic functions would overflow.
+_LARGEST = 300.0
+
+# Half the stress difference below which the flux factor is computed by its series.
+_SMALL = 0.05
+
+
+def uniform_eyring(fluidity: Array, gradient: Array, slip: Array) -> Flux:
+    """Flux of an Eyring fluid of uniform viscosity and density one, in closed form.
+
+    With Y = q/2, C = sinh(Y)/Y and B = (Y cosh Y - sinh Y)/(2 Y^2), the mid-film stress is asinh(g/(a C)) and
+    the flux sqrt(a^2 + (g/C)^2) B.
+
+    Parameters
+    ----------
+    fluidity, gradient, slip : ndarray, shape (...)
+        a, q and g.
+
+    Returns
+    -------
+    Flux
+        Flux and derivatives.
+
+    Examples
+    --------
+    At a small stress the flux is a q/12, that of a Newtonian fluid:
+
+    >>> one = np.ones(1)
+    >>> round(float(uniform_eyring(one, 1e-3 * one, 0.0 * one).flux[0] * 12e3), 6)
+    1.0
+    """
+    y = np.clip(0.5 * gradient, -_LARGEST, _LARGEST)
+    small = np.abs(y) < _SMALL
+    x = np.where(small, y**2, 0.0)
+    safe = np.where(small, 1.0, y)
+    sinh, cosh = np.sinh(safe), np.cosh(safe)
+    c = np.where(small, 1.0 + x / 6.0 * (1.0 + x / 20.0 * (1.0 + x / 42.0)), sinh / safe)
+    b = np.where(small, y / 6.0 * (1.0 + x / 10.0 * (1.0 + x / 28.0)), 0.5 * (cosh - sinh / safe) / safe)
+    b_y = np.where(
+        small,
+        (1.0 + x * (0.3 + x / 56.0)) / 6.0,
+        0.5 * (sinh - 2.0 * (cosh - sinh / safe) / safe) / safe,
+    )
+    # d ln C/dY = coth Y - 1/Y = 2 Y B/(Y C)
+    of_c = 2.0 * b / c
+    ratio = slip / c
+    root = np.hypot(fluidity, ratio)
+    safe_root = np.maximum(root, 1e-300)
+    return Flux(
+        flux=root * b,
+        by_gradient=0.5 * (root * b_y - ratio * (ratio / safe_root) * of_c * b)[np.newaxis],
+        by_slip=((ratio / safe_root) * b / c)[np.newaxis],
+        by_viscosity=-(fluidity * (fluidity / safe_root) * b)[np.newaxis],
+    )
+
+
+def middle_stress(
+    rheology: Rheology, fluidity: Array, gradient: Array, slip: Array, quadrature: Quadrature
+) -> Array:
+    """Mid-film stress t over the characteristic stress, at which the surfaces have their slip.
+
+    Parameters
+    ----------
+    rheology : Rheology
+        Shear-thinning law.
+    fluidity : ndarray, shape (nq, ...) or (1, ...)
+        eta_0/eta at the points of the quadrature.
+    gradient, slip : ndarray, shape (...)
+        Stress difference q across the film, and slip g over the film thickness.
+    quadrature : Quadrature
+        Points and weights across the film.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Mid-film stress, in closed form for the Eyring law.
+
+    Notes
+    -----
+    The Eyring stress is t = asinh(g/sqrt(C^2 - D^2)) - artanh(D/C) with C, D the integrals of a cosh Y and
+    a sinh Y over zeta, Y = q (zeta - 1/2). They are computed as C + D and C - D, in logarithms.
+    """
+    weights = over_columns(quadrature.weights, gradient) * fluidity
+    shape = over_columns(quadrature.offset, gradient) * gradient
+    if rheology.name == "eyring":
+        up, down = _log_integral(weights, shape), _log_integral(weights, -shape)
+        half = np.exp(-0.5 * (up + down))
+        return np.asarray(np.arcsinh(slip * half) - 0.5 * (up - down))
+    return _by_newton(rheology.law, rheology.constants, weights, shape, slip)
+
+
+def _log_integral(weights: Array, exponent: Array) -> Array:
+    """Logarithm of the sum of ``weights`` exp(``exponent``) over the first axis, without overflow."""
+    largest = np.max(exponent, axis=0)
+    return np.asarray(largest + np.log(np.sum(weights * np.exp(exponent - largest), axis=0)))
+
+
+def _by_newton(law: ShearLaw, constants: Constants, weights: Array, shape: Array, slip: Array) -> Array:
+    """Mid-film stress by Newton's method within brackets.
+
+    The rate Int a phi rises with t. The law's own inverse makes it nearly linear in t, so that Newton's
+    method on it converges from far. For g > 0 the stress is between -max(q)/2 and the stress without a
+    gradient plus max(q)/2, as the rate is then too small and too large everywhere in the column.
+    """
+    sign = np.where(slip < 0.0, -1.0, 1.0)
+    slip, shape = sign * slip, sign * shape
+    total = np.sum(weights, axis=0)
+    reach = np.max(np.abs(shape), axis=0)
+    factor, slope = law.factor(shape**2, constants)
+    unit = np.sum(weights * (factor + 2.0 * slope * shape**2), axis=0)
+    wanted, _ = law.stress(slip / unit, constants)
+    low, high = -reach, law.stress(slip / total, constants)[0] + reach
+    t = np.clip(wanted, low, high)
+    before = np.full_like(t, np.inf)
+    for _ in range(_MOST_STEPS):
+        stress = t + shape
+        factor, slope = law.factor(stress**2, constants)
+        rate = np.sum(weights * stress * factor, axis=0)
+        rate_t = np.sum(weights * (factor + 2.0 * slope * stress**2), axis=0)
+        x = rate / unit
+        reached, by_rate = law.stress(np.abs(x), constants)
+        difference = np.sign(x) * reached - wanted
+        low, high = np.where(difference < 0.0, t, low), np.where(difference > 0.0, t, high)
+        following = t - difference * unit / (by_rate * rate_t)
+        # A step that leaves the bracket, or follows one that gained less than half, is replaced by bisection.
+        close = np.abs(following - t) < _CLOSE * (1.0 + np.abs(t))
+        good = (following >= low) & (following <= high) & (np.abs(difference) < 0.5 * before)
+        following = np.where(good | close, following, 0.5 * (low + high))
+        before = np.abs(difference)
+        step = np.max(np.abs(following - t) / (1.0 + np.abs(t)), initial=0.0)
+        t = following
+        if step < _EXACT:
+            break
+    middle: Array = sign * t
+    return middle
+
+
+def column_flux(
+    rheology: Rheology,
+    fluidity: Array,
+    weight: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature = GAUSS,
+) -> Flux:
+    """Flux of columns with viscosity and density that vary across the film, at the Gauss points.
+
+    Parameters
+    ----------
+    rheology : Rheology
+        Shear-thinning law.
+    fluidity : ndarray, shape (nq, ...) or (1, ...)
+        a = eta_0/eta at the Gauss points.
+    weight : ndarray, shape (nq, ...) or (nq, 1, ...)
+        w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
+    gradient, slip : ndarray, shape (...)
+        q and g.
+    quadrature : Quadrature
+        Gauss points across the film.
+
+    Returns
+    -------
+    Flux
+        Flux and derivatives, exact for this quadrature: t follows its condition in all of them.
+    """
+    constants = rheology.constants
+    t = middle_stress(rheology, fluidity, gradient, slip, quadrature)
+    offset = over_columns(quadrature.offset, gradient)
+    measure = over_columns(quadrature.weights, gradient) * fluidity
+    stress = t + offset * gradient
+    factor, slope = rheology.law.factor(stress**2, constants)
+    rate = measure * stress * factor
+    rate_t = measure * (factor + 2.0 * slope * stress**2)
+    # Change of the flux with t over the change of the slip with t: the multiplier of the condition of slip.
+    of_slip = np.sum(weight * rate_t, axis=0) / np.sum(rate_t, axis=0)
+    free = weight - of_slip
+    by_viscosity = -free * rate
+    if fluidity.shape[0] == 1:
+        by_viscosity = np.sum(by_viscosity, axis=0, keepdims=True)
+    return Flux(
+        flux=np.sum(weight * rate, axis=0),
+        by_gradient=np.sum(free * offset * rate_t, axis=0)[np.newaxis],
+        by_slip=of_slip[np.newaxis],
+        by_viscosity=by_viscosity,
+        by_weight=rate,
+    )
+
+
+# Smallest rate that is divided by.
+_TINY = 1e-300
+
+
+@dataclass(frozen=True)
+class Flux:
+    """Flux of columns along one axis, and its derivatives.
+
+    Attributes
+    ----------
+    flux : ndarray, shape (...)
+        Int w a phi dzeta.
+    by_gradient : ndarray, shape (d, ...)
+        Derivative by the stress difference q across the film, along this axis and, for d = 2, the other one.
+    by_slip : ndarray, shape (d, ...)
+        Derivative by the slip g along both axes.
+    by_viscosity : ndarray, shape (nq, ...)
+        Derivative by ln eta at each Gauss point; shape (1, ...) if the viscosity is uniform.
+    by_weight : ndarray, shape (nq, ...), or None
+        Derivative by w at each Gauss point; None if the properties are uniform.
+    """
+
+    flux: Array
+    by_gradient: Array
+    by_slip: Array
+    by_viscosity: Array
+    by_weight: Array | None = None
+
+
+@dataclass(frozen=True)
+class EvenStress:
+    """Mid-film stress of columns with one rate factor across the film.
+
+    Attributes
+    ----------
+    middle : ndarray, shape (d, ...)
+        Mid-film stress over the characteristic stress of the law.
+    factor, slope : ndarray, shape (...)
+        Rate factor f, and its derivative by abs(x).
+    softening : ndarray, shape (...)
+        d ln(tau)/d ln(eta) at a fixed shear rate.
+    """
+
+    middle: Array
+    factor: Array
+    slope: Array
+    softening: Array
+
+    @classmethod
+    def of(
+        cls, rheology: Rheology, fluidity: Array, gradient: Array, slip: Array, quadrature: Quadrature
+    ) -> EvenStress:
+        """Stress of columns, from a (nq, ...) or (1, ...), q (d, ...) and g (d, ...).
+
+        Examples
+        --------
+        Couette flow at a rate far above tau_L/mu has the limiting stress:
+
+        >>> oil = Rheology("limiting", {"limiting_coefficient": 0.05})
+        >>> one, gauss = np.ones((1, 1)), Quadrature.gauss()
+        >>> EvenStress.of(oil, one, 0.0 * one, 1e3 * one, gauss).middle.round(6).tolist()
+        [[1.0]]
+        """
+        measure = over_columns(quadrature.weights, slip[0]) * fluidity
+        total = np.sum(measure, axis=0)
+        centre = np.sum(over_columns(quadrature.offset, slip[0]) * measure, axis=0) / total
+        rate = slip / total
+        size = np.maximum(np.sqrt(np.sum(rate**2, axis=0)), _TINY)
+        stress, by_rate = rheology.law.stress(size, rheology.constants)
+        return cls(
+            middle=stress / size * rate - gradient * centre,
+            factor=size / stress,
+            slope=(1.0 - size / stress * by_rate) / stress * (size > _TINY),
+            softening=size * by_rate / stress,
+        )
+
+
+def even_flux(
+    rheology: Rheology,
+    fluidity: Array,
+    weight: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature = GAUSS,
+) -> Flux:
+    """Flux along the first axis of columns with one rate factor across the film.
+
+    Parameters
+    ----------
+    rheology : Rheology
+        Law with ``even``.
+    fluidity : ndarray, shape (nq, ...) or (1, ...)
+        a = eta_0/eta at the Gauss points.
+    weight : ndarray, shape (nq, ...) or (nq, 1, ...)
+        w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
+    gradient, slip : ndarray, shape (d, ...)
+        q and g along the axis of the flux and, for d = 2, along the other axis.
+    quadrature : Quadrature
+        Gauss points across the film.
+
+    Returns
+    -------
+    Flux
+        Flux and derivatives.
+
+    Examples
+    --------
+    A Newtonian fluid of uniform viscosity has the flux a q/12:
+
+    >>> offset = Quadrature.gauss().offset[:, np.newaxis]
+    >>> found = even_flux(Rheology(), np.ones((1, 1)), offset, np.array([[1.2]]), np.array([[3.0]]))
+    >>> round(float(found.flux[0]), 12)
+    0.1
+    """
+    state = EvenStress.of(rheology, fluidity, gradient, slip, quadrature)
+    offset = over_columns(quadrature.offset, gradient[0])
+    measure = over_columns(quadrature.weights, gradient[0]) * fluidity
+    total = np.sum(measure, axis=0)
+    centre, mean = (np.sum(values * measure, axis=0) / total for values in (offset, weight))
+    product = (weight - mean) * (offset - centre)
+    covariance = np.sum(product * measure, axis=0)
+    rate = slip / total
+    size = np.sqrt(np.sum(rate**2, axis=0))
+    # The factor falls as the rate falls, which is inversely proportional to the sum of the fluidities.
+    driven = covariance * gradient[0]
+    by_rate = state.slope * driven
+    by_slip = by_rate * rate / (np.maximum(size, _TINY) * total)
+    by_slip[0] += mean
+    by_gradient = np.zeros_like(gradient)
+    by_gradient[0] = state.factor * covariance
+    of_viscosity = (weight - mean) * rate[0] + state.factor * gradient[0] * product - by_rate * size / total
+    by_viscosity = -measure * of_viscosity
+    if fluidity.shape[0] == 1:
+        by_viscosity = np.sum(by_viscosity, axis=0, keepdims=True)
+    return Flux(
+        flux=mean * slip[0] + state.factor * driven,
+        by_gradient=by_gradient,
+        by_slip=by_slip,
+        by_viscosity=by_viscosity,
+        by_weight=measure * (rate[0] + state.factor * gradient[0] * (offset - centre)),
+    )
+
+
+# Largest number of Newton steps for the mid-film stress, and the relative step at which it is exact: the
+# error of Newton's method is the square of its step.
+_MOST_PLANE_STEPS, _EXACT_PLANE = 80, 1e-8
+
+
+def middle_stresses(
+    rheology: Rheology, fluidity: Array, gradient: Array, slip: Array, quadrature: Quadrature
+) -> Array:
+    """Mid-film stress t along both axes, over the characteristic stress of the law.
+
+    Parameters
+    ----------
+    rheology : Rheology
+        Shear-thinning law.
+    fluidity : ndarray, shape (nq, ...) or (1, ...)
+        eta_0/eta at the points of the quadrature.
+    gradient, slip : ndarray, shape (2, ...)
+        Stress difference q across the film, and slip g over the film thickness, along both axes.
+    quadrature : Quadrature
+        Points and weights across the film.
+
+    Returns
+    -------
+    ndarray, shape (2, ...)
+        Mid-film stress.
+
+    Notes
+    -----
+    Newton's method acts on the rates after the inverse of the law, which makes them nearly linear in t. A
+    step that does not reduce the difference to the slip is halved.
+    """
+    columns = gradient.shape[1:]
+    gradient, slip = gradient.reshape(2, -1), slip.reshape(2, -1)
+    fluidity = np.broadcast_to(fluidity.reshape(len(fluidity), -1), (len(fluidity), slip.shape[1]))
+    state = _Iteration.start(rheology, fluidity, gradient, slip, quadrature)
+    found = state.trial.copy()
+    left = np.arange(slip.shape[1])
+    for _ in range(_MOST_PLANE_STEPS):
+        state = state.stepped(rheology)
+        found[:, left] = state.trial
+        moving = _size(state.step) > _EXACT_PLANE * (1.0 + _size(state.middle))
+        if not moving.any():
+            break
+        left, state = left[moving], state.only(moving)
+    return found.reshape(2, *columns)
+
+
+@dataclass(frozen=True)
+class _Iteration:
+    """State of Newton's method in some columns, n of them.
+
+    Attributes
+    ----------
+    weights, shape : ndarray, shapes (nq, n), (2, nq, n)
+        Fluidity times weight at the points of the quadrature, and q times zeta - 1/2.
+    unit, wanted : ndarray, shapes (n,), (2, n)
+        Unit of the rate, and the stress of the slip without a gradient.
+    middle, trial, step : ndarray, shape (2, n)
+        Best stress so far, the one to try next, and their difference.
+    before : ndarray, shape (n,)
+        Difference to the slip at the best stress so far.
+    """
+
+    weights: Array
+    shape: Array
+    unit: Array
+    wanted: Array
+    middle: Array
+    trial: Array
+    step: Array
+    before: Array
+
+    @classmethod
+    def start(
+        cls, rheology: Rheology, fluidity: Array, gradient: Array, slip: Array, quadrature: Quadrature
+    ) -> _Iteration:
+        """Start from the stress of the slip without a gradient."""
+        weights = quadrature.weights[:, np.newaxis] * fluidity
+        shape = quadrature.offset[:, np.newaxis] * gradient[:, np.newaxis]
+        squared = np.sum(shape**2, axis=0)
+        factor, slope = rheology.law.factor(squared, rheology.constants)
+        unit = np.sum(weights * (factor + 2.0 * slope * squared), axis=0)
+        wanted, _ = _as_stress(rheology.law, rheology.constants, slip / unit)
+        before = np.full(unit.shape, np.inf)
+        return cls(weights, shape, unit, wanted, wanted, wanted, np.zeros_like(wanted), before)
+
+    def stepped(self, rheology: Rheology) -> _Iteration:
+        """State after one step; a step that does not reduce the difference to the slip is halved."""
+        law, constants = rheology.law, rheology.constants
+        rate, by_t = _rates(law, constants, self.weights, self.shape + self.trial[:, np.newaxis])
+        reached, undo = _as_stress(law, constants, rate / self.unit)
+        difference = reached - self.wanted
+        size = _size(difference)
+        better = size < self.before
+        following = -self.unit * _solved(by_t, _times(undo, difference))
+        middle = np.where(better, self.trial, self.middle)
+        step = np.where(better, following, 0.5 * self.step)
+        before = np.where(better, size, self.before)
+        return replace(self, middle=middle, trial=middle + step, step=step, before=before)
+
+    def only(self, columns: Mask) -> _Iteration:
+        """State of some of the columns."""
+        return _Iteration(**{name: values[..., columns] for name, values in vars(self).items()})
+
+
+def _size(vector: Array) -> Array:
+    """Length of vectors (2, ...)."""
+    x, y = vector
+    return np.asarray(np.sqrt(x * x + y * y))
+
+
+def _rates(law: ShearLaw, constants: Constants, weights: Array, stress: Array) -> tuple[Array, Array]:
+    """Rates along both axes (2, ...) of stresses (2, nq, ...), and their derivatives (xx, xy, yy) by t."""
+    x, y = stress
+    factor, slope = law.factor(x * x + y * y, constants)
+    even, steep = weights * factor, 2.0 * weights * slope
+    along, across = steep * x, steep * y
+    total = np.sum(even, axis=0)
+    rate = np.stack([_over(even, x), _over(even, y)])
+    return rate, np.stack([total + _over(along, x), _over(along, y), total + _over(across, y)])
+
+
+def _over(first: Array, second: Array) -> Array:
+    """Sum over the points across the film, the first axis, of a product of two arrays."""
+    return np.asarray(np.einsum("kn,kn->n", first, second))
+
+
+def _tangent(factor: Array, slope: Array, stress: Array) -> Array:
+    """Derivatives (xx, xy, yy) of the rate r f(r^2) by the stress r, shape (3, nq, ...)."""
+    x, y = stress
+    return np.stack([factor + 2.0 * slope * x**2, 2.0 * slope * x * y, factor + 2.0 * slope * y**2])
+
+
+def _as_stress(law: ShearLaw, constants: Constants, rate: Array) -> tuple[Array, Array]:
+    """Stress (2, ...) of a reduced rate (2, ...) without a gradient, and the inverse of its derivative."""
+    size = np.maximum(_size(rate), _TINY)
+    stress, by_size = law.stress(size, constants)
+    x, y = rate / size
+    along, beside = 1.0 / by_size, size / stress
+    difference = along - beside
+    inverse = np.stack([beside + difference * x**2, difference * x * y, beside + difference * y**2])
+    return stress / size * rate, inverse
+
+
+def _times(matrix: Array, vector: Array) -> Array:
+    """Product of symmetric matrices (xx, xy, yy) with vectors (2, ...)."""
+    xx, xy, yy = matrix
+    x, y = vector
+    return np.stack([xx * x + xy * y, xy * x + yy * y])
+
+
+def _solved(matrix: Array, vector: Array) -> Array:
+    """Solutions (2, ...) of symmetric positive definite systems (xx, xy, yy).
+
+    The larger diagonal entry is eliminated, so that the difference of products cannot overflow.
+    """
+    xx, xy, yy = matrix
+    x, y = vector
+    swapped = yy > xx
+    large, small = np.where(swapped, yy, xx), np.where(swapped, xx, yy)
+    first, second = np.where(swapped, y, x), np.where(swapped, x, y)
+    part = xy / large
+    other = (second - part * first) / np.maximum(small - part * xy, _TINY)
+    one = first / large - part * other
+    return np.stack([np.where(swapped, other, one), np.where(swapped, one, other)])
+
+
+def plane_flux(
+    rheology: Rheology,
+    fluidity: Array,
+    weight: Array,
+    gradient: Array,
+    slip: Array,
+    quadrature: Quadrature = GAUSS,
+) -> Flux:
+    """Flux along the first axis of columns with stresses along both axes.
+
+    Parameters
+    ----------
+    rheology : Rheology
+        Shear-thinning law.
+    fluidity : ndarray, shape (nq, ...) or (1, ...)
+        a = eta_0/eta at the Gauss points.
+    weight : ndarray, shape (nq, ...) or (nq, 1, ...)
+        w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
+    gradient, slip : ndarray, shape (2, ...)
+        q and g along the axis of the flux, and along the other axis.
+    quadrature : Quadrature
+        Gauss points across the film.
+
+    Returns
+    -------
+    Flux
+        Flux and derivatives, exact for this quadrature.
+
+    Examples
+    --------
+    At a small stress the flux along an axis is a q/12, that of a Newtonian fluid:
+
+    >>> oil = Rheology("eyring", {"eyring_stress": 5e6})
+    >>> gradient, slip = np.array([[1.2e-3], [5e-3]]), np.array([[3e-3], [4e-3]])
+    >>> offset = Quadrature.gauss().offset[:, np.newaxis]
+    >>> round(float(plane_flux(oil, np.ones((1, 1)), offset, gradient, slip).flux[0]), 7)
+    0.0001
+    """
+    t = middle_stresses(rheology, fluidity, gradient, slip, quadrature)
+    offset = over_columns(quadrature.offset, gradient[0])
+    measure = over_columns(quadrature.weights, gradient[0]) * fluidity
+    stress = t[:, np.newaxis] + offset * gradient[:, np.newaxis]
+    factor, slope = rheology.law.factor(np.sum(stress**2, axis=0), rheology.constants)
+    rate = measure * factor * stress
+    xx, xy, yy = measure * _tangent(factor, slope, stress)
+    # Multipliers of the two conditions of slip: the change of the flux with t over that of the slip with t.
+    by_t = np.stack([np.sum(weight * part, axis=0) for part in (xx, xy)])
+    of_slip = _solved(np.stack([np.sum(part, axis=0) for part in (xx, xy, yy)]), by_t)
+    free, other = weight - of_slip[0], -of_slip[1]
+    by_viscosity = -(free * rate[0] + other * rate[1])
+    if fluidity.shape[0] == 1:
+        by_viscosity = np.sum(by_viscosity, axis=0, keepdims=True)
+    return Flux(
+        flux=np.sum(weight * rate[0], axis=0),
+        by_gradient=np.stack(
+            [
+                np.sum(offset * (free * xx + other * xy), axis=0),
+                np.sum(offset * (free * xy + other * yy), axis=0),
+            ]
+        ),
+        by_slip=of_slip,
+        by_viscosity=by_viscosity,
+        by_weight=rate[0],
+    )

@@ -1,1 +1,0 @@
-"""Flow of oils whose viscosity falls under shear: laws, stress in a column of the film, flow, traction."""

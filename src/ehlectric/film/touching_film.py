@@ -1,0 +1,829 @@
+"""Films whose surfaces touch at some nodes: the residual, its Jacobian, and the Newton-Krylov iteration.
+
+Nodes where the surfaces touch, and the residual of a film with such nodes.
+The surfaces touch where the gap is as thin as the boundary film that adheres to them, H = H_s. There the
+contact pressure P_c of the asperities adds to the pressure P of the oil. Every node fulfils
+
+    H >= H_s,   P_c >= 0,   (H - H_s) P_c = 0.
+
+With a hardness P_y, the pressure Q = P + P_c of nodes in contact is at most P_y: where the elastic gap would
+be less than H_s under this pressure, the asperities are flattened, elastic and perfectly plastic, and the gap
+is H_s.
+
+Gap and load follow from Q. The oil in the boundary film keeps its Reynolds equation, so that no mass is lost
+where surfaces touch: P is what drives the oil through a gap of the thickness H_s. Of the three states of a
+node, cavitated, full film and contact, the first two are those of the oil, and either may hold at a node in
+contact (``ehlectric.film.cavitation``).
+
+Jacobian of a film whose surfaces touch at some nodes, and its preconditioner.
+The unknowns are the sum Q of the pressures of oil and asperities at all nodes, the pressure P of the oil
+where the surfaces touch, and H00. The rows of the nodes in contact ask for H = H_s. The pressure of the oil
+there follows from its own Reynolds equation by a sparse factorisation and is eliminated, so that the unknowns
+are those of a film without contact. Where oil is carried through cavities, its mass in them is eliminated
+with the pressure of the oil.
+
+The difference of the rows of two neighbours in contact is the wedge term of an incompressible film through
+which no pressure drives oil, dH/dX = 0. Written in this form, the rows of a spot are like those of the Hertz
+zone of a heavy contact, and the V-cycles of the film (``ehlectric.film.multigrid``) serve as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse.linalg import SuperLU, splu
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
+from ehlectric.film.flow import Flow, Fluid, flow
+from ehlectric.film.gap import Gap
+from ehlectric.film.levels import DIPOLE, Level
+from ehlectric.film.multigrid import Linearised, cycled, resolved_nodes
+from ehlectric.film.newton import (
+    LOAD_WEIGHT,
+    ROUNDING,
+    GridSolution,
+    NewtonStep,
+    Progress,
+    Residual,
+    State,
+    Status,
+    flexible_gmres,
+    linear_tolerance,
+)
+from ehlectric.film.reynolds import (
+    Stencil,
+    linearise,
+    poiseuille_weight,
+    residual,
+    stencil_matrix,
+    without_columns,
+)
+from ehlectric.film.starved_film import (
+    OVERFLOW,
+    TENSION,
+    Runs,
+    Seen,
+    Supply,
+    behind_cavities,
+    content,
+    of_filled,
+    unreduced,
+    with_row_before,
+)
+
+
+@dataclass(frozen=True)
+class Touching:
+    """Residual of a film whose surfaces touch at some nodes, at one state.
+
+    Attributes
+    ----------
+    flow : Flow
+        Flow of the oil through the faces, with a gap of at least H_s.
+    thickness : ndarray, shape (nx, ny)
+        Gap of the flow, the larger of H and H_s.
+    reynolds : ndarray, shape (nx, ny)
+        Residual r of the Reynolds equation.
+    poiseuille : ndarray, shape (nx, ny)
+        Diagonal of the Poiseuille term.
+    diagonal : ndarray, shape (nx, ny)
+        Approximate derivative of r by the pressure of the oil at its own node.
+    full_film : ndarray of bool, shape (nx, ny)
+        Nodes that oil fills; at all others the oil is at ambient pressure.
+    contact, plastic : ndarray of bool, shape (nx, ny)
+        Nodes where the surfaces touch, and those among them where they are flattened.
+    missing : ndarray, shape (nx, ny)
+        H_s - H where the surfaces touch and are not flattened, zero elsewhere.
+    to_hardness : ndarray, shape (nx, ny)
+        P_y - Q where they are flattened, zero elsewhere.
+    load : float
+        Dimensionless load of the contact minus the load that the pressure carries.
+    norm : float
+        Largest scaled residual of all equations but those of the oil where the surfaces touch.
+    oil_norm : float
+        Largest scaled residual of the oil where the surfaces touch. Both are pressures over p_h.
+    carried : Carried or None
+        Oil that is carried through cavities; None where a cavitated gap counts as full.
+    settled : bool
+        Whether the nodes that oil fills are those at which its mass was carried.
+    """
+
+    flow: Flow
+    thickness: Array
+    reynolds: Array
+    poiseuille: Array
+    diagonal: Array
+    full_film: Mask
+    contact: Mask
+    plastic: Mask
+    missing: Array
+    to_hardness: Array
+    load: float
+    norm: float
+    oil_norm: float
+    carried: Carried | None = None
+    settled: bool = True
+
+    @property
+    def fraction(self) -> Array | None:
+        """Part of the gap that oil fills, shape (nx, ny); None where it is not carried."""
+        if self.carried is None:
+            return None
+        full = self.flow.coefficients.density * self.thickness
+        return np.where(self.carried.filled, 1.0, np.clip(self.carried.mass / full, 0.0, 1.0))
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Oil that is carried through cavities of a stationary film.
+
+    Attributes
+    ----------
+    supply : Supply
+        Oil at the inlet edge and order of the wedge term.
+    filled : ndarray of bool, shape (nx, ny)
+        Nodes that oil fills, those of the inlet edge among them.
+    mass : ndarray, shape (nx, ny), or float
+        Mass of oil at the nodes.
+    """
+
+    supply: Supply
+    filled: Mask
+    mass: Array | float = 0.0
+
+    @property
+    def hollow(self) -> Mask:
+        """Cavitated nodes (nx, ny) from which oil flows to a filled node on their line."""
+        ahead = np.logical_or.accumulate(self.filled[::-1], axis=0)[::-1]
+        hollow: Mask = ~self.filled & ahead
+        return hollow
+
+    def on(self, level: Level) -> Carried:
+        """Filled nodes and supply on the next coarser grid, for its equations only."""
+        filled = level.inject(self.filled.astype(float)) > 1.0 - 1e-9
+        return Carried(self.supply.injected(level), filled)
+
+
+def own_compliance(level: Level) -> float:
+    """Deflection at a node by a unit pressure there and the opposite one at its neighbour along x."""
+    influence = level.deflection.influence
+    return float(influence[0, 0] - influence[1, 0])
+
+
+@dataclass(frozen=True)
+class Asperities:
+    """Boundary film and hardness of asperities that touch.
+
+    Attributes
+    ----------
+    boundary_film : float
+        Thickness H_s of the boundary film, dimensionless, > 0.
+    hardness : float
+        Largest pressure P_y of nodes in contact, over p_h.
+    """
+
+    boundary_film: float
+    hardness: float = np.inf
+
+
+def contact_nodes(level: Level, state: State, boundary_film: float) -> Mask:
+    """Mask of the nodes where the surfaces touch, shape (nx, ny).
+
+    They are those where P_c - (H - H_s)/c > 0, with the compliance c of a node, as in a primal-dual active
+    set method; the edges of the domain are never among them.
+    """
+    excess = state.contact_pressure - (state.thickness - boundary_film) / own_compliance(level)
+    contact: Mask = (excess > 0.0) & level.mesh.inner
+    return contact
+
+
+def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: Mask) -> Mask:
+    """Mask of the nodes in contact whose asperities are flattened, shape (nx, ny)."""
+    if np.isinf(asperities.hardness):
+        return np.zeros(contact.shape, dtype=bool)
+    sunk = (asperities.boundary_film - state.thickness) / own_compliance(level)
+    plastic: Mask = contact & (state.pressure - asperities.hardness + sunk > 0.0)
+    return plastic
+
+
+def assess_touching(
+    fluid: Fluid, level: Level, state: State, asperities: Asperities, carried: Carried | None = None
+) -> Touching:
+    """Residual of the film equations at a state whose surfaces may touch.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    level : Level
+        Grid.
+    state : State
+        Pressure, contact pressure, H00 and film thickness.
+    asperities : Asperities
+        Boundary film and hardness.
+    carried : Carried, optional
+        Nodes that oil fills, and its supply, where the oil in cavities is carried.
+
+    Returns
+    -------
+    Touching
+        Residual of every equation, and their norms.
+    """
+    mesh, boundary_film = level.mesh, asperities.boundary_film
+    contact = contact_nodes(level, state, boundary_film)
+    plastic = plastic_nodes(level, state, asperities, contact)
+    oil, thickness = state.oil_pressure, np.maximum(state.thickness, boundary_film)
+    at_faces = flow(fluid, oil, thickness, mesh)
+    k = at_faces.coefficients
+    poiseuille = poiseuille_weight(at_faces, mesh)
+    excess = oil - fluid.ambient_pressure - level.edge_excess
+    settled = True
+    if carried is None:
+        r = residual(at_faces, level.wedge, thickness, mesh) - level.source
+        full_film = full_film_nodes(
+            excess, r, poiseuille=poiseuille, rate=level.rate, thickness=thickness, inner=mesh.inner
+        )
+        if level.distribution is DIPOLE:
+            # A surplus of oil at the edge of a spot is carried through the whole spot at once.
+            full_film |= with_refilled_nodes(full_film, r) & contact
+    else:
+        before = carried.filled
+        carried, r = _filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
+        full_film, settled = carried.filled & mesh.inner, bool(np.array_equal(carried.filled, before))
+    compliance = own_compliance(level)
+    moving = np.where(contact, k.density_p * thickness, k.density * compliance)
+    diagonal = poiseuille + moving * level.rate
+    scaled = np.where(full_film, r / np.where(diagonal > 0.0, diagonal, 1.0), excess)
+    missing = np.where(contact & ~plastic, boundary_film - state.thickness, 0.0)
+    to_hardness = np.where(plastic, asperities.hardness - state.pressure, 0.0)
+    load = level.load - Gap(level, thickness).load(state.pressure)
+    rows = np.where(contact, missing / compliance + to_hardness, scaled)
+    norm = max(float(np.max(np.abs(rows))), LOAD_WEIGHT * abs(load) / level.load)
+    oil_norm = float(np.max(np.abs(np.where(contact, scaled, 0.0))))
+    return Touching(
+        flow=at_faces,
+        thickness=thickness,
+        reynolds=r,
+        poiseuille=poiseuille,
+        diagonal=diagonal,
+        full_film=full_film,
+        contact=contact,
+        plastic=plastic,
+        missing=missing,
+        to_hardness=to_hardness,
+        load=load,
+        norm=norm,
+        oil_norm=oil_norm,
+        carried=carried,
+        settled=settled,
+    )
+
+
+def _filled_anew(
+    level: Level, at_faces: Flow, thickness: Array, poiseuille: Array, excess: Array, carried: Carried
+) -> tuple[Carried, Array]:
+    """Oil carried with the nodes that it fills at a state, and the rows (nx, ny) of the filled nodes."""
+    full = at_faces.coefficients.density * thickness
+    carried = replace(carried, supply=carried.supply.bounded(full))
+    r, mass = carried_rows(level, at_faces, thickness, carried)
+    surplus = ((1.0 + OVERFLOW) * full - mass) / level.mesh.dx
+    moved = full_film_nodes(
+        excess + TENSION * carried.filled,
+        np.where(carried.filled, r, surplus),
+        poiseuille=poiseuille,
+        rate=level.rate,
+        thickness=thickness,
+        inner=level.mesh.inner,
+    )
+    moved[0] = True
+    if not np.array_equal(moved, carried.filled):
+        carried = replace(carried, filled=moved)
+        r, mass = carried_rows(level, at_faces, thickness, carried)
+    return replace(carried, mass=mass), r
+
+
+def carried_rows(level: Level, at_faces: Flow, thickness: Array, carried: Carried) -> tuple[Array, Array]:
+    """Rows of the filled nodes, zero elsewhere, and the mass of the carried oil, both (nx, ny)."""
+    runs, filled = Runs.of(carried.filled), carried.filled
+    rows = unreduced(level, at_faces, thickness, filled, carried.supply)
+    full = at_faces.coefficients.density * thickness
+    mass = carried.supply.at_rupture(filled, content(runs, rows, full, level.mesh.dx))
+    return np.where(filled & level.mesh.inner, runs.reduced(rows), 0.0), mass
+
+
+def projected(fluid: Fluid, state: State, contact: Mask) -> State:
+    """State whose contact pressure is nowhere negative, and zero where the surfaces do not touch.
+
+    The sum of both pressures, on which the gap depends, remains. Where the surfaces touch, the pressure of
+    the oil lies between ambient pressure and this sum.
+    """
+    ambient = fluid.ambient_pressure
+    oil = np.where(contact, np.clip(state.oil_pressure, ambient, state.pressure), state.pressure)
+    return State(state.pressure, state.h00, state.thickness, state.pressure - oil)
+
+
+@dataclass(frozen=True)
+class TouchingJacobian:
+    """Jacobian on the finest grid, with those of all grids that precondition it.
+
+    Attributes
+    ----------
+    levels : list of Linearised
+        Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch. Rows
+        behind cavities contain the last row of the cavity.
+    finest : Linearised
+        Jacobian for Q and H00 on the finest grid without this.
+    oil_by_p, oil_by_h : Stencil
+        Derivatives of the Reynolds residual by P and by H, of all nodes that oil fills.
+    contact, oil : ndarray of bool, shape (nx, ny)
+        Nodes in contact, and those among them that oil fills.
+    rest : ndarray of bool, shape (nx, ny)
+        Nodes of ``oil``, and cavitated nodes whose mass is carried to filled ones.
+    by_rest : Stencil
+        Derivative of the Reynolds residual of all these and of the filled nodes by P of the first and by the
+        mass of the second.
+    factors : SuperLU or None
+        Factorisation of ``by_rest`` between the nodes of ``rest``; None where there are none.
+    open_nodes : ndarray of bool, shape (nx, ny)
+        Nodes apart from contact where the Poiseuille term dominates.
+    open_factors : SuperLU or None
+        Factorisation of the derivative of their Reynolds residual by their P at fixed gap.
+    """
+
+    levels: list[Linearised]
+    finest: Linearised
+    oil_by_p: Stencil
+    oil_by_h: Stencil
+    contact: Mask
+    oil: Mask
+    rest: Mask
+    by_rest: Stencil
+    factors: SuperLU | None
+    open_nodes: Mask
+    open_factors: SuperLU | None
+
+    @classmethod
+    def of(
+        cls, fluid: Fluid, levels: list[Level], oil_pressure: Array, now: Touching, damping: float
+    ) -> TouchingJacobian:
+        """Jacobian at a state with the residual ``now``; the coarser grids take its injection.
+
+        Raises
+        ------
+        numpy.linalg.LinAlgError
+            Where the oil of some nodes has no flow, as in gaps that are far from a solution.
+        """
+        level, contact, full_film, carried = levels[0], now.contact, now.full_film, now.carried
+        plastic = now.plastic
+        by_p, by_h = _damped(level, now.flow, now.thickness, damping, carried)
+        oil = contact & full_film
+        hollow = np.zeros_like(oil) if carried is None else carried.hollow
+        rows = full_film | hollow
+        oil_by_p, oil_by_h = by_p.on_rows(rows), without_columns(by_h.on_rows(rows), plastic)
+        rest, by_rest = oil | hollow, _by_mass(level, oil_by_p, hollow, damping)
+        factors = _factored(by_rest, rest) if rest.any() else None
+        masks: tuple[Mask, ...] = (full_film, contact, plastic)
+        jacobians = [_linearised(level, (by_p, by_h), now.flow, now.thickness, masks, carried)]
+        finest = jacobians[0]
+        if carried is not None:
+            finest = _linearised(level, (by_p, by_h), now.flow, now.thickness, masks, None)
+        pressure, thickness = oil_pressure, now.thickness
+        for coarse in levels[1:]:
+            pressure, thickness = coarse.inject(pressure), coarse.inject(thickness)
+            masks = tuple(coarse.inject(mask.astype(float)) > 1.0 - 1e-9 for mask in masks)
+            carried = None if carried is None else carried.on(coarse)
+            at_faces = flow(fluid, pressure, thickness, coarse.mesh)
+            stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate, carried)
+            jacobians.append(_linearised(coarse, stencils, at_faces, thickness, masks, carried))
+        opened = full_film & ~contact & (jacobians[0].poiseuille > level.rate)
+        opened_factors = _factored(oil_by_p, opened) if opened.any() and contact.any() else None
+        return cls(
+            levels=jacobians,
+            finest=finest,
+            oil_by_p=oil_by_p,
+            oil_by_h=oil_by_h,
+            contact=contact,
+            oil=oil,
+            rest=rest,
+            by_rest=by_rest,
+            factors=factors,
+            open_nodes=opened,
+            open_factors=opened_factors,
+        )
+
+    def right_side(self, now: Touching, to_ambient: Array, given: Array) -> tuple[Array, Array]:
+        """Right sides of the rows of Q (nx, ny), and of the rows of the oil (nx, ny).
+
+        ``to_ambient`` (nx, ny) is the change of P at the nodes that oil does not fill, and ``given`` (nx, ny)
+        the change of Q at the nodes where it is known.
+        """
+        dh = self.finest.level.deflection(given)
+        oil = -now.reynolds - self.oil_by_p(to_ambient)
+        rest = oil - self.oil_by_h(dh) - self.by_rest(self.rest_of(oil, np.zeros_like(dh), dh))
+        contact = self.finest.by_h(np.where(now.contact & ~now.plastic, now.missing - dh, 0.0))
+        free = now.full_film & ~now.contact
+        return np.where(now.plastic, 0.0, np.where(now.contact, contact, np.where(free, rest, 0.0))), oil
+
+    def oil_of(self, oil: Array, dq: Array, dh: Array) -> Array:
+        """Change of P of the oil where the surfaces touch, zero elsewhere, (nx, ny); see ``rest_of``."""
+        return np.where(self.oil, self.rest_of(oil, dq, dh), 0.0)
+
+    def rest_of(self, oil: Array, dq: Array, dh: Array) -> Array:
+        """Change of P of the oil where the surfaces touch, and of the mass in cavities, shape (nx, ny).
+
+        Parameters
+        ----------
+        oil : ndarray, shape (nx, ny)
+            Right side of the rows of the oil.
+        dq, dh : ndarray, shape (nx, ny)
+            Change of Q, which is that of P where the surfaces do not touch, and change of H.
+        """
+        change = np.zeros_like(dq)
+        if self.factors is not None:
+            elsewhere = np.where(self.contact, 0.0, dq)
+            right = oil - self.oil_by_p(elsewhere) - self.oil_by_h(dh)
+            change[self.rest] = self.factors.solve(right[self.rest])
+        return change
+
+    def image(self, change: Array) -> Array:
+        """Change of scaled residual and load, as one vector, for a change of Q and H00, as one vector."""
+        finest = self.finest
+        dq = change[:-1].reshape(finest.full_film.shape)
+        dh, load = finest.gap.change(dq, float(change[-1]))
+        r = finest.by_p(dq) + finest.by_h(dh)
+        if self.factors is not None:
+            by_rest = self.by_rest(self.rest_of(np.zeros_like(dq), dq, dh))
+            r += np.where(finest.full_film & ~self.contact, by_rest, 0.0)
+        return np.append(finest.scale * r, load)
+
+    def precondition(self, image: Array) -> Array:
+        """Approximate change of Q and H00 from a scaled residual and load, by one V-cycle.
+
+        Beside spots the mobility changes by orders of magnitude from node to node, which coarser grids do not
+        see. What the cycle leaves where the Poiseuille term dominates is solved at fixed gap.
+        """
+        change = cycled(self.levels, image)
+        if self.open_factors is not None:
+            left = (image - self.image(change))[:-1].reshape(self.contact.shape)
+            dp = self.open_factors.solve((self.finest.unscale * left)[self.open_nodes])
+            change[:-1].reshape(self.contact.shape)[self.open_nodes] += dp
+        return change
+
+
+def _damped(
+    level: Level, at_faces: Flow, thickness: Array, damping: float, carried: Carried | None
+) -> tuple[Stencil, Stencil]:
+    """Derivatives of the Reynolds residual by P and by H, as in a time step of length 1/(damping rate).
+
+    The mass that a node gains in the step adds to the residual; at the state itself it adds nothing.
+    """
+    wedge = level.wedge
+    if carried is not None:
+        at_faces = of_filled(at_faces, carried.filled)
+        wedge = carried.supply.wedge(level.mesh, carried.filled)
+    by_p, by_h = linearise(at_faces, wedge, thickness, level.mesh)
+    k, inner = at_faces.coefficients, level.mesh.inner
+    by_p.coefficients[2][inner] += damping * level.rate * (k.density_p * thickness)[inner]
+    by_h.coefficients[2][inner] += damping * level.rate * k.density[inner]
+    return by_p, by_h
+
+
+def _by_mass(level: Level, by_p: Stencil, hollow: Mask, damping: float) -> Stencil:
+    """Stencil by P whose columns of cavitated nodes are by the mass that they pass to the node behind."""
+    if not hollow.any():
+        return by_p
+    c = without_columns(by_p, hollow).coefficients
+    c[2][hollow] = (1.0 + damping) * level.rate
+    c[1][1:][hollow[:-1]] = -level.rate
+    return Stencil(c)
+
+
+def _linearised(
+    level: Level,
+    stencils: tuple[Stencil, Stencil],
+    at_faces: Flow,
+    thickness: Array,
+    masks: tuple[Mask, ...],
+    carried: Carried | None,
+) -> Linearised:
+    """Jacobian for Q and H00 on one grid; P where the surfaces touch does not change.
+
+    ``masks`` are the nodes with a full film, those in contact and those that are flattened.
+    """
+    full_film, contact, plastic = masks
+    free = full_film & ~contact
+    gap = Gap(level, thickness)
+    if carried is not None:
+        behind = behind_cavities(carried.filled) & free
+        stencils = with_row_before(stencils[0], behind), with_row_before(stencils[1], behind)
+    by_p = without_columns(stencils[0].on_rows(free), contact)
+    by_h = without_columns(stencils[1].on_rows(free), plastic)
+    by_h = _with_contact_rows(level, by_h, contact & ~plastic)
+    poiseuille = np.where(contact, 0.0, poiseuille_weight(at_faces, level.mesh))
+    density = np.where(contact, 1.0, at_faces.coefficients.density)
+    diagonal = poiseuille + gap.elastic_weight(density)
+    unknown = free | (contact & ~plastic)
+    return Linearised(
+        gap=gap,
+        by_p=by_p,
+        by_h=by_h,
+        full_film=unknown,
+        poiseuille=poiseuille,
+        scale=np.divide(1.0, diagonal, out=np.zeros(unknown.shape), where=unknown),
+        unscale=np.where(unknown, diagonal, 0.0),
+        resolved=resolved_nodes(level, at_faces.coefficients.eps, unknown),
+        log_viscosity=at_faces.coefficients.log_viscosity,
+    )
+
+
+def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
+    """Stencil by H whose rows in contact are a multiple of the change of H.
+
+    In a stationary film it is the difference to the node before where that is in contact, too.
+    """
+    rows = by_h.coefficients.copy()
+    rows[2][contact] = level.rate
+    if level.distribution is DIPOLE:
+        after = contact.copy()
+        after[1:] &= contact[:-1]
+        after[0] = False
+        rows[1][after] = -level.rate
+    return Stencil(rows)
+
+
+def _factored(stencil: Stencil, nodes: Mask) -> SuperLU:
+    """Factorisation of a stencil between nodes; an error where its matrix is singular."""
+    try:
+        return splu(stencil_matrix(stencil, nodes))
+    except RuntimeError as error:
+        raise np.linalg.LinAlgError("the flow of the oil has a singular matrix") from error
+
+
+# Largest change of Q in a Newton step.
+_PRESSURE_STEP = 0.5
+
+# Part of the gap above the boundary film that a step may close, beside half of the boundary film; and the
+# smallest part of a step.
+_CLOSING, _LEAST_STEP = 0.5, 0.05
+
+# Residual of the oil where surfaces touch, a pressure over p_h, that is small enough: it does not move the
+# gap.
+OIL_TOLERANCE = 1e-6
+
+# Largest number of GMRES iterations per Newton step.
+_KRYLOV_LIMIT = 100
+
+# Damping of a Newton step at most, the least one when it is raised, and the factors by which it falls and
+# rises. It falls after a step of more than half its length that reduces the residual. Without damping, nodes
+# at the edges of spots come into contact and leave it in turn.
+_MOST_DAMPING, _LEAST_RAISED = 4.0, 0.1
+_FALL, _RISE, _LONG = 0.3, 2.0, 0.5
+
+# Steps after which the iteration ends if they have not halved the smallest residual so far. Films that
+# converged took up to 60.
+_PATIENCE = 70
+
+# Residual below which there is no damping.
+_NEAR = 1e-3
+
+
+def mixed_newton(
+    fluid: Fluid,
+    levels: list[Level],
+    state: State,
+    *,
+    asperities: Asperities,
+    tolerance: float,
+    max_iterations: int,
+    first_damping: float = 1.0,
+    progress: Progress | None = None,
+    carried: Carried | None = None,
+) -> GridSolution:
+    """Solve the film equations on the first of ``levels`` where surfaces may touch.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    levels : list of Level
+        Grids from the one to solve on to the coarsest; the coarser ones serve the preconditioner.
+    state : State
+        Initial guess.
+    asperities : Asperities
+        Boundary film and hardness.
+    tolerance : float
+        Residual at which to stop, a pressure over p_h.
+    max_iterations : int
+        Largest number of Newton steps.
+    first_damping : float
+        Damping of the first step: the length dX over the way that oil goes in the time step that a Newton
+        step stands for.
+    progress : callable, optional
+        Function that is called with (nodes, Newton step, residual) before every step.
+    carried : Carried, optional
+        Nodes that oil fills in the initial guess, where the oil in cavities is carried through them.
+
+    Returns
+    -------
+    GridSolution
+        Last iterate, with its status; its state has the contact pressure.
+    """
+    level = levels[0]
+    tolerance = max(tolerance, ROUNDING * level.rate)
+    steps: list[NewtonStep] = []
+    now, seen = assess_touching(fluid, level, state, asperities, carried), Seen()
+    before, damping = np.inf, first_damping
+    best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
+    status: Status = "stalled"
+    while len(steps) < min(max_iterations, found + _PATIENCE) and not is_solved(now, tolerance):
+        if progress is not None:
+            progress(level.nodes, len(steps), now.norm)
+        if now.norm < 0.5 * best:
+            best, found = now.norm, len(steps)
+        close = linear_tolerance(now.norm, before, 0.0)
+        before = now.norm
+        step = newton_step(fluid, levels, state, now, asperities, close, damping)
+        steps.append(step.record)
+        assessed = step.now
+        if not np.isfinite(assessed.norm):
+            status = "diverged"
+            break
+        state = step.state
+        if now.carried is not None and assessed.carried is not None and not assessed.settled:
+            filled, moved = now.carried.filled, assessed.carried.filled
+            supply = seen.calmed(assessed.carried.supply, filled, moved)
+            assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
+        better = assessed.norm < now.norm and step.length > _LONG
+        damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
+        damping = damping if assessed.norm > _NEAR else 0.0
+        now = assessed
+    if is_solved(now, tolerance):
+        status = "converged"
+    return grid_solution(level, projected(fluid, state, now.contact), now, steps, status)
+
+
+@dataclass(frozen=True)
+class Stepped:
+    """Film after one Newton step.
+
+    Attributes
+    ----------
+    state : State
+        Pressures, H00 and gap.
+    now : Touching
+        Residual of the state.
+    length : float
+        Part of the full Newton step that was taken.
+    record : NewtonStep
+        Residual before the step, and its GMRES iterations.
+    """
+
+    state: State
+    now: Touching
+    length: float
+    record: NewtonStep
+
+
+def newton_step(
+    fluid: Fluid,
+    levels: list[Level],
+    state: State,
+    now: Touching,
+    asperities: Asperities,
+    close: float,
+    damping: float = 0.0,
+) -> Stepped:
+    """Film after one Newton step on the first of ``levels``.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        Lubricant over dimensionless pressure.
+    levels : list of Level
+        Grids from the one to solve on to the coarsest.
+    state : State
+        Film before the step.
+    now : Touching
+        Residual of this film.
+    asperities : Asperities
+        Boundary film and hardness.
+    close : float
+        Relative tolerance of the linear system.
+    damping : float
+        Damping of the step: the length dX over the way that oil goes in the time that it stands for.
+
+    Returns
+    -------
+    Stepped
+        Film after the part of the step that keeps the changes within their limits. Where there is no step,
+        as the linear system is singular, the same film with an infinite residual.
+    """
+    level = levels[0]
+    state = projected(fluid, state, now.contact)
+    try:
+        jacobian = TouchingJacobian.of(fluid, levels, state.oil_pressure, now, damping)
+    except np.linalg.LinAlgError:
+        return Stepped(state, replace(now, norm=np.inf), 0.0, NewtonStep(level.nodes, now.norm, 0))
+    step = _direction(fluid, jacobian, state, now, close)
+    length = _length(level, now, step, asperities.boundary_film)
+    state = projected(fluid, _moved(level, state, now.contact, step, length), now.contact)
+    record = NewtonStep(level.nodes, now.norm, step.krylov)
+    assessed = assess_touching(fluid, level, state, asperities, now.carried)
+    return Stepped(state, assessed, length, record)
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Full Newton step.
+
+    Attributes
+    ----------
+    pressure, oil : ndarray, shape (nx, ny)
+        Changes of Q, and of P where the surfaces touch.
+    h00 : float
+        Change of H00.
+    krylov : int
+        Number of GMRES iterations.
+    """
+
+    pressure: Array
+    oil: Array
+    h00: float
+    krylov: int
+
+
+def _moved(level: Level, state: State, contact: Mask, step: _Step, length: float) -> State:
+    """State after a part ``length`` of a Newton step."""
+    pressure = state.pressure + length * step.pressure
+    oil = np.where(contact, state.oil_pressure + length * step.oil, pressure)
+    pressure = np.maximum(pressure, 0.0)
+    return State.of(level, pressure, state.h00 + length * step.h00, pressure - oil)
+
+
+def is_solved(now: Touching, tolerance: float) -> bool:
+    """Whether all equations hold within a tolerance, those of the oil where surfaces touch within 1e-6."""
+    return now.settled and now.norm <= tolerance and now.oil_norm <= max(tolerance, OIL_TOLERANCE)
+
+
+def grid_solution(
+    level: Level, state: State, now: Touching, steps: Sequence[NewtonStep], status: Status
+) -> GridSolution:
+    """Solution on a grid, with the residual in the form of a film without contact."""
+    # The gap of flattened asperities is that of the boundary film. So is that of asperities at the edges,
+    # where no pressure opens it, and wherever an iterate that did not converge sinks into the other surface.
+    of_flow = now.plastic | level.mesh.edge | (status != "converged")
+    state = replace(state, thickness=np.where(of_flow, now.thickness, state.thickness))
+    final = Residual(
+        flow=now.flow,
+        reynolds=now.reynolds,
+        diagonal=now.diagonal,
+        full_film=now.full_film,
+        load=now.load,
+        norm=now.norm,
+    )
+    return GridSolution(level, state, final, tuple(steps), status, now.fraction)
+
+
+def _direction(
+    fluid: Fluid, jacobian: TouchingJacobian, state: State, now: Touching, tolerance: float
+) -> _Step:
+    """Full Newton step at a state, from the linear system solved to a relative tolerance."""
+    finest = jacobian.finest
+    resting = fluid.ambient_pressure + finest.level.edge_excess
+    to_ambient = np.where(now.full_film, 0.0, resting - state.oil_pressure)
+    given = np.where(now.contact, now.to_hardness, to_ambient)
+    right, oil = jacobian.right_side(now, to_ambient, given)
+    load = now.load - finest.gap.load(given)
+    cycles = 0
+
+    def precondition(image: Array) -> Array:
+        nonlocal cycles
+        cycles += 1
+        return jacobian.precondition(image)
+
+    solution = flexible_gmres(
+        jacobian.image,
+        precondition,
+        np.append(finest.scale * right, load),
+        tolerance=tolerance,
+        limit=_KRYLOV_LIMIT,
+    )
+    dh00 = float(solution[-1])
+    dq = solution[:-1].reshape(now.contact.shape)
+    dh, _ = finest.gap.change(dq + given, dh00)
+    dp = np.where(now.full_film, jacobian.oil_of(oil, dq, dh), to_ambient)
+    return _Step(dq + given, dp, dh00, cycles)
+
+
+def _length(level: Level, now: Touching, step: _Step, boundary_film: float) -> float:
+    """Part of a full Newton step that keeps the changes of Q and of the open gap within their limits."""
+    length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(step.pressure))), 1e-300))
+    dh = level.deflection(step.pressure) + step.h00
+    closing = (dh < 0.0) & ~now.contact
+    if closing.any():
+        room = _CLOSING * (now.thickness - boundary_film) + 0.5 * boundary_film
+        length = min(length, float(np.min(room[closing] / -dh[closing])))
+    return max(length, _LEAST_STEP)

@@ -1,0 +1,563 @@
+"""Hertz contact of two cylinders along a line, and of two bodies over an ellipse: size, pressure, approach
+and gap.
+
+Elliptic integrals of many arguments at once, faster than one by one.
+B. C. Carlson, Numer. Algorithms 10 (1995) 13-26, doi:10.1007/BF02198293: duplication brings the arguments
+closer together by a factor of four, until a series in their differences is exact to the last digit.
+
+Hertz contact of two parallel cylinders: reduced radius and modulus, half-width, pressure and gap.
+The reduced modulus E' has the factor two throughout: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+Hertz contact of two bodies over an ellipse: semi-axes, pressure and approach.
+The reduced modulus E' has the factor two throughout: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. The x axis runs
+along entrainment and the y axis across it. Either may be the longer axis of the ellipse.
+
+The ellipse has the semi-axes b along x and a along y. Its pressure p_h sqrt(1 - (x/b)^2 - (y/a)^2) opens the
+gap between the surfaces by (2/(pi E')) times the integral of p/r. This deflection is (Johnson, section 3.5)
+
+    (p_h a b/E') I,    I = int_0^inf (1 - x^2/(b^2 + w) - y^2/(a^2 + w)) dw/sqrt(w (a^2 + w) (b^2 + w)).
+
+The three integrals in I are complete elliptic integrals in Carlson's symmetric form: 2 R_F(0, a^2, b^2), and
+(2/3) R_D(0, a^2, b^2) with a and b in both orders. This form needs no distinction of the longer axis, and
+loses no accuracy for a circle.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+from scipy.special import elliprd, elliprf
+
+from ehlectric.arrays import Array
+
+# Largest relative difference of the arguments at which the series is used; its relative error is below 1e-14.
+_CLOSE = 0.06
+
+# Duplications before the differences are looked at, and at most.
+_FIRST, _MOST = 3, 60
+
+# Arguments that are computed together: few enough for the processor's cache. Fewer are computed one by one.
+_BLOCK, _FEW = 2048, 500
+
+
+def both_rd(x: Array, y: Array, z: Array) -> tuple[Array, Array]:
+    """Carlson's R_D(x, y, z) and R_D(x, z, y), which share their duplications.
+
+    Parameters
+    ----------
+    x, y, z : ndarray, shapes that broadcast to (...)
+        Arguments; ``x`` not negative, ``y`` and ``z`` positive.
+
+    Returns
+    -------
+    first, second : ndarray, shape (...)
+        R_D(x, y, z) and R_D(x, z, y), with a relative error below 1e-14.
+
+    Examples
+    --------
+    >>> first, second = both_rd(np.array([0.0, 2.0]), np.array([2.0, 2.0]), np.array([1.0, 2.0]))
+    >>> [round(float(value), 9) for value in (first[0], first[1], second[1])]
+    [1.797210352, 0.353553391, 0.353553391]
+    """
+    x, y, z = np.broadcast_arrays(x, y, z)
+    if x.size < _FEW:
+        return elliprd(x, y, z), elliprd(x, z, y)
+    shape, size = x.shape, x.size
+    given = [np.ascontiguousarray(values, dtype=float).ravel() for values in (x, y, z)]
+    first, second = np.empty(size), np.empty(size)
+    step = math.ceil(size / math.ceil(size / _BLOCK))
+    for start in range(0, size, step):
+        part = slice(start, start + step)
+        first[part], second[part] = _block(*(values[part] for values in given))
+    return first.reshape(shape), second.reshape(shape)
+
+
+def _block(x: Array, y: Array, z: Array) -> tuple[Array, Array]:
+    factor, first, second = 1.0, np.zeros_like(x), np.zeros_like(x)
+    for number in range(_MOST):
+        if number >= _FIRST and _are_close(x, y, z):
+            break
+        root_x, root_y, root_z = np.sqrt(x), np.sqrt(y), np.sqrt(z)
+        both = root_x * (root_y + root_z) + root_y * root_z
+        y_next, z_next = y + both, z + both
+        first += factor / (root_z * z_next)
+        second += factor / (root_y * y_next)
+        x, y, z = 0.25 * (x + both), 0.25 * y_next, 0.25 * z_next
+        factor *= 0.25
+    return 3.0 * first + factor * _series(x, y, z), 3.0 * second + factor * _series(x, z, y)
+
+
+def _are_close(x: Array, y: Array, z: Array) -> bool:
+    smallest = np.minimum(np.minimum(x, y), z)
+    return bool(np.all(np.maximum(np.maximum(x, y), z) <= (1.0 + _CLOSE) * smallest))
+
+
+def _series(x: Array, y: Array, z: Array) -> Array:
+    """R_D(x, y, z) of arguments that are close together."""
+    mean = 0.2 * (x + y + 3.0 * z)
+    over = 1.0 / mean
+    u, v = 1.0 - x * over, 1.0 - y * over
+    w = (u + v) / -3.0
+    uv, w2 = u * v, w * w
+    e2, e3 = uv - 6.0 * w2, (3.0 * uv - 8.0 * w2) * w
+    e4, e5 = 3.0 * (uv - w2) * w2, uv * w2 * w
+    total: Array = (
+        1.0
+        + e2 * (-3.0 / 14.0 + e2 * (9.0 / 88.0 - e2 / 16.0 + 45.0 / 272.0 * e3) - 9.0 / 52.0 * e3)
+        + e3 * (1.0 / 6.0 + 3.0 / 40.0 * e3)
+        + e4 * (-3.0 / 22.0 + 3.0 / 20.0 * e2 - 9.0 / 68.0 * e3)
+        + e5 * (3.0 / 26.0 - 9.0 / 68.0 * e2)
+    )
+    return over * np.sqrt(over) * total
+
+
+def reduced_radius(radius_1: float, radius_2: float) -> float:
+    """Reduced radius R of two cylinders, 1/R = 1/R1 + 1/R2.
+
+    Parameters
+    ----------
+    radius_1, radius_2 : float
+        Radii R1 and R2 [m]; negative for a concave body, infinite for a plane.
+
+    Returns
+    -------
+    float
+        R [m]. It is negative if the radius of a concave body is smaller than that of the other body.
+
+    Notes
+    -----
+    Eq. (4) of Morris et al. (2022), doi:10.3390/lubricants10050087.
+
+    Examples
+    --------
+    >>> reduced_radius(0.02, 0.02)
+    0.01
+    """
+    return 1.0 / (1.0 / radius_1 + 1.0 / radius_2)
+
+
+def body_compliance(youngs_modulus: float, poissons_ratio: float) -> float:
+    """Plane-strain compliance of one body, (1 - nu^2)/E [1/Pa].
+
+    Parameters
+    ----------
+    youngs_modulus : float
+        Young's modulus E [Pa].
+    poissons_ratio : float
+        Poisson's ratio nu, dimensionless.
+
+    Returns
+    -------
+    float
+        Compliance [1/Pa].
+
+    Examples
+    --------
+    >>> body_compliance(2.0, 0.0)
+    0.5
+    """
+    return (1.0 - poissons_ratio**2) / youngs_modulus
+
+
+def reduced_modulus(compliance_1: float, compliance_2: float) -> float:
+    """Reduced modulus E' of two bodies, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Parameters
+    ----------
+    compliance_1, compliance_2 : float
+        Plane-strain compliances (1 - nu^2)/E of the two bodies [1/Pa].
+
+    Returns
+    -------
+    float
+        E' [Pa].
+
+    Notes
+    -----
+    Eq. (3) of Morris et al. (2022), doi:10.3390/lubricants10050087.
+
+    Examples
+    --------
+    Two steel bodies, E = 206 GPa and nu = 0.3:
+
+    >>> steel = body_compliance(206e9, 0.3)
+    >>> round(reduced_modulus(steel, steel) / 1e9, 1)
+    226.4
+    """
+    return 2.0 / (compliance_1 + compliance_2)
+
+
+def line_half_width(load_per_length: float, radius: float, modulus: float) -> float:
+    """Half-width of a dry line contact, b = sqrt(8 w R/(pi E')).
+
+    Parameters
+    ----------
+    load_per_length : float
+        Load per length w [N/m].
+    radius : float
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Returns
+    -------
+    float
+        b [m].
+
+    Notes
+    -----
+    Eq. (2) of Morris et al. (2022), doi:10.3390/lubricants10050087.
+
+    Examples
+    --------
+    >>> round(line_half_width(1.57e6, 14.1e-3, 226e9) * 1e6, 1)
+    499.4
+    """
+    return float(np.sqrt(8.0 * load_per_length * radius / (np.pi * modulus)))
+
+
+def line_max_pressure(load_per_length: float, radius: float, modulus: float) -> float:
+    """Largest Hertz pressure of a line contact, p_h = 2 w/(pi b).
+
+    Parameters
+    ----------
+    load_per_length : float
+        Load per length w [N/m].
+    radius : float
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Returns
+    -------
+    float
+        p_h [Pa].
+
+    Examples
+    --------
+    >>> round(line_max_pressure(1.57e6, 14.1e-3, 226e9) / 1e9, 3)
+    2.001
+    """
+    half_width = line_half_width(load_per_length, radius, modulus)
+    return 2.0 * load_per_length / (np.pi * half_width)
+
+
+def line_load(max_pressure: float, radius: float, modulus: float) -> float:
+    """Load per length of a line contact from its largest Hertz pressure, w = 2 pi R p_h^2/E'.
+
+    Parameters
+    ----------
+    max_pressure : float
+        Largest Hertz pressure p_h [Pa].
+    radius : float
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Returns
+    -------
+    float
+        w [N/m].
+
+    Examples
+    --------
+    >>> round(line_load(1e9, 14.1e-3, 226e9) / 1e5, 3)
+    3.92
+    """
+    return 2.0 * np.pi * radius * max_pressure**2 / modulus
+
+
+def line_pressure(x: ArrayLike) -> Array:
+    """Hertz pressure of a line contact, P = sqrt(1 - X^2) inside the contact and zero outside.
+
+    Parameters
+    ----------
+    x : array_like, shape (...)
+        Position X = x/b with the half-width b, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        P = p/p_h, dimensionless.
+
+    Examples
+    --------
+    >>> [float(p) for p in line_pressure([0.0, 1.0, 2.0])]
+    [1.0, 0.0, 0.0]
+    """
+    return np.sqrt(np.maximum(0.0, 1.0 - np.asarray(x, dtype=float) ** 2))
+
+
+def line_gap(x: ArrayLike) -> Array:
+    """Gap of a dry line contact, zero inside the contact.
+
+    H = (abs(X) sqrt(X^2 - 1) - ln(abs(X) + sqrt(X^2 - 1)))/2 for abs(X) > 1
+
+    Parameters
+    ----------
+    x : array_like, shape (...)
+        Position X = x/b with the half-width b, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        H = h R/b^2, dimensionless.
+
+    Notes
+    -----
+    K. L. Johnson, Contact Mechanics, 1985, section 4.2, doi:10.1017/CBO9781139171731.
+
+    Examples
+    --------
+    >>> round(float(line_gap(2.0)), 4)
+    1.0736
+    """
+    distance = np.maximum(1.0, np.abs(np.asarray(x, dtype=float)))
+    root = np.sqrt(distance**2 - 1.0)
+    gap: Array = 0.5 * (distance * root - np.log(distance + root))
+    return gap
+
+
+def line_opening(x: ArrayLike, half_width: float, radius: float) -> Array:
+    """Elastic deflection of a dry line contact: the distance by which it opens the gap of two parabolas.
+
+    Parameters
+    ----------
+    x : array_like, shape (...)
+        Position [m].
+    half_width, radius : float
+        Half-width b of the dry contact and reduced radius R [m].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Deflection [m], up to a constant: it is zero at x = 0.
+
+    Examples
+    --------
+    Inside the contact the deflection makes the parabolas flat:
+
+    >>> round(float(line_opening(1e-4, 2e-4, 0.01) / (1e-4**2 / (2 * 0.01))), 6)
+    -1.0
+    """
+    position = np.asarray(x, dtype=float)
+    opening: Array = half_width**2 / radius * line_gap(position / half_width) - 0.5 * position**2 / radius
+    return opening
+
+
+# Absolute ln(Ry/Rx) below which the ratio of the semi-axes is (Ry/Rx)^(2/3) to the last digit: the next term
+# is of third order.
+_CIRCLE = 1e-6
+
+
+@dataclass(frozen=True)
+class DryContact:
+    """Semi-axes, largest pressure and approach of the dry (Hertz) contact of two bodies.
+
+    The values may be arrays that broadcast with positions, for several contacts at once.
+
+    Attributes
+    ----------
+    semi_axis_x, semi_axis_y : float
+        Semi-axes of the contact ellipse, b along and a across entrainment [m].
+    max_pressure : float
+        Largest Hertz pressure p_h [Pa].
+    approach : float
+        Distance by which points of the two bodies far from the contact approach each other [m].
+    """
+
+    semi_axis_x: float
+    semi_axis_y: float
+    max_pressure: float
+    approach: float
+
+
+@lru_cache(maxsize=256)
+def axis_ratio(radius_x: float, radius_y: float) -> float:
+    """Ratio k of the semi-axes of the dry contact: across entrainment over along entrainment.
+
+    The equation Ry/Rx = R_D(0, k^2, 1)/R_D(0, 1, k^2) is solved for k, with Carlson's elliptic integral R_D.
+
+    Parameters
+    ----------
+    radius_x, radius_y : float
+        Reduced radii Rx along and Ry across entrainment [m].
+
+    Returns
+    -------
+    float
+        k, dimensionless; above 1 if ``radius_y`` is larger than ``radius_x``.
+
+    Notes
+    -----
+    K. L. Johnson, Contact Mechanics, 1985, eq. (4.28), doi:10.1017/CBO9781139171731.
+
+    Examples
+    --------
+    >>> axis_ratio(0.01, 0.01)
+    1.0
+    >>> round(axis_ratio(0.01, 0.1), 4)
+    4.4994
+    """
+    target = float(np.log(radius_y / radius_x))
+    if abs(target) < _CIRCLE:
+        return float(np.exp(2.0 / 3.0 * target))
+
+    def excess(log_ratio: float) -> float:
+        k2 = np.exp(2.0 * log_ratio)
+        return float(np.log(elliprd(0.0, k2, 1.0) / elliprd(0.0, 1.0, k2))) - target
+
+    # k lies between 1, the value of a circle, and Ry/Rx.
+    root = brentq(excess, 0.0, target, xtol=1e-15, rtol=1e-14)
+    return float(np.exp(root))
+
+
+def dry_contact(load: float, radius_x: float, radius_y: float, modulus: float) -> DryContact:
+    """Contact ellipse, largest pressure and approach of two loaded bodies.
+
+    b^3 = 2 F Rx R_D(0, k^2, 1)/(pi E') for the semi-axis b along entrainment, with Carlson's elliptic
+    integral R_D. The semi-axis across entrainment is k b, and p_h = 3 F/(2 pi k b^2).
+
+    Parameters
+    ----------
+    load : float
+        Load F [N].
+    radius_x, radius_y : float
+        Reduced radii Rx along and Ry across entrainment [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Returns
+    -------
+    DryContact
+        Semi-axes [m], largest pressure [Pa] and approach [m]. For equal radii R they are those of a circle
+        with b^3 = 3 F R/(2 E') and the approach b^2/R.
+
+    Notes
+    -----
+    K. L. Johnson, Contact Mechanics, 1985, section 4.2, doi:10.1017/CBO9781139171731.
+
+    Examples
+    --------
+    A steel ball of 10 mm radius on a plane, 20 N:
+
+    >>> contact = dry_contact(20.0, 0.01, 0.01, 226e9)
+    >>> round(contact.semi_axis_x * 1e6, 1), round(contact.max_pressure / 1e9, 4)
+    (109.9, 0.7906)
+    """
+    k = axis_ratio(radius_x, radius_y)
+    semi_axis = float((2.0 * load * radius_x * elliprd(0.0, k**2, 1.0) / (np.pi * modulus)) ** (1.0 / 3.0))
+    pressure = 1.5 * load / (np.pi * k * semi_axis**2)
+    approach = 2.0 * pressure * k * semi_axis / modulus * float(elliprf(0.0, 1.0, k**2))
+    return DryContact(semi_axis, k * semi_axis, pressure, approach)
+
+
+def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: float) -> float:
+    """Load of a point contact from its largest Hertz pressure.
+
+    F = (2 pi k/3) p_h b^2 with b = 4 p_h Rx k R_D(0, k^2, 1)/(3 E'), with Carlson's elliptic integral R_D.
+
+    Parameters
+    ----------
+    max_pressure : float
+        Largest Hertz pressure p_h [Pa].
+    radius_x, radius_y : float
+        Reduced radii Rx along and Ry across entrainment [m].
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Returns
+    -------
+    float
+        Load F [N], proportional to the cube of the pressure.
+
+    Examples
+    --------
+    >>> round(point_load(1e9, 0.01, 0.01, 226e9), 2)
+    40.47
+    """
+    k = axis_ratio(radius_x, radius_y)
+    semi_axis = 4.0 * max_pressure * radius_x * k * float(elliprd(0.0, k**2, 1.0)) / (3.0 * modulus)
+    return 2.0 * np.pi / 3.0 * k * max_pressure * semi_axis**2
+
+
+def point_pressure(x: ArrayLike, y: ArrayLike, ratio: float) -> Array:
+    """Hertz pressure of a point contact, P = sqrt(1 - X^2 - (Y/k)^2) inside the contact and zero outside.
+
+    Parameters
+    ----------
+    x, y : array_like, shapes that broadcast to (...)
+        Positions X = x/b and Y = y/b with the semi-axis b along entrainment, dimensionless.
+    ratio : float
+        k, the semi-axis across entrainment over the semi-axis along it, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        P = p/p_h, dimensionless.
+
+    Examples
+    --------
+    >>> [float(p) for p in point_pressure([0.0, 0.6, 0.0], [0.0, 0.0, 2.0], 2.0)]
+    [1.0, 0.8, 0.0]
+    """
+    inside = 1.0 - np.asarray(x, dtype=float) ** 2 - (np.asarray(y, dtype=float) / ratio) ** 2
+    return np.sqrt(np.maximum(0.0, inside))
+
+
+def point_deflection(x: ArrayLike, y: ArrayLike, contact: DryContact, modulus: float) -> Array:
+    """Elastic deflection under a Hertz pressure: the distance by which it opens the gap of two bodies.
+
+    The deflection is computed both inside and outside the contact ellipse.
+
+    Parameters
+    ----------
+    x, y : array_like, shapes that broadcast to (...)
+        Positions along and across entrainment [m].
+    contact : DryContact
+        Semi-axes b along and a across entrainment, and largest pressure p_h.
+    modulus : float
+        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Deflection [m]. In the middle of the contact it is the approach, far away 2 F/(pi E' r).
+
+    Notes
+    -----
+    The deflection is (p_h a b/E') I with the integral
+    I = int_w0^inf (1 - x^2/(b^2 + w) - y^2/(a^2 + w)) dw/sqrt(w (a^2 + w) (b^2 + w)). Inside the ellipse w0
+    is zero; outside it is the positive root w of x^2/(b^2 + w) + y^2/(a^2 + w) = 1. See K. L. Johnson,
+    Contact Mechanics, 1985, section 3.5, doi:10.1017/CBO9781139171731.
+
+    Examples
+    --------
+    Ten semi-axes away the load acts nearly as a point load:
+
+    >>> contact = dry_contact(20.0, 0.01, 0.01, 226e9)
+    >>> far = 10.0 * contact.semi_axis_x
+    >>> round(float(point_deflection(far, 0.0, contact, 226e9)) / (2 * 20.0 / (np.pi * 226e9 * far)), 3)
+    1.001
+    """
+    x2, y2 = np.square(np.asarray(x, dtype=float)), np.square(np.asarray(y, dtype=float))
+    b2, a2 = contact.semi_axis_x**2, contact.semi_axis_y**2
+    # Larger root of w^2 - p w - c = 0, without a difference of nearly equal numbers.
+    p, c = x2 + y2 - a2 - b2, x2 * a2 + y2 * b2 - a2 * b2
+    root = np.sqrt(np.maximum(0.0, p**2 + 4.0 * c))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        w = np.where(p > 0.0, 0.5 * (p + root), 2.0 * c / (root - p))
+    w = np.maximum(0.0, w)
+    # R_F follows from the two R_D, which take most of the time: 3 R_F = x R_D(y, z, x) + y R_D(z, x, y)
+    # + z R_D(x, y, z), and the sum of the three R_D is 3/sqrt(x y z). No terms cancel.
+    at_b, at_a = both_rd(w, a2 + w, b2 + w)
+    edge = np.sqrt(w / ((a2 + w) * (b2 + w)))
+    integral = 2.0 * edge + 2.0 / 3.0 * ((b2 - x2) * at_b + (a2 - y2) * at_a)
+    area = contact.semi_axis_x * contact.semi_axis_y
+    deflection: Array = contact.max_pressure * area / modulus * integral
+    return deflection

@@ -1,0 +1,254 @@
+"""Relative permittivity of an oil over density and temperature, and its electrical conductivity over
+temperature.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.constants import R as GAS_CONSTANT
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError
+from ehlectric.lubricant.law import Law, Parameter, refused, required
+
+
+def clausius_mossotti(
+    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
+) -> Array:
+    """Relative permittivity of a compressed dielectric liquid after Clausius and Mossotti.
+
+    eps = (eps_r + 2 + 2 (eps_r - 1) rho/rho0)/(eps_r + 2 - (eps_r - 1) rho/rho0)
+
+    Parameters
+    ----------
+    density_ratio : array_like, shape (...)
+        Density over the density at zero pressure, rho/rho0, dimensionless, > 0.
+    temperature : array_like, optional
+        Temperature [K]. The law ignores it: temperature acts through the density.
+    relative_permittivity : float
+        Relative permittivity eps_r at the density rho0, dimensionless, >= 1.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Relative permittivity, dimensionless.
+
+    Raises
+    ------
+    InputError
+        If the density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1).
+
+    Notes
+    -----
+    Eq. (14) of Morris et al. (2022), doi:10.3390/lubricants10050087. The law holds for molecules without a
+    dipole moment. For polar liquids use ``constant_permittivity``.
+
+    Examples
+    --------
+    >>> round(float(clausius_mossotti(1.2138, relative_permittivity=2.4)), 3)
+    2.888
+    """
+    rho = np.asarray(density_ratio, dtype=float)
+    denominator = relative_permittivity + 2.0 - (relative_permittivity - 1.0) * rho
+    if np.any(denominator <= 0.0):
+        raise InputError.worded(
+            "lubricant.permittivity_law",
+            "'clausius-mossotti' has a pole at the density ratio "
+            f"{(relative_permittivity + 2.0) / (relative_permittivity - 1.0):.4g}, and the film "
+            f"reaches {np.max(rho):.4g}; a polar liquid takes 'constant'",
+            takes="'constant'",
+        )
+    return (relative_permittivity + 2.0 + 2.0 * (relative_permittivity - 1.0) * rho) / denominator
+
+
+def constant_permittivity(
+    density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
+) -> Array:
+    """Relative permittivity that does not change with density.
+
+    Parameters
+    ----------
+    density_ratio : array_like, shape (...)
+        Density over the density at zero pressure, rho/rho0, dimensionless. The law uses only its shape.
+    temperature : array_like, optional
+        Temperature [K]. The law is isothermal and ignores it.
+    relative_permittivity : float
+        Relative permittivity eps_r, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Relative permittivity, dimensionless.
+
+    Examples
+    --------
+    >>> float(constant_permittivity(1.2, relative_permittivity=2.4))
+    2.4
+    """
+    return np.full_like(np.asarray(density_ratio, dtype=float), relative_permittivity)
+
+
+RELATIVE_PERMITTIVITY = Parameter(
+    "relative_permittivity",
+    "",
+    least=1.0,
+    most=1e3,
+    reason="vacuum has 1, oils 2 to 5, water 80",
+)
+
+PERMITTIVITY_LAWS = {
+    "clausius-mossotti": Law(clausius_mossotti, (RELATIVE_PERMITTIVITY,)),
+    "constant": Law(constant_permittivity, (RELATIVE_PERMITTIVITY,)),
+}
+
+
+def constant_conductivity(temperature: ArrayLike | None = None, *, conductivity: float) -> Array:
+    """Electrical conductivity that does not change with temperature.
+
+    Parameters
+    ----------
+    temperature : array_like, shape (...), optional
+        Temperature [K]. The law uses only its shape.
+    conductivity : float
+        Electrical conductivity sigma [S/m].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Electrical conductivity [S/m].
+
+    Examples
+    --------
+    >>> float(constant_conductivity(333.15, conductivity=1e-12))
+    1e-12
+    """
+    return np.full(np.shape(0.0 if temperature is None else temperature), conductivity)
+
+
+def arrhenius(
+    temperature: ArrayLike | None,
+    *,
+    conductivity: float,
+    conductivity_activation: float,
+    conductivity_temperature: float,
+) -> Array:
+    """Electrical conductivity after Arrhenius, sigma = sigma_ref exp(-(E/R)(1/T - 1/T_ref)).
+
+    Parameters
+    ----------
+    temperature : array_like, shape (...)
+        Temperature T [K].
+    conductivity : float
+        Electrical conductivity sigma_ref at the temperature T_ref [S/m].
+    conductivity_activation : float
+        Activation energy E [J/mol].
+    conductivity_temperature : float
+        Temperature T_ref of the given conductivity [K].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Electrical conductivity sigma [S/m].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing.
+
+    Notes
+    -----
+    S. Arrhenius, Z. Phys. Chem. 4 (1889) 226, doi:10.1515/zpch-1889-0416, with the gas constant
+    R = 8.314 J/(mol K). Ions of a dissociated additive are created and move by thermal activation.
+
+    Examples
+    --------
+    >>> oil = dict(conductivity=1e-10, conductivity_activation=5e4, conductivity_temperature=313.15)
+    >>> round(float(arrhenius(373.15, **oil)) * 1e9, 2)
+    2.19
+    """
+    at = required(temperature, "conductivity_law 'arrhenius'")
+    return np.asarray(
+        conductivity
+        * np.exp(-conductivity_activation / GAS_CONSTANT * (1.0 / at - 1.0 / conductivity_temperature))
+    )
+
+
+def arrhenius_temperature(
+    value: ArrayLike, *, conductivity: float, conductivity_activation: float, conductivity_temperature: float
+) -> Array:
+    """Temperature [K] at which an oil has an electrical conductivity; the inverse of ``arrhenius``.
+
+    Parameters
+    ----------
+    value : array_like, shape (...)
+        Electrical conductivity [S/m].
+    conductivity, conductivity_activation, conductivity_temperature : float
+        Parameters of ``arrhenius``.
+
+    Raises
+    ------
+    InputError
+        If no temperature has the conductivity.
+
+    Examples
+    --------
+    >>> oil = dict(conductivity=1e-10, conductivity_activation=5e4, conductivity_temperature=313.15)
+    >>> round(float(arrhenius_temperature(1e-10, **oil)), 2)
+    313.15
+    """
+    sigma = np.asarray(value, dtype=float)
+    logarithm = np.log(sigma / conductivity)
+    reciprocal = 1.0 / conductivity_temperature - GAS_CONSTANT / conductivity_activation * logarithm
+    if wrong := refused(sigma, reciprocal > 0.0, "S/m"):
+        most = conductivity * math.exp(conductivity_activation / (GAS_CONSTANT * conductivity_temperature))
+        raise InputError(
+            "conductivity",
+            got=f"{wrong};",
+            takes=f"below {most:.3g} S/m, the range of conductivity_law 'arrhenius'",
+        )
+    return np.asarray(1.0 / reciprocal)
+
+
+CONDUCTIVITY = Parameter(
+    "conductivity",
+    "S/m",
+    title="electrical conductivity",
+    symbol=r"$\sigma$",
+    meaning=r"electrical conductivity $\sigma$ of the oil",
+    least=1e-20,
+    most=1e2,
+    reason="of the lubricant, at its temperature",
+)
+_ACTIVATION = Parameter(
+    "conductivity_activation",
+    "J/mol",
+    title="activation energy of the conductivity",
+    symbol="$E$",
+    meaning="activation energy $E$ of the electrical conductivity",
+    above=0.0,
+    most=5e5,
+    reason="oils have 20 to 80 kJ/mol",
+)
+_TEMPERATURE = Parameter(
+    "conductivity_temperature",
+    "K",
+    title="temperature of the given conductivity",
+    symbol=r"$T_\sigma$",
+    meaning="temperature of the given electrical conductivity",
+    least=100.0,
+    most=1000.0,
+    reason="absolute, of the oil",
+)
+
+CONDUCTIVITY_LAWS = {
+    "constant": Law(constant_conductivity, (CONDUCTIVITY,)),
+    "arrhenius": Law(
+        arrhenius,
+        (CONDUCTIVITY, _ACTIVATION, _TEMPERATURE),
+        needs_temperature=True,
+        inverse=arrhenius_temperature,
+    ),
+}

@@ -1,0 +1,556 @@
+"""Thermal conductivity and volumetric heat capacity of an oil over pressure and temperature.
+
+Volumetric heat capacity of an oil over pressure and temperature.
+All laws give the capacity of a volume, rho c [J/(m^3 K)], which the energy equation of the
+film contains and which the sources print. The specific heat capacity c is this value over the density.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlectric.arrays import Array
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.lubricant.density import TAIT, tait
+from ehlectric.lubricant.law import Law, Parameter, required
+
+# Largest pressure [Pa] and temperature [K] of the measurements behind the laws of Larsson et al.
+LARSSON_PRESSURE, LARSSON_TEMPERATURE = 1.1e9, 380.15
+
+
+def volume(pressure: ArrayLike, temperature: Array, state: dict[str, float]) -> tuple[Array, Array]:
+    """Volume over that at zero pressure and the reference temperature, and its derivative by pressure."""
+    ratio, slope = tait(pressure, temperature, **state)
+    ambient = 1.0 + state["tait_expansion"] * (temperature - state["reference_temperature"])
+    return ambient / ratio, -ambient * slope / ratio**2
+
+
+def beyond_larsson(law: str, max_pressure: float, temperature: float | None) -> Iterator[ResultWarning]:
+    """Warning that a contact is outside the measurements behind a law of Larsson et al."""
+    hot = temperature is not None and temperature > LARSSON_TEMPERATURE
+    if max_pressure > LARSSON_PRESSURE or hot:
+        yield ResultWarning(
+            "law-range",
+            f"{law} 'larsson' was measured up to {LARSSON_PRESSURE / 1e9:g} GPa and 107 degC and is "
+            "extrapolated in this contact",
+        )
+
+
+def number(
+    name: str, unit: str, title: str, symbol: str, meaning: str, bounds: tuple[float, float], reason: str
+) -> Parameter:
+    """Parameter of a law from its name, unit, title, symbol, meaning, bounds and their reason."""
+    least, most = bounds
+    return Parameter(
+        name, unit, title=title, symbol=symbol, meaning=meaning, least=least, most=most, reason=reason
+    )
+
+
+def larsson_constant(letter: str, k: int, of: str) -> Parameter:
+    """Constant of the laws of Larsson et al., such as c1 [1/Pa]."""
+    return number(
+        f"larsson_{letter}{k}",
+        "1/Pa",
+        f"constant {letter}{k} of Larsson et al.",
+        f"${letter}_{k}$",
+        f"${letter}_{k}$ of the {of} by Larsson et al.",
+        (0.0, 1e-7),
+        "oils have 0.3 to 2 1/GPa",
+    )
+
+
+def constant_thermal_conductivity(
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, thermal_conductivity: float
+) -> tuple[Array, Array]:
+    """Thermal conductivity that changes neither with pressure nor with temperature.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure [Pa]. The law uses only its shape.
+    temperature : array_like, optional
+        Temperature [K]. The law ignores it.
+    thermal_conductivity : float
+        Thermal conductivity k [W/(m K)].
+
+    Returns
+    -------
+    conductivity, slope : ndarray, shape (...)
+        Thermal conductivity [W/(m K)], and its derivative by pressure, which is zero.
+
+    Examples
+    --------
+    >>> float(constant_thermal_conductivity(1e9, thermal_conductivity=0.134)[0])
+    0.134
+    """
+    p = np.asarray(pressure, dtype=float)
+    return np.full_like(p, thermal_conductivity), np.zeros_like(p)
+
+
+def larsson_thermal_conductivity(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    thermal_conductivity: float,
+    larsson_c1: float,
+    larsson_c2: float,
+) -> tuple[Array, Array]:
+    """Thermal conductivity after Larsson et al., k = k0 (1 + c1 p/(1 + c2 p)), and its derivative.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like, optional
+        Temperature [K]. The law ignores it.
+    thermal_conductivity : float
+        Thermal conductivity k0 at zero pressure [W/(m K)].
+    larsson_c1, larsson_c2 : float
+        Constants c1 and c2 [1/Pa].
+
+    Returns
+    -------
+    conductivity, slope : ndarray, shape (...)
+        Thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)].
+
+    Notes
+    -----
+    R. Larsson, P. O. Larsson, E. Eriksson, M. Sjoberg and E. Hoglund, Lubricant properties for input to
+    hydrodynamic and elastohydrodynamic lubrication analyses, Proc. IMechE J 214 (2000) 17, as later programs
+    quote it. The measurements go up to 1.1 GPa and 107 degC.
+
+    Examples
+    --------
+    >>> pao = dict(thermal_conductivity=0.154, larsson_c1=1.40e-9, larsson_c2=0.34e-9)
+    >>> larsson_thermal_conductivity([0.0, 0.5e9, 1e9], **pao)[0].round(3).tolist()
+    [0.154, 0.246, 0.315]
+    """
+    p = np.asarray(pressure, dtype=float)
+    return (
+        thermal_conductivity * (1.0 + larsson_c1 * p / (1.0 + larsson_c2 * p)),
+        thermal_conductivity * larsson_c1 / (1.0 + larsson_c2 * p) ** 2,
+    )
+
+
+def scaled_thermal_conductivity(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    scaling_k_base: float,
+    scaling_k_factor: float,
+    scaling_k_exponent: float,
+    scaling_a: float,
+    scaling_q: float,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> tuple[Array, Array]:
+    """Thermal conductivity as a function of temperature and volume, and its derivative by pressure.
+
+    k = B + C kappa^-s with kappa = v (1 + A (T/T_R) v^q) and the volume v = V/V_R of Tait's equation.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    scaling_k_base, scaling_k_factor : float
+        Constants B and C [W/(m K)].
+    scaling_k_exponent, scaling_a, scaling_q : float
+        Constants s, A and q, dimensionless.
+    tait_k0_prime, tait_k00, tait_beta_k, tait_expansion, reference_temperature : float
+        Parameters of Tait's equation, see ``equation_of_state.tait``.
+
+    Returns
+    -------
+    conductivity, slope : ndarray, shape (...)
+        Thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing, or kappa is not positive.
+
+    Notes
+    -----
+    Habchi and others, Tribol. Int. 43 (2010) 1842, for the mineral oil Shell T9, as later works quote it. The
+    constants A and q have not been compared with the printed ones.
+
+    Examples
+    --------
+    >>> t9 = dict(scaling_k_base=0.053, scaling_k_factor=0.026, scaling_k_exponent=7.66, scaling_a=-0.101)
+    >>> t9 |= dict(scaling_q=3.0, tait_k0_prime=10.545, tait_k00=9.234e9, tait_beta_k=6.09e-3)
+    >>> t9 |= dict(tait_expansion=7.734e-4, reference_temperature=298.15)
+    >>> scaled_thermal_conductivity([0.0, 1e9], 298.15, **t9)[0].round(3).tolist()
+    [0.112, 0.248]
+    """
+    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
+    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
+    at = required(temperature, "thermal_conductivity_law 'scaling'")
+    v, v_slope = volume(pressure, at, state)
+    part = scaling_a * at / reference_temperature * v**scaling_q
+    if not np.all(part > -1.0):
+        raise InputError(
+            "scaling_a",
+            got=f"{scaling_a:g}, with which kappa of thermal_conductivity_law 'scaling' is not positive;",
+            takes="a larger value",
+        )
+    kappa = v * (1.0 + part)
+    rise = scaling_k_factor * kappa**-scaling_k_exponent
+    kappa_slope = (1.0 + (1.0 + scaling_q) * part) * v_slope
+    return scaling_k_base + rise, -scaling_k_exponent * rise / kappa * kappa_slope
+
+
+def _conductivity_warnings(
+    max_pressure: float,
+    viscosity: float,
+    temperature: float | None = None,
+    *,
+    thermal_conductivity: float,
+    larsson_c1: float,
+    larsson_c2: float,
+) -> Iterator[ResultWarning]:
+    yield from beyond_larsson("thermal_conductivity_law", max_pressure, temperature)
+
+
+THERMAL_CONDUCTIVITY = Parameter("thermal_conductivity", "W/m/K", least=0.01, most=1.0, reason="of an oil")
+_C1, _C2 = (larsson_constant("c", k, "thermal conductivity") for k in (1, 2))
+
+THERMAL_CONDUCTIVITY_LAWS = {
+    "constant": Law(constant_thermal_conductivity, (THERMAL_CONDUCTIVITY,)),
+    "larsson": Law(
+        larsson_thermal_conductivity, (THERMAL_CONDUCTIVITY, _C1, _C2), warnings=_conductivity_warnings
+    ),
+    "scaling": Law(
+        scaled_thermal_conductivity,
+        (
+            number(
+                "scaling_k_base",
+                "W/m/K",
+                "base of the scaled thermal conductivity",
+                "$B$",
+                "$B$ of the scaled thermal conductivity",
+                (0.0, 1.0),
+                "an oil has 0.05",
+            ),
+            number(
+                "scaling_k_factor",
+                "W/m/K",
+                "factor of the scaled thermal conductivity",
+                "$C$",
+                "$C$ of the scaled thermal conductivity",
+                (0.0, 1.0),
+                "an oil has 0.03",
+            ),
+            number(
+                "scaling_k_exponent",
+                "",
+                "exponent of the scaled thermal conductivity",
+                "$s$",
+                "$s$ of the scaled thermal conductivity",
+                (0.0, 30.0),
+                "an oil has 7.7",
+            ),
+            number(
+                "scaling_a",
+                "",
+                "temperature factor of the scaled thermal conductivity",
+                "$A$",
+                "$A$ of the scaled thermal conductivity",
+                (-1.0, 1.0),
+                "an oil has -0.1",
+            ),
+            number(
+                "scaling_q",
+                "",
+                "volume exponent of the scaled thermal conductivity",
+                "$q$",
+                "$q$ of the scaled thermal conductivity",
+                (0.0, 20.0),
+                "an oil has 3",
+            ),
+            *TAIT.parameters,
+        ),
+        needs_temperature=True,
+    ),
+}
+
+
+def constant_heat_capacity(
+    pressure: ArrayLike, temperature: ArrayLike | None = None, *, heat_capacity: float, density: float
+) -> tuple[Array, Array]:
+    """Volumetric heat capacity rho c that changes neither with pressure nor with temperature.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure [Pa]. The law uses only its shape.
+    temperature : array_like, optional
+        Temperature [K]. The law ignores it.
+    heat_capacity : float
+        Specific heat capacity c [J/(kg K)].
+    density : float
+        Density rho [kg/m^3].
+
+    Returns
+    -------
+    capacity, slope : ndarray, shape (...)
+        Volumetric heat capacity [J/(m^3 K)], and its derivative by pressure, which is zero.
+
+    Examples
+    --------
+    >>> float(constant_heat_capacity(1e9, heat_capacity=2000.0, density=850.0)[0])
+    1700000.0
+    """
+    p = np.asarray(pressure, dtype=float)
+    return np.full_like(p, heat_capacity * density), np.zeros_like(p)
+
+
+def larsson_heat_capacity(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    volumetric_heat_capacity: float,
+    larsson_temperature: float,
+    larsson_beta: float,
+    larsson_b1: float,
+    larsson_b2: float,
+    larsson_k1: float,
+    larsson_k2: float,
+) -> tuple[Array, Array]:
+    """Volumetric heat capacity after Larsson et al., and its derivative by pressure.
+
+    rho c = (rho c)_0 (1 + beta (T - T_0)) (1 + k1 p/(1 + k2 p)) with beta = beta_0 (1 + b1 p + b2 p^2).
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    volumetric_heat_capacity : float
+        Volumetric heat capacity (rho c)_0 at zero pressure and the temperature T_0 [J/(m^3 K)].
+    larsson_temperature : float
+        Temperature T_0 [K].
+    larsson_beta : float
+        Temperature coefficient beta_0 at zero pressure [1/K].
+    larsson_b1, larsson_b2 : float
+        Constants b1 [1/Pa] and b2 [1/Pa^2] of the temperature coefficient.
+    larsson_k1, larsson_k2 : float
+        Constants k1 and k2 [1/Pa].
+
+    Returns
+    -------
+    capacity, slope : ndarray, shape (...)
+        Volumetric heat capacity [J/(m^3 K)], and its derivative by pressure [J/(m^3 K Pa)].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing.
+
+    Notes
+    -----
+    Source of ``larsson_thermal_conductivity``. The product is the capacity of a volume: a later
+    program divides it by the density ratio for the capacity of a mass. That program has the last factor
+    within the brackets of the temperature. Where b2 < 0, beta would become negative at pressures above those
+    of the measurements; above its maximum at p = -b1/(2 b2) it is held.
+
+    Examples
+    --------
+    >>> oil = dict(volumetric_heat_capacity=1.71e6, larsson_temperature=295.0, larsson_beta=9.3e-4)
+    >>> oil |= dict(larsson_b1=1.4e-9, larsson_b2=-0.51e-18, larsson_k1=0.47e-9, larsson_k2=0.81e-9)
+    >>> (larsson_heat_capacity([0.0, 1e9], 345.0, **oil)[0] / 1e6).round(3).tolist()
+    [1.79, 2.343]
+    """
+    p = np.asarray(pressure, dtype=float)
+    warmer = required(temperature, "heat_capacity_law 'larsson'") - larsson_temperature
+    held = np.minimum(p, -larsson_b1 / (2.0 * larsson_b2)) if larsson_b2 < 0.0 else p
+    heat = 1.0 + larsson_beta * (1.0 + (larsson_b1 + larsson_b2 * held) * held) * warmer
+    heat_slope = larsson_beta * (larsson_b1 + 2.0 * larsson_b2 * held) * warmer
+    squeeze = 1.0 + larsson_k1 * p / (1.0 + larsson_k2 * p)
+    squeeze_slope = larsson_k1 / (1.0 + larsson_k2 * p) ** 2
+    return (
+        volumetric_heat_capacity * heat * squeeze,
+        volumetric_heat_capacity * (heat_slope * squeeze + heat * squeeze_slope),
+    )
+
+
+def scaled_heat_capacity(
+    pressure: ArrayLike,
+    temperature: ArrayLike | None = None,
+    *,
+    scaling_c_base: float,
+    scaling_c_factor: float,
+    scaling_c_exponent: float,
+    tait_k0_prime: float,
+    tait_k00: float,
+    tait_beta_k: float,
+    tait_expansion: float,
+    reference_temperature: float,
+) -> tuple[Array, Array]:
+    """Volumetric heat capacity as a function of temperature and volume, and its derivative by pressure.
+
+    rho c = C0 + m chi with chi = (T/T_R) v^-g and the volume v = V/V_R of Tait's equation.
+
+    Parameters
+    ----------
+    pressure : array_like, shape (...)
+        Pressure p [Pa], >= 0.
+    temperature : array_like
+        Temperature T [K].
+    scaling_c_base, scaling_c_factor : float
+        Constants C0 and m [J/(m^3 K)].
+    scaling_c_exponent : float
+        Constant g, dimensionless.
+    tait_k0_prime, tait_k00, tait_beta_k, tait_expansion, reference_temperature : float
+        Parameters of Tait's equation, see ``equation_of_state.tait``.
+
+    Returns
+    -------
+    capacity, slope : ndarray, shape (...)
+        Volumetric heat capacity [J/(m^3 K)], and its derivative by pressure [J/(m^3 K Pa)].
+
+    Raises
+    ------
+    InputError
+        If the temperature is missing.
+
+    Notes
+    -----
+    Source of ``scaled_thermal_conductivity``; the exponent g has not been compared with the printed one.
+
+    Examples
+    --------
+    >>> t9 = dict(scaling_c_base=1.17e6, scaling_c_factor=0.39e6, scaling_c_exponent=4.0)
+    >>> t9 |= dict(tait_k0_prime=10.545, tait_k00=9.234e9, tait_beta_k=6.09e-3)
+    >>> t9 |= dict(tait_expansion=7.734e-4, reference_temperature=298.15)
+    >>> (scaled_heat_capacity([0.0, 1e9], 298.15, **t9)[0] / 1e6).round(2).tolist()
+    [1.56, 2.06]
+    """
+    state = {"tait_k0_prime": tait_k0_prime, "tait_k00": tait_k00, "tait_beta_k": tait_beta_k}
+    state |= {"tait_expansion": tait_expansion, "reference_temperature": reference_temperature}
+    at = required(temperature, "heat_capacity_law 'scaling'")
+    v, v_slope = volume(pressure, at, state)
+    rise = scaling_c_factor * at / reference_temperature * v**-scaling_c_exponent
+    return scaling_c_base + rise, -scaling_c_exponent * rise / v * v_slope
+
+
+def _capacity_warnings(
+    max_pressure: float,
+    viscosity: float,
+    temperature: float | None = None,
+    *,
+    volumetric_heat_capacity: float,
+    larsson_temperature: float,
+    larsson_beta: float,
+    larsson_b1: float,
+    larsson_b2: float,
+    larsson_k1: float,
+    larsson_k2: float,
+) -> Iterator[ResultWarning]:
+    yield from beyond_larsson("heat_capacity_law", max_pressure, temperature)
+
+
+HEAT_CAPACITY = Parameter("heat_capacity", "J/kg/K", least=500.0, most=5000.0, reason="of an oil")
+DENSITY = Parameter("density", "kg/m**3", least=500.0, most=3000.0, reason="of an oil")
+
+_K1, _K2 = (larsson_constant("k", k, "heat capacity") for k in (1, 2))
+
+HEAT_CAPACITY_LAWS = {
+    "constant": Law(constant_heat_capacity, (HEAT_CAPACITY, DENSITY)),
+    "larsson": Law(
+        larsson_heat_capacity,
+        (
+            number(
+                "volumetric_heat_capacity",
+                "J/m**3/K",
+                "volumetric heat capacity",
+                r"$(\rho c)_0$",
+                r"volumetric heat capacity $(\rho c)_0$ at ambient pressure and `larsson_temperature`",
+                (3e5, 1e7),
+                "of an oil",
+            ),
+            number(
+                "larsson_temperature",
+                "K",
+                "temperature of the given volumetric heat capacity",
+                "$T_0$",
+                "temperature $T_0$ of the given volumetric heat capacity",
+                (100.0, 1000.0),
+                "absolute, of the oil",
+            ),
+            number(
+                "larsson_beta",
+                "1/K",
+                "temperature coefficient of the heat capacity",
+                r"$\beta_0$",
+                r"$\beta_0$ of the heat capacity by Larsson et al.",
+                (0.0, 1e-2),
+                "oils have 7e-4 to 1e-3 1/K",
+            ),
+            number(
+                "larsson_b1",
+                "1/Pa",
+                "constant b1 of Larsson et al.",
+                "$b_1$",
+                "$b_1$ of the heat capacity by Larsson et al.",
+                (0.0, 1e-7),
+                "oils have 1 to 3 1/GPa",
+            ),
+            number(
+                "larsson_b2",
+                "1/Pa**2",
+                "constant b2 of Larsson et al.",
+                "$b_2$",
+                "$b_2$ of the heat capacity by Larsson et al.",
+                (-1e-16, 1e-16),
+                "oils have -2 to -0.5 1/GPa^2",
+            ),
+            _K1,
+            _K2,
+        ),
+        warnings=_capacity_warnings,
+        needs_temperature=True,
+    ),
+    "scaling": Law(
+        scaled_heat_capacity,
+        (
+            number(
+                "scaling_c_base",
+                "J/m**3/K",
+                "base of the scaled heat capacity",
+                "$C_0$",
+                "$C_0$ of the scaled volumetric heat capacity",
+                (0.0, 1e7),
+                "an oil has 1.2 MJ/(m^3 K)",
+            ),
+            number(
+                "scaling_c_factor",
+                "J/m**3/K",
+                "factor of the scaled heat capacity",
+                "$m$",
+                "$m$ of the scaled volumetric heat capacity",
+                (0.0, 1e7),
+                "an oil has 0.4 MJ/(m^3 K)",
+            ),
+            number(
+                "scaling_c_exponent",
+                "",
+                "exponent of the scaled heat capacity",
+                "$g$",
+                "$g$ of the scaled volumetric heat capacity",
+                (0.0, 20.0),
+                "an oil has 4",
+            ),
+            *TAIT.parameters,
+        ),
+        needs_temperature=True,
+    ),
+}

@@ -1,0 +1,162 @@
+"""Asperities that touch in a transient contact: at one instant of the solution, and over a stored run."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.contact.touching import Spots, load_of
+from ehlectric.field.zones import line_zone_areas, point_zone_areas
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.newton import State
+from ehlectric.motion.moving_contact import TransientContact
+from ehlectric.motion.stored import AREA_SHARE, COARSE_SHARE, LOAD_SHARE, SPOTS
+from ehlectric.motion.stored_run import MotionRun
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Asperities at one instant.
+
+    Attributes
+    ----------
+    load_share : float
+        Part of the load that they carry, from 0 to 1.
+    area_share : float
+        Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1.
+    spots : int
+        Number of spots.
+    """
+
+    load_share: float = 0.0
+    area_share: float = 0.0
+    spots: int = 0
+
+
+class Toucher:
+    """Asperities of the instants of a transient contact on one mesh.
+
+    Parameters
+    ----------
+    contact : TransientContact
+        Contact of the run.
+    mesh : Mesh
+        Mesh of the film, which covers the Hertz zone.
+    """
+
+    def __init__(self, contact: TransientContact, mesh: Mesh) -> None:
+        self._contact, self._mesh = contact, mesh
+
+    @cached_property
+    def _axes(self) -> tuple[Array, ...]:
+        length, mesh = self._contact.problem.scales.length, self._mesh
+        return (length * mesh.x, length * mesh.whole_y)[: len(self._contact.kind.axes)]
+
+    @cached_property
+    def _zone(self) -> Array:
+        """Part of each node in the area of the Hertz zone, in sum one."""
+        zones = line_zone_areas if len(self._axes) == 1 else point_zone_areas
+        zone: Array = zones(self._axes, *self._contact.conditions.semi_axes)["hertz"]
+        return zone / np.sum(zone)
+
+    def at(self, state: State) -> Touch:
+        """Asperities of a film."""
+        if not state.touching.any():
+            return Touch()
+        whole = np.broadcast_to(state.contact_pressure, state.pressure.shape)
+        pressure = self._contact.kind.shaped(self._mesh, self._contact.problem.scales.pressure * whole)
+        touching = pressure > 0.0
+        spots = Spots.of(self._axes, touching, pressure)
+        return Touch(
+            load_share=float(np.sum(spots.loads)) / load_of(self._contact.conditions),
+            area_share=float(np.sum(self._zone[touching])),
+            spots=spots.number,
+        )
+
+
+@dataclass(frozen=True)
+class TouchHistory:
+    """Asperities over the time steps of a run.
+
+    Attributes
+    ----------
+    time : ndarray, shape (steps,)
+        Times of the steps [s].
+    load_share, area_share, spots : ndarray, shape (steps,)
+        Values of ``Touch``.
+    coarse_share : ndarray, shape (steps,)
+        Load share in the companion of the run; NaN between its steps, where it has no film, and where a file
+        has no such variable, as nothing touched.
+    counted : ndarray of bool, shape (steps,)
+        Steps that count for statistics: those from which on the roughness fills the contact.
+    filled : bool
+        Whether it fills the contact at all; in a shorter run all steps count.
+    """
+
+    time: Array
+    load_share: Array
+    area_share: Array
+    spots: Array
+    coarse_share: Array
+    counted: Mask
+    filled: bool = True
+
+    @classmethod
+    def of(cls, run: MotionRun) -> TouchHistory | None:
+        """Asperities of a run; None where its surfaces touch at no time step."""
+        history = cls.whole(run)
+        return history if np.any(history.spots) else None
+
+    @classmethod
+    def whole(cls, run: MotionRun) -> TouchHistory:
+        """Asperities of a run, with shares of zero where its surfaces touch at no time step."""
+        time, stored = run.values("time"), SPOTS in run.dataset
+        none = np.zeros(time.shape)
+        late = time >= run.field_history.settled_from
+        return cls(
+            time=time,
+            load_share=run.values(LOAD_SHARE) if stored else none,
+            area_share=run.values(AREA_SHARE) if stored else none,
+            spots=run.values(SPOTS) if stored else none,
+            coarse_share=run.values(COARSE_SHARE) if stored else np.full_like(none, math.nan),
+            counted=late if np.any(late) else np.ones_like(late),
+            filled=bool(np.any(late)),
+        )
+
+    @property
+    def steps(self) -> int:
+        """Number of time steps that count."""
+        return int(np.count_nonzero(self.counted))
+
+    @property
+    def mean_share(self) -> float:
+        """Mean load share of the steps that count."""
+        return float(np.mean(self.load_share[self.counted]))
+
+    @property
+    def time_share(self) -> float:
+        """Share of the steps that count with at least one spot, from 0 to 1."""
+        return float(np.mean(self.spots[self.counted] > 0.0))
+
+    @property
+    def coarser(self) -> float | None:
+        """Mean load share of the companion at its steps that count; None if it lacks one of them."""
+        found = self._coarser_steps
+        return None if found is None else float(np.mean(self.coarse_share[found]))
+
+    @property
+    def share_change(self) -> float:
+        """Change of the mean load share from the companion, at the same steps; NaN if unknown."""
+        found = self._coarser_steps
+        if found is None:
+            return math.nan
+        return float(np.mean(self.load_share[found]) - np.mean(self.coarse_share[found]))
+
+    @property
+    def _coarser_steps(self) -> Mask | None:
+        steps: Mask = self.counted & (np.arange(self.time.size) % 2 == 0)
+        return steps if np.any(steps) and np.all(np.isfinite(self.coarse_share[steps])) else None

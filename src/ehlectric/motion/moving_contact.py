@@ -1,0 +1,564 @@
+"""Transient contact: conditions, time steps, moving surfaces, film equations, and what differs between the
+kinds.
+
+Schedule of a transient contact: time steps, speeds of the surfaces, and when roughness fills the contact.
+The schedule follows from the case and its conditions alone; it does not need the heights of the surfaces.
+
+Time is dimensionless, T = t u/b, and positions are in half-widths, X = x/b. Here u is the entrainment speed,
+the mean speed of the surfaces, and b is the half-width. At T = 0 all moving roughness lies outside the
+domain. A point at x in the case is at x - D + u_k t at the time t. Here D is the length of the domain, and
+u_k is the speed of its surface. At the time D/u_k the point is at its position in the case.
+
+Moving roughness: heights of the surfaces of a transient contact over position and time.
+The case describes each surface at rest. A point at x in the case is at x - D + u_k t at the time t. Here D is
+the length of the domain and u_k the speed of its surface. If u_k is negative, the point is at x + D + u_k t.
+Roughness that lies beyond the far end of the domain in the case is left out. Moving roughness therefore
+begins with a front, behind which its height rises from zero over one half-width.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import zip_longest
+from typing import Any, Generic, Literal, TypeAlias, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import RegularGridInterpolator
+
+from ehlectric.arrays import Array, Mask
+from ehlectric.cases.case import Case
+from ehlectric.cases.grid_inputs import Grid
+from ehlectric.contact import contact_kinds
+from ehlectric.contact.conditions import Conditions, PointConditions, surface_ratios
+from ehlectric.contact.problems import film_problem, point_film_problem
+from ehlectric.errors import InputError
+from ehlectric.field.line_field import Field
+from ehlectric.field.point_field import PointField
+from ehlectric.film.film_solution import FilmSolution
+from ehlectric.film.isothermal_film import Film, PointFilm, semi_axis_across
+from ehlectric.film.mesh import Mesh
+from ehlectric.film.problem import FilmProblem
+from ehlectric.film.unsteady import MOST_COURANT
+from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
+
+# A surface is at rest below this speed divided by the entrainment speed. It is also the relative tolerance of
+# comparisons of times and speeds.
+_AT_REST = 1e-9
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Time steps of a transient contact and the speeds of its surfaces.
+
+    Attributes
+    ----------
+    end : float
+        Duration T, dimensionless.
+    steps : int
+        Number of time steps, all of the same length.
+    courant : float
+        Distance travelled at the entrainment speed in one time step [grid spacings].
+    recorded : ndarray of int, shape (n,)
+        Numbers of the time steps that are recorded, from 0 to ``steps``.
+    time : float
+        Unit of time b/u, which corresponds to T = 1 [s].
+    domain : tuple of float
+        Inlet and outlet of the film's domain [half-widths].
+    speeds : tuple of float
+        Speeds of surfaces 1 and 2 divided by the entrainment speed; exactly 0 if a surface is at rest.
+    rough : tuple of int
+        Numbers of the rough surfaces, 1 or 2, in ascending order.
+
+    Examples
+    --------
+    A bump on surface 1 in pure rolling. The domain, -4 to 2 half-widths, has 64 grid intervals:
+
+    >>> from ehlectric.contact.conditions import resolve
+    >>> contact = {"reduced_radius": "14 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "0.5 GPa", "entrainment_speed": "4 m/s"}
+    >>> bump = {"surface": 1, "generator": "asperity", "height": "50 nm", "width": "60 um"}
+    >>> tables = {"contact": contact, "lubricant": {"base": "paper"}, "roughness": [bump]}
+    >>> case = Case.from_dict(tables | {"grid": {"nodes": 65}, "motion": {"passes": 2.0}})
+    >>> schedule = schedule_of(case, resolve(case))
+    >>> schedule.steps, schedule.end, schedule.coincident
+    (128, 12.0, 6.0)
+    """
+
+    end: float
+    steps: int
+    courant: float
+    recorded: Array
+    time: float
+    domain: tuple[float, float]
+    speeds: tuple[float, float]
+    rough: tuple[int, ...]
+
+    @property
+    def step(self) -> float:
+        """Length of a time step, dimensionless."""
+        return self.end / self.steps
+
+    @property
+    def length(self) -> float:
+        """Length D of the domain [half-widths]."""
+        inlet, outlet = self.domain
+        return outlet - inlet
+
+    def speed_of(self, surface: int) -> float:
+        """Speed of surface 1 or 2 divided by the entrainment speed; exactly 0 if it is at rest."""
+        return self.speeds[surface - 1]
+
+    @property
+    def moving_speeds(self) -> tuple[float, ...]:
+        """Speeds of the moving rough surfaces divided by the entrainment speed."""
+        return tuple(self.speed_of(surface) for surface in self.rough if self.speed_of(surface))
+
+    @property
+    def covered(self) -> float:
+        """Time T from which moving roughness fills the Hertz zone; infinite if the run ends earlier."""
+        inlet, outlet = self.domain
+        # Distance from the end where the roughness enters to the far side of the zone, plus the half-width
+        # over which the height rises behind the front.
+        distances = [2.0 - inlet if speed > 0.0 else outlet + 2.0 for speed in self.moving_speeds]
+        times = [way / abs(speed) for way, speed in zip(distances, self.moving_speeds, strict=True)]
+        latest = max(times, default=np.inf)
+        return latest if latest <= self.end else np.inf
+
+    @property
+    def coincident(self) -> float:
+        """Time T at which all moving roughness is at its position in the case.
+
+        Infinite if the run ends earlier, or if the rough surfaces move at different speeds.
+        """
+        speeds = sorted(map(abs, self.moving_speeds))
+        if not speeds or speeds[-1] - speeds[0] > _AT_REST * speeds[-1]:
+            return np.inf
+        time = self.length / speeds[0]
+        return time if time <= self.end * (1.0 + _AT_REST) else np.inf
+
+    def moments(self) -> dict[str, float]:
+        """Times ``covered_from`` and ``coincident``, without those that the run does not reach [s]."""
+        times = {"covered_from": self.covered, "coincident": self.coincident}
+        return {name: time * self.time for name, time in times.items() if math.isfinite(time)}
+
+    def described(self) -> dict[str, Any]:
+        """Duration, steps and speeds as in summary.json, SI units; None for times that are not reached."""
+        moments = self.moments()
+        return {
+            "duration": self.end * self.time,
+            "steps": self.steps,
+            "courant": self.courant,
+            "frames": int(self.recorded.size),
+            "speed_ratio_1": self.speed_of(1),
+            "speed_ratio_2": self.speed_of(2),
+            "covered_from": moments.get("covered_from"),
+            "coincident": moments.get("coincident"),
+        }
+
+
+def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedule:
+    """Schedule of a case with moving roughness.
+
+    Parameters
+    ----------
+    case : Case
+        A case with ``motion`` and roughness.
+    conditions : Conditions or PointConditions
+        Operating conditions of the case, from ``resolve`` or ``resolve_point``.
+
+    Returns
+    -------
+    Schedule
+        Time steps and speeds. The recorded instants include the one at which all moving roughness is at its
+        position in the case, if the run reaches it.
+
+    Raises
+    ------
+    InputError
+        If the case has no ``motion``, or all rough surfaces are at rest. Also if the run is shorter than one
+        grid spacing, or the time steps are too long.
+    """
+    if case.motion is None:
+        raise InputError.worded("motion", "missing; a case whose roughness moves needs it")
+    schedule = _time_grid(case, conditions)
+    if not schedule.moving_speeds:
+        raise InputError(
+            "motion",
+            got="roughness only on surfaces at rest",
+            takes="roughness on a surface that moves, or a case without motion",
+        )
+    if not np.isfinite(schedule.coincident):
+        return schedule
+    coincident = round(schedule.coincident / schedule.step)
+    return replace(schedule, recorded=np.union1d(schedule.recorded, [coincident]))
+
+
+def _time_grid(case: Case, conditions: Conditions | PointConditions) -> Schedule:
+    assert case.motion is not None
+    motion, grid = case.motion, case.grid
+    ratios = surface_ratios(conditions.slide_to_roll_ratio)
+    rough = tuple(sorted({table.surface for table in case.roughness}))
+    time = conditions.half_width / conditions.entrainment_speed
+    length = grid.length
+    end = motion.passes * length if motion.passes is not None else (motion.duration or 0.0) / time
+    spacing = length / (grid.nodes_along - 1)
+    steps = motion.steps or round(end / spacing)
+    if not steps:
+        raise InputError(
+            f"motion.{'duration' if motion.passes is None else 'passes'}",
+            got=f"{end * time:.3g} s, in which oil travels less than a grid spacing;",
+            takes=f"at least {spacing * time:.3g} s",
+        )
+    if motion.steps is None:
+        # In each step the oil travels from one node to the next. A surface that is several times faster
+        # should also travel about one grid spacing a step, by itself and relative to the oil, so each step is
+        # divided by a whole number.
+        end = steps * spacing
+        speeds = [ratios[surface - 1] for surface in rough]
+        fastest = max(max(abs(speed), abs(speed - 1.0)) for speed in speeds)
+        steps *= max(1, math.ceil(fastest - 0.5))
+    courant = end / steps / spacing
+    if courant > MOST_COURANT * (1.0 + 1e-9):
+        least = int(np.ceil(end / spacing / MOST_COURANT))
+        raise InputError(
+            "motion.steps",
+            got=f"{steps}, in each of which oil would travel {courant:.3g} grid spacings;",
+            takes=f"at least {least}, and {round(end / spacing)} for one spacing a step",
+        )
+    return Schedule(
+        end=end,
+        steps=steps,
+        courant=courant,
+        recorded=np.unique(np.round(np.linspace(0, steps, min(motion.record, steps + 1))).astype(int)),
+        time=time,
+        domain=grid.ends,
+        speeds=(_moving(ratios[0]), _moving(ratios[1])),
+        rough=rough,
+    )
+
+
+def _moving(speed: float) -> float:
+    """Speed divided by the entrainment speed, with 0 in place of rounding errors."""
+    return speed if abs(speed) > _AT_REST else 0.0
+
+
+@dataclass(frozen=True)
+class MovingRoughness:
+    """Rough surfaces that move through a contact.
+
+    Attributes
+    ----------
+    surfaces : sequence of RoughSurface or RoughMap
+        Rough surfaces, long enough for the whole run.
+    schedule : Schedule
+        Time steps and speeds of the surfaces.
+    half_width : float
+        Half-width b, in a point contact the semi-axis along entrainment [m].
+    """
+
+    surfaces: Sequence[RoughSurface] | Sequence[RoughMap]
+    schedule: Schedule
+    half_width: float
+
+    @property
+    def moving(self) -> list[RoughSurface | RoughMap]:
+        """Rough surfaces that move."""
+        return [surface for surface in self.surfaces if self.schedule.speed_of(surface.surface)]
+
+    @property
+    def resting(self) -> list[RoughSurface | RoughMap]:
+        """Rough surfaces at rest."""
+        return [surface for surface in self.surfaces if not self.schedule.speed_of(surface.surface)]
+
+    def heights(self, time: float, *axes: Array) -> Array:
+        """Roughness heights of both surfaces at a time.
+
+        Parameters
+        ----------
+        time : float
+            Time T, dimensionless.
+        *axes : ndarray
+            Positions X, shape (nx,), and of a point contact also Y, shape (ny,) [half-widths].
+
+        Returns
+        -------
+        ndarray, shape (2, nx) or (2, nx, ny)
+            Heights, positive out of the body [m].
+        """
+        heights = np.zeros((2, *(axis.size for axis in axes)))
+        for surface in self.surfaces:
+            heights[surface.surface - 1] += self._height(surface, time, *axes)
+        return heights
+
+    def moving_height(self, time: float, *axes: Array) -> Array:
+        """Sum of the heights of all moving surfaces at a time [m], shape (nx,) or (nx, ny)."""
+        total: Array = np.sum([self._height(surface, time, *axes) for surface in self.moving], axis=0)
+        return total
+
+    def _height(self, surface: RoughSurface | RoughMap, time: float, x: Array, *others: Array) -> Array:
+        speed, b = self.schedule.speed_of(surface.surface), self.half_width
+        if not speed:
+            return surface.height(b * x, *(b * other for other in others))
+        inlet, outlet = self.schedule.domain
+        travelled = speed * time - np.sign(speed) * self.schedule.length
+        front = (outlet if speed > 0.0 else inlet) + travelled
+        behind = np.clip((front - x) * np.sign(speed), 0.0, 1.0)
+        here = np.flatnonzero(behind > 0.0)
+        height = np.zeros((x.size, *(other.size for other in others)))
+        if here.size:
+            rise = np.sin(0.5 * np.pi * behind[here]) ** 2
+            there = surface.height(b * (x[here] - travelled), *(b * other for other in others))
+            height[here] = there * rise.reshape(-1, *(1 for _ in others))
+        return height
+
+
+C = TypeVar("C")  # conditions
+R = TypeVar("R")  # rough surface
+F = TypeVar("F")  # film
+E = TypeVar("E")  # field
+
+
+@dataclass(frozen=True)
+class Kind(Generic[C, R, F, E]):
+    """Functions of one kind of transient contact.
+
+    Attributes
+    ----------
+    name : str
+        Geometry of the case, "line" or "point".
+    axes : tuple of str
+        Names of the axes of a map: x along entrainment and, for a point contact, y across it.
+    capacitance_unit : str
+        Unit of the capacitance in the field range.
+    contact : Kind
+        Functions of the stationary contact of the same kind.
+    nodes_across : callable
+        Changes to a grid that keep its nodes across entrainment when nodes along entrainment are added.
+    film_problem : callable
+        Film equations with the rough surfaces at rest only. Its arguments are the case, the case with the
+        extended domain (see ``TransientContact``), the conditions and the moving roughness.
+    shaped : callable
+        Values on the solver's mesh, shape (nx, ny), in the shape of the arrays of a film.
+    film : callable
+        Film from its solution, the film equations and the mesh.
+    column_strength : callable
+        Largest field strength across the film at its nodes [V/m]; NaN outside the field range.
+    in_hertz_zone : callable
+        Mask of the nodes in the Hertz zone, from the conditions and the positions along each axis [m].
+    """
+
+    name: str
+    axes: tuple[str, ...]
+    capacitance_unit: str
+    contact: contact_kinds.AnyKind
+    nodes_across: Callable[[Grid], dict[str, int]]
+    film_problem: Callable[[Case, Case, C, MovingRoughness], FilmProblem]
+    shaped: Callable[[Mesh, NDArray[Any]], NDArray[Any]]
+    film: Callable[[FilmSolution, FilmProblem, Mesh], F]
+    column_strength: Callable[[F, E], Array]
+    in_hertz_zone: Callable[..., Mask]
+
+
+AnyKind: TypeAlias = Kind[Any, Any, Any, Any]
+
+
+def _line_film_problem(
+    case: Case, _travelled: Case, conditions: Conditions, roughness: MovingRoughness
+) -> FilmProblem:
+    return film_problem(case, conditions, cast("list[RoughSurface]", roughness.resting))
+
+
+def _point_film_problem(
+    case: Case, travelled: Case, conditions: PointConditions, roughness: MovingRoughness
+) -> FilmProblem:
+    problem = point_film_problem(case, conditions, cast("list[RoughMap]", roughness.resting))
+    # Half of the contact suffices only if all roughness that passes is symmetric about y = 0.
+    whole = point_film_problem(travelled, conditions, cast("list[RoughMap]", roughness.surfaces))
+    return replace(problem, width=whole.width)
+
+
+def _point_film(solution: FilmSolution, problem: FilmProblem, mesh: Mesh) -> PointFilm:
+    y = problem.scales.length * mesh.whole_y
+    return PointFilm.of(solution, y=y, semi_axis_y=semi_axis_across(problem))
+
+
+def _line_column_strength(film: Film, field: Field) -> Array:
+    return np.interp(film.x, field.x, field.column_strength, left=math.nan, right=math.nan)
+
+
+def _point_column_strength(film: PointFilm, field: PointField) -> Array:
+    between = RegularGridInterpolator((field.x, field.y), field.column_strength, bounds_error=False)
+    strength: Array = between(np.stack(np.meshgrid(film.x, film.y, indexing="ij"), axis=-1))
+    return strength
+
+
+def _in_line_zone(conditions: Conditions, x: Array) -> Mask:
+    return np.asarray(np.abs(x) < conditions.half_width)
+
+
+def _in_point_zone(conditions: PointConditions, x: Array, y: Array) -> Mask:
+    along, across = x[:, np.newaxis] / conditions.semi_axis_x, y / conditions.semi_axis_y
+    return np.asarray(np.hypot(along, across) < 1.0)
+
+
+LINE = Kind[Conditions, RoughSurface, Film, Field](
+    name="line",
+    axes=("x",),
+    capacitance_unit="F/m",
+    contact=contact_kinds.LINE,
+    nodes_across=lambda _grid: {},
+    film_problem=_line_film_problem,
+    shaped=lambda _mesh, values: values[:, 0],
+    film=lambda solution, _problem, _mesh: Film.of(solution),
+    column_strength=_line_column_strength,
+    in_hertz_zone=_in_line_zone,
+)
+POINT = Kind[PointConditions, RoughMap, PointFilm, PointField](
+    name="point",
+    axes=("x", "y"),
+    capacitance_unit="F",
+    contact=contact_kinds.POINT,
+    nodes_across=lambda grid: {"nodes_y": grid.nodes_across},
+    film_problem=_point_film_problem,
+    shaped=lambda mesh, values: mesh.mirrored(values),
+    film=_point_film,
+    column_strength=_point_column_strength,
+    in_hertz_zone=_in_point_zone,
+)
+KINDS: dict[Literal["line", "point"], AnyKind] = {"line": LINE, "point": POINT}
+
+
+# Tolerance for a whole number of grid intervals in the extended domain [grid intervals].
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class TransientContact:
+    """Contact with moving roughness, ready to be solved in time steps.
+
+    Attributes
+    ----------
+    case : Case
+        Case of a line or a point contact.
+    conditions : Conditions or PointConditions
+        Operating conditions of the case.
+    schedule : Schedule
+        Time steps and speeds of the surfaces.
+    travelled : Case
+        Case whose domain is extended to the length of the surfaces that pass through the contact.
+    roughness : MovingRoughness
+        Rough surfaces, generated or read for the extended domain.
+    """
+
+    case: Case
+    conditions: Conditions | PointConditions
+    schedule: Schedule
+    travelled: Case
+    roughness: MovingRoughness
+
+    @classmethod
+    def of(cls, case: Case, rough: Sequence[RoughSurface | RoughMap] = ()) -> TransientContact:
+        """Contact of a case, with its surfaces generated or read.
+
+        Parameters
+        ----------
+        case : Case
+            A case with ``motion`` and roughness.
+        rough : sequence of RoughSurface or RoughMap, optional
+            Surfaces of the same case at rest. Those from files do not depend on the domain and are taken as
+            they are, so that no file is read twice.
+
+        Returns
+        -------
+        TransientContact
+            Contact that is ready to be solved in time steps.
+
+        Raises
+        ------
+        InputError
+            If the schedule is refused (see ``schedule_of``), or a surface cannot be generated or read.
+        """
+        kind = KINDS[case.contact.geometry]
+        conditions = kind.contact.resolve(case)
+        schedule = schedule_of(case, conditions)
+        travelled = travelled_case(case, schedule)
+        domain = kind.contact.domain(travelled, conditions)
+        surfaces: list[Any] = [
+            kind.contact.rough([table], domain)[0] if surface is None or table.file is None else surface
+            for table, surface in zip_longest(travelled.roughness, rough)
+        ]
+        roughness = MovingRoughness(surfaces, schedule, conditions.half_width)
+        return cls(case, conditions, schedule, travelled, roughness)
+
+    @property
+    def kind(self) -> AnyKind:
+        """Functions for this kind of contact, line or point."""
+        return KINDS[self.case.contact.geometry]
+
+    @property
+    def half_width(self) -> float:
+        """Half-width b [m]; for a point contact, the semi-axis along entrainment."""
+        return self.conditions.half_width
+
+    @cached_property
+    def problem(self) -> FilmProblem:
+        """Film problem without moving roughness; the roughness of surfaces at rest is part of the gap."""
+        problem = self.kind.film_problem(self.case, self.travelled, self.conditions, self.roughness)
+        # The scheme in time is of second order, and the film that it starts from must agree with it.
+        return replace(problem, wedge_order=2)
+
+    def moving_gap(self, time: float, x: Array, y: Array) -> Array:
+        """Contribution of moving roughness to the dimensionless gap; peaks reduce the gap.
+
+        Parameters
+        ----------
+        time : float
+            Time T, dimensionless.
+        x : ndarray, shape (nx,)
+            Positions X along entrainment [half-widths].
+        y : ndarray, shape (ny,)
+            Positions Y across entrainment [half-widths]; not used by a line contact.
+
+        Returns
+        -------
+        ndarray, shape (nx, ny)
+            Change of the gap divided by the scale of the film thickness, dimensionless.
+        """
+        heights = self.roughness.moving_height(time, *(x, y)[: len(self.kind.axes)])
+        gap: Array = -heights.reshape(x.size, y.size) / self.conditions.thickness_scale
+        return gap
+
+
+def travelled_case(case: Case, schedule: Schedule) -> Case:
+    """Case whose domain is extended to the length of the surfaces that pass through the contact.
+
+    Parameters
+    ----------
+    case : Case
+        A case with roughness.
+    schedule : Schedule
+        Time steps and speeds of the surfaces of this case.
+
+    Returns
+    -------
+    Case
+        Case with the same grid spacing. The domain is extended along entrainment only, so the number of nodes
+        across is the same.
+    """
+    grid, length = case.grid, schedule.length
+    inlet, outlet = schedule.domain
+    for surface in schedule.rough:
+        speed = schedule.speed_of(surface)
+        beyond = max(0.0, abs(speed) * schedule.end - length)
+        if speed > 0.0:
+            inlet = min(inlet, grid.ends[0] - beyond)
+        else:
+            outlet = max(outlet, grid.ends[1] + beyond)
+    nodes = 1 + int(np.ceil((grid.nodes_along - 1) * (outlet - inlet) / length - _ROUNDING))
+    changes = {"inlet": inlet, "outlet": outlet, "nodes": nodes}
+    changes |= KINDS[case.contact.geometry].nodes_across(grid)
+    return case.model_copy(update={"grid": grid.model_copy(update=changes)})

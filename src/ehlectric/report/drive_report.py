@@ -1,0 +1,620 @@
+"""Parts of a report about drives: numbers, assumptions, remedies, discharges, limits, and sweeps of
+drives.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.changes import flattened
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.input_keys import of_both_ends
+from ehlectric.discharge.discharge_laws import CURRENT_DENSITY_LIMITS
+from ehlectric.discharge.film_verdict import Level, Verdict
+from ehlectric.drive.drive_verdict import drive_verdict
+from ehlectric.drive.result import DriveResult
+from ehlectric.errors import CODES, printable
+from ehlectric.figures.figure_names import with_units_kept
+from ehlectric.quantities.drive_results import EVENT_KEYS, NAMES_OF_ENDS
+from ehlectric.quantities.formats import amount, number_text
+from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.rows import Summary
+from ehlectric.quantities.sheets import REMEDIES
+from ehlectric.quantities.units import rpm, unit_for
+from ehlectric.report.background import input_text, inputs_of
+from ehlectric.report.light import light_of
+from ehlectric.report.limits import Limit, Reference, limits_of, references_of
+from ehlectric.report.report_content import UNSOLVED, Block, Part, Section, Table, Text, details_of
+from ehlectric.report.report_facts import BOUNDS, pictures_of, row_tables, unbroken
+from ehlectric.sweep.result import SweepResults
+from ehlectric.tables.drive_tables import end_cells, remedy_cells, remedy_heads, whole_rows
+
+_TEXT = (
+    "There is no model of the arc, and capacitances of machines are seldom measured: the values below decide "
+    "the result. The report cannot know whether they were measured. Take each of them for an assumption "
+    "unless the author of the input file says how it was found, and see with remedies what half and double "
+    "of it change."
+)
+
+# Words for the origin of an input that is not a value of the library.
+_GIVEN = "input file"
+_ORIGINS = {"given": _GIVEN}
+_CAPTION = "Values that decide the result"
+_HEADS, _SHARES = ("input", "value", "origin", "what it decides"), (0.29, 0.14, 0.21, 0.36)
+
+# What the inputs decide, by their keys in a drive file.
+_DECIDES: Mapping[str, str] = MappingProxyType(
+    {
+        "circuit.winding_rotor_capacitance": "bearing voltage, by the capacitive divider",
+        "circuit.rotor_frame_capacitance": "bearing voltage; charge and energy that an arc can take",
+        "circuit.winding_frame_capacitance": "voltage of the winding behind an inductance; nothing without "
+        "one",
+        "circuit.frame_earth_capacitance": "voltage of the frame against earth",
+        "circuit.cable_capacitance": "edges behind an inductance",
+        "circuit.common_mode_inductance": "edges and ringing at the winding",
+        "circuit.common_mode_resistance": "edges and ringing at the winding",
+        "circuit.ground_inductance": "voltage of the frame against earth",
+        "circuit.ground_resistance": "voltage of the frame against earth",
+        "circuit.grounding_ring_resistance": "voltage that is left on the shaft",
+        "breakdown.arc_resistance": "energy, peak current and duration of a discharge",
+        "breakdown.extinction_current": "end of an arc: charge and energy of a discharge",
+        "breakdown.extinction_voltage": "end of an arc: charge and energy of a discharge",
+        "breakdown.recovery_time": "whether the source feeds an arc again",
+        "breakdown.weibull_shape": "scatter of the voltages of discharges, and with it their number",
+        "breakdown.renewal_time": "time between new thresholds, and with it the number of discharges",
+        "breakdown.touch_time": "time for which asperities close a film",
+    }
+)
+
+# The same by the keys of a bearing file; tables are named by their first word.
+_OF_BEARINGS: Mapping[str, str] = MappingProxyType(
+    {
+        "contacts": "how exact films, capacitance and breakdown voltage are",
+        "bearing.film_factor": "film thickness: what heat and starvation leave of it",
+        "discharge.dielectric_strength": "voltage at which films break down, and with it number and energy",
+        "discharge.conductivity": "time for which the films hold a voltage",
+        "bearing.composite_rq": "whether asperities touch",
+        "bearing.contact_resistance": "resistance of touching asperities",
+        "bearing.element_capacitance": "capacitance of ceramic elements",
+        "bearing.radial_clearance": "load of each element: films and capacitance",
+    }
+)
+
+
+def assumption_section(
+    case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Iterable[str] = ()
+) -> Section:
+    """Section of the values that decide the result and that no model gives.
+
+    Parameters
+    ----------
+    case : DriveCase
+        Case of the drive, or base case of a sweep.
+    summary : mapping, optional
+        Summary of the drive; not of a sweep.
+    varied : iterable of str
+        Dotted keys that a sweep varies, which get their values from there.
+    """
+    apart = any(end_and_key(key)[0] in ENDS for key in varied)
+    origins = {one.key: _ORIGINS.get(one.origin, one.origin) for one in inputs_of(case, apart=apart)}
+    values = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
+    rows = [(key, value, origin or origins.get(key, _GIVEN), why) for key, value, origin, why in values]
+    either = {one for key in varied for one in (key, *of_both_ends(key))}
+    shown = tuple(
+        (key, "varied", "sweep", why) if key in either else (key, *rest, why) for key, *rest, why in rows
+    )
+    return Section("What decides the result", (Text(_TEXT), Table(_CAPTION, _HEADS, shown, shares=_SHARES)))
+
+
+def _of_tables(case: DriveCase) -> Iterator[tuple[str, ...]]:
+    """Rows of the tables ``circuit`` and ``breakdown``, without an origin where it is that of an input."""
+    given = flattened(case.to_dict())
+    for key, decides in _DECIDES.items():
+        name = key.partition(".")[2]
+        if key in given:
+            # Resistances of 0 ohm are those of a path that has none.
+            if given[key] or "resistance" not in key:
+                yield key, input_text(case, key, given[key]), "", decides
+        elif name in case.circuit.estimated:
+            origin = "geometry of the machine, without end windings"
+            yield key, amount(case.circuit.capacitances[name], "F"), origin, decides
+
+
+def _renewal(case: DriveCase, summary: Mapping[str, Any] | None) -> Iterator[tuple[str, ...]]:
+    """Row of the time between new thresholds, where it follows from the bearings."""
+    if case.breakdown.renewal_time is not None or summary is None:
+        return
+    times = sorted({summary[end]["renewal_time"] for end in ENDS} - {None})
+    if times:
+        key = "breakdown.renewal_time"
+        value = " and ".join(dict.fromkeys(amount(float(f"{time:.3g}"), "s") for time in times))
+        origin = "time in which oil passes the most loaded contact"
+        yield key, with_units_kept(value), origin, _DECIDES[key]
+
+
+def _of_bearings(case: DriveCase, *, apart: bool) -> Iterator[tuple[str, ...]]:
+    """Rows of both bearings; those of equal bearings stand once, where no end has values of its own."""
+    first, second = case.bearings
+    if first == second and not apart:
+        yield from _of_bearing(case, first, BOTH, ENDS[0])
+        return
+    for end, one in zip(ENDS, (first, second), strict=True):
+        yield from _of_bearing(case, one, end, end)
+
+
+def _of_bearing(case: DriveCase, bearing: BearingCase, name: str, end: str) -> Iterator[tuple[str, ...]]:
+    """Rows of one bearing, whose keys begin with a name."""
+    given = flattened(bearing.to_dict())
+    for key, decides in _OF_BEARINGS.items():
+        if key in given:
+            yield f"{name}.{key}", input_text(case, f"{end}.{key}", given[key]), "", decides
+    decides = _OF_BEARINGS["discharge.dielectric_strength"]
+    for key, value in given.items():
+        if key.startswith("discharge.weibull."):
+            yield f"{name}.{key}", input_text(case, f"{end}.{key}", value), "", decides
+    if any(key.startswith("discharge.strength_table.") for key in given):
+        yield f"{name}.discharge.strength_table", "a table", _GIVEN, decides
+
+
+# Largest number of discharges that a report lists.
+LISTED = 20
+
+# Digits of the largest time: two discharges at the same edge of the source differ in them.
+_DIGITS = 6
+
+_SHARES_OF_EVENTS = (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
+
+
+def event_blocks(result: DriveResult) -> Iterator[Block]:
+    """Table of the discharges with the largest energy, and sentences about the others.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of a drive.
+    """
+    rows = result.events()
+    total = int(np.sum(result.solution.record.counts))
+    if not rows:
+        yield Text("No film broke down in the simulated time.")
+        return
+    listed = sorted(rows, key=lambda row: row["energy"], reverse=True)[:LISTED]
+    kept = "" if len(rows) == total else f"; they are the largest of the first {len(rows)}, which are stored"
+    if total > len(listed):
+        yield Text(f"The {len(listed)} discharges with the largest energy of {total}{kept}.")
+    yield Text(
+        "Voltage and charge have the sign of the shaft against the housing. Charge, energy, current and "
+        "duration follow from the given resistance and extinction of an arc. events.csv has the others."
+    )
+    scales = {
+        name: unit_for(max(abs(row[name]) for row in listed), about.unit, least=1.0)
+        for name, about in EVENT_KEYS.items()
+    }
+    heads = [f"{EVENT_KEYS[name].label} [{unit}]" for name, (_, unit) in scales.items()]
+    digits = _decimals(max(row["time"] for row in listed) * scales["time"][0])
+    cells = tuple(
+        (
+            str(number),
+            NAMES_OF_ENDS[row["bearing"]],
+            *(
+                f"{row[name] * factor:.{digits}f}" if name == "time" else number_text(row[name] * factor)
+                for name, (factor, _) in scales.items()
+            ),
+        )
+        for number, row in enumerate(listed, 1)
+    )
+    numeric = (0, *range(2, 2 + len(scales)))
+    heads = ["number", "bearing", *heads]
+    yield Table("Discharges with the largest energy", tuple(heads), cells, numeric, shares=_SHARES_OF_EVENTS)
+
+
+def _decimals(largest: float) -> int:
+    """Decimals of numbers up to a largest one, which is at least 1."""
+    return max(0, _DIGITS - len(f"{largest:.0f}"))
+
+
+# Limits of bearings that the limits of drives say otherwise.
+_REPLACED = ("contacts of asperities", "circuit", "oil as insulator")
+
+
+def _scatters(case: DriveCase) -> bool:
+    """Whether the thresholds of a bearing scatter."""
+    given = case.breakdown.weibull_shape is not None
+    return given or any(one.discharge is not None and one.discharge.weibull for one in case.bearings)
+
+
+# Limits of drives, in the order of a report.
+DRIVE_LIMITS = (
+    Limit(
+        "arc",
+        "There is no model of the arc or its plasma: a film that breaks down conducts with the given "
+        "resistance until the given current or voltage of extinction, and insulates again after the given "
+        "time. Charges, energies and currents follow from these inputs. Real arcs have a voltage of their "
+        "own and a resistance that changes.",
+    ),
+    Limit(
+        "threshold",
+        "The voltages at which films break down are drawn from Weibull's law, independent of each other, "
+        "anew after each discharge and at random times. Space charge, debris, and oil that discharges have "
+        "changed are left out.",
+        _scatters,
+    ),
+    Limit(
+        "threshold",
+        "The films break down at the same voltage each time; those of oils scatter.",
+        lambda case: not _scatters(case),
+    ),
+    Limit(
+        "damage",
+        "How much currents damage raceways and oil is not computed. Published limits of the current density "
+        "are those of bearing trials, for the largest current over the Hertz areas of all elements.",
+    ),
+    Limit(
+        "circuit of the machine",
+        "The machine is one circuit of lumped capacitances, inductances and resistances. Waves on cable and "
+        "winding, the distribution of the voltage along the winding, the impedance of the shaft, and "
+        "currents that circulate through both bearings are left out.",
+    ),
+    Limit(
+        "driven machine",
+        "Bearings, gears and seals of the driven machine are not in the circuit. A coupling that conducts "
+        "brings the voltage of the shaft to them.",
+    ),
+    Limit(
+        "capacitances of the machine",
+        "Capacitances from the geometry of the machine are those of a smooth rotor and parallel slots. End "
+        "windings and leads are left out; they make the capacitances larger.",
+        lambda case: bool(case.circuit.estimated),
+    ),
+    Limit(
+        "source",
+        "Dead times of the inverter, and the voltage of the middle of the DC link against earth, are left "
+        "out.",
+        lambda case: not case.source.measured,
+    ),
+    Limit(
+        "speed of the source",
+        "The frequency of the source follows the speed as that of a synchronous machine: the slip of an "
+        "induction machine is left out.",
+        lambda case: case.source.pole_pairs is not None,
+    ),
+    Limit(
+        "source",
+        "The measured voltage is imposed, whatever the circuit draws, and repeated where the simulated time "
+        "is longer than the record.",
+        lambda case: case.source.measured,
+    ),
+    Limit(
+        "operation",
+        "Speed, load and temperature are constant, and the films are those of stationary operation. "
+        "Starting, stopping and vibration are left out, and so is the heat of the discharges.",
+    ),
+    Limit(
+        "contacts of asperities",
+        "Where asperities touch, they close the film for random times of the given mean. The voltage at "
+        "which a contact discharges as it opens is left out.",
+        lambda case: any(one.bearing.composite_rq is not None for one in case.bearings),
+    ),
+    Limit(
+        "time",
+        "Bounds of 95 % count the scatter within the simulated time alone. Errors of inputs and models are "
+        "not in them.",
+    ),
+)
+
+
+def drive_limits(case: DriveCase) -> Iterator[Limit]:
+    """Limits that hold for a drive: those of its simulation, and those of its bearings, each once."""
+    yield from (limit for limit in DRIVE_LIMITS if limit.holds(case))
+    bearings = (limit for one in case.bearings for limit in limits_of(one))
+    yield from dict.fromkeys(limit for limit in bearings if limit.topic not in _REPLACED)
+
+
+# Publications behind the simulation of a drive, in the order of a report.
+DRIVE_REFERENCES = (
+    Reference(
+        "space-vector modulation",
+        "Holtz, Proc. IEEE 82 (1994) 1194",
+        "10.1109/5.301684",
+        lambda case: case.source.modulation == "space-vector",
+    ),
+    Reference(
+        "Weibull law of the thresholds",
+        "Weibull, J. Appl. Mech. 18 (1951) 293",
+        "10.1115/1.4010337",
+        _scatters,
+    ),
+    Reference("bounds of the rates", "Garwood, Biometrika 28 (1936) 437", "10.1093/biomet/28.3-4.437"),
+    Reference(
+        "coefficient of slots",
+        "Carter, J. Inst. Electr. Eng. 29 (1901) 925",
+        "",
+        lambda case: bool(case.circuit.estimated),
+    ),
+    Reference(
+        "end windings in capacitances of machines",
+        "Stockbruegger and Ponick, Energies 14 (2021) 174",
+        "10.3390/en14010174",
+        lambda case: bool(case.circuit.estimated),
+    ),
+)
+
+
+def drive_references(case: DriveCase) -> Iterator[Reference]:
+    """Publications behind the simulation of a drive and behind its bearings, each once."""
+    found = [one for one in DRIVE_REFERENCES if one.used(case)]
+    known = {one.doi for one in found if one.doi}
+    yield from found
+    bearings = dict.fromkeys(one for bearing in case.bearings for one in references_of(bearing))
+    yield from (one for one in bearings if one.doi not in known)
+
+
+# Published limits of the current density [A/mm²].
+_LIMITS = f"{1e-6 * CURRENT_DENSITY_LIMITS[0]:g} to {1e-6 * CURRENT_DENSITY_LIMITS[-1]:g}"
+
+_SHARES_OF_NUMBERS = (0.44, 0.22, 0.22, 0.12)
+_BOUND = (
+    f"{BOUNDS['≤']} The interval of 95 % counts the scatter within the simulated time, and not the errors of "
+    "the inputs. A dash stands where there is no such number, as without discharges or for ceramic elements. "
+    f"Published limits are {_LIMITS} A/mm² for the current density of all elements."
+)
+
+
+def number_tables(summary: Summary) -> Iterator[Table | Text]:
+    """Tables of what was simulated, and of both bearings side by side."""
+    yield from row_tables(whole_rows(summary), "simulation")
+    heads = ("quantity", *NAMES_OF_ENDS.values(), "unit")
+    for caption, rows in end_cells(summary):
+        cells = tuple(tuple(map(unbroken, row)) for row in rows)
+        yield Table(caption, heads, cells, (1, 2), shares=_SHARES_OF_NUMBERS)
+    yield Text(_BOUND)
+
+
+AS_IT_IS = "as it is"
+
+
+def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
+    """Tables of the remedies: what they change, and their numbers beside those of the drive as it is.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of a drive with remedies.
+    summary : mapping
+        Its summary.
+    """
+    yield Text(
+        "Each remedy is a copy of the drive with the changes below, simulated with the same random numbers. "
+        "Remedies whose bounds overlap can hardly be told apart in the simulated time. Where films cannot "
+        "break down, the voltage stays on the shaft, and may reach the bearings of the driven machine."
+    )
+    changes = tuple(
+        row
+        for title, changes, found in result.remedies
+        for row in _changes(result.case, found.case, title, changes)
+    )
+    heads = ("remedy", "input", AS_IT_IS, "with the remedy")
+    yield Table("What each remedy changes", heads, changes, shares=(0.25, 0.39, 0.18, 0.18))
+    drives = [(AS_IT_IS, result, summary)]
+    for title, _, found in result.remedies:
+        one = DriveResult(found)
+        drives.append((title, one, one.summary()))
+    known = {warning.code for warning in result.warnings}
+    verdicts = tuple((printable(title), _words(one, own), _further(one, known)) for title, one, own in drives)
+    judged = ("drive", "verdict", "further warnings")
+    yield Table("Verdict on each remedy", judged, verdicts, shares=(0.25, 0.35, 0.4))
+    keys = REMEDIES[0].keys
+    rows = tuple(
+        (
+            printable(title),
+            place,
+            *map(unbroken, remedy_cells(own, end, keys)),
+        )
+        for title, _, own in drives
+        for end, place in NAMES_OF_ENDS.items()
+    )
+    columns = ("drive", "bearing", *remedy_heads(keys))
+    yield Table(
+        "Remedies side by side", columns, rows, tuple(range(2, len(columns))),
+        shares=(0.2, 0.14, 0.12, 0.15, 0.1, 0.09, 0.09, 0.11),
+    )  # fmt: skip
+
+
+def _words(result: DriveResult, summary: Mapping[str, Any]) -> str:
+    """Heading of the verdict on a drive."""
+    verdict = drive_verdict(result.case, summary, result.warnings)
+    light = light_of(verdict.level, verdict.text)
+    return f"{light.words} ({light.bound})" if light.bound else light.words
+
+
+def _further(result: DriveResult, known: set[str]) -> str:
+    """Meanings of the warnings of a remedy that the drive as it is does not have."""
+    codes = dict.fromkeys(warning.code for warning in result.warnings if warning.code not in known)
+    return " ".join(CODES[code].meaning for code in codes) or "none"
+
+
+def _changes(
+    case: DriveCase, other: DriveCase, title: str, changes: Mapping[str, Any]
+) -> Iterator[tuple[str, ...]]:
+    """Rows of the changes of a remedy: its title, the input, and its value in both drives."""
+    before, after = (flattened(one.to_dict()) for one in (case, other))
+    for key in flattened(dict(changes)):
+        first, *_ = of_both_ends(key)
+        told = [
+            input_text(one, first, tables[first]) if first in tables else "not given"
+            for one, tables in ((case, before), (other, after))
+        ]
+        yield printable(title), key, *told
+
+
+# Results of both bearings, and of one of them, that a report draws and lists.
+_BOTH = ("drive.events_per_second", "drive.power")
+_EACH = ("energy_mean", "peak_voltage")
+
+# Columns of the table of points, for each bearing: with its bounds where both bearings are the same.
+_RATE = "events_per_second"
+_LISTED = (_RATE, "energy_mean", "peak_voltage")
+_LISTED_OF_ONE = (_RATE, f"{_RATE}_low", f"{_RATE}_high", *_EACH, "breakdown_voltage")
+
+_RULE = (
+    "Points are judged as a single drive is: discharges are expected where a bearing discharges at least "
+    "twenty times in the simulated time, and none where no bearing discharges, also with a strength that is "
+    "20 % lower."
+)
+_WORDS: Mapping[Level, str] = {"yellow": "not certain", "green": "not expected"}
+_LEADS = {
+    "green": "No discharge at any point",
+    "yellow": "Discharges at some points",
+    "red": "Discharges at all points",
+}
+
+
+def swept_values(results: SweepResults) -> tuple[str, ...]:
+    """Keys of the summary that a report of a sweep shows: of one end where both bearings are the same.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of a drive.
+    """
+    return (*_BOTH, *(f"{end}.{key}" for key in _EACH for end in _ends(results)))
+
+
+def listed_values(results: SweepResults) -> tuple[str, ...]:
+    """Keys of the summary that the table of the points has: of equal bearings with the bounds of the rate.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of a drive.
+    """
+    ends = _ends(results)
+    keys = _LISTED_OF_ONE if len(ends) == 1 else _LISTED
+    return ("drive.events_per_second", *(f"{end}.{key}" for end in ends for key in keys))
+
+
+def _ends(results: SweepResults) -> tuple[str, ...]:
+    """Ends whose numbers are shown: one where both bearings are the same at all points."""
+    assert isinstance(results.case, DriveCase)
+    first, second = results.case.bearings
+    alike = first == second and not any(end_and_key(key)[0] in ENDS for key in results.varied)
+    return ENDS[:1] if alike else ENDS
+
+
+def swept_verdict(results: SweepResults) -> Verdict | None:
+    """Verdict on a sweep of a drive from those of its points; None without a solved point.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep of a drive.
+
+    Returns
+    -------
+    Verdict or None
+        Green where no point is expected to discharge, red where all are, else yellow. Points that are not
+        solved, or must not be used, leave neither green nor red.
+    """
+    assert isinstance(results.case, DriveCase)
+    counts = Counter(
+        drive_verdict(results.case, point.summary, point.warnings).level
+        for point in results.points
+        if point.solved and point.summary
+    )
+    known = sum(counts[level] for level in ("green", "yellow", "red"))
+    if not known:
+        return None
+    missing = len(results.points) - known
+    level: Level = "yellow"
+    if not missing and max(counts["green"], counts["red"]) == known:
+        level = "green" if counts["green"] else "red"
+    lead = _LEADS[level]
+    if level == "yellow" and not counts["red"]:
+        lead = "Discharges possible"
+    told = [f"expected at {counts['red']} of {known} points"]
+    told += [f"{words} at {counts[one]}" for one, words in _WORDS.items() if counts[one]]
+    sentences = [f"{lead}: {', '.join(told)}.", *_range(results), _RULE]
+    if missing:
+        more = "1 more point is" if missing == 1 else f"{missing} more points are"
+        sentences.insert(1, f"{more} not solved, or must not be used.")
+    return Verdict(level, " ".join(sentences))
+
+
+def _range(results: SweepResults) -> list[str]:
+    """Sentence with the smallest and the largest rate of discharges."""
+    rates = [
+        float(point.summary["drive"]["events_per_second"])
+        for point in results.points
+        if point.solved and not point.doubtful and point.summary
+    ]
+    if not rates:
+        return []
+    low, high = number_text(min(rates)), number_text(max(rates))
+    return [f"Both bearings together discharge {low} to {high} times a second."]
+
+
+def drive_part(result: DriveResult) -> Part:
+    """Part of a report about a drive.
+
+    Parameters
+    ----------
+    result : DriveResult
+        Result of a drive.
+
+    Returns
+    -------
+    Part
+        What the report says of this result.
+    """
+    summary, case = result.summary(), result.case
+    verdict = result.verdict
+    return Part(
+        kind=_kind(case),
+        command="drive",
+        lead=_lead(summary),
+        failure="" if result.converged else UNSOLVED,
+        verdict=replace(verdict, text=with_units_kept(verdict.text)),
+        warnings=result.warnings,
+        before=(assumption_section(case, summary),),
+        numbers=tuple(number_tables(summary)),
+        pictures=tuple(pictures_of(result, converged=result.converged)),
+        further=tuple(_sections(result, summary)),
+        limits=tuple(drive_limits(case)),
+        references=tuple(drive_references(case)),
+        details=details_of(summary, "") | {"seed of the random numbers": str(summary["drive"]["seed"])},
+        toml=case.to_toml(),
+    )
+
+
+def _kind(case: DriveCase) -> str:
+    """Phrase for a drive: its source and its bearings."""
+    names = dict.fromkeys(one.bearing.base or f"{one.bearing.kind} bearing" for one in case.bearings)
+    source = "a measured voltage" if case.source.measured else f"{case.source.modulation} modulation"
+    return f"drive with {source}, bearings {' and '.join(names)}"
+
+
+def _lead(summary: Mapping[str, Any]) -> str:
+    """Sentences: operating point, simulated time, and how often the source changed in it."""
+    drive, source = summary["drive"], summary["source"]
+    parts = [f"{amount(drive['duration'], 's')} simulated"]
+    if drive["periods"] is not None:
+        count = f"{drive['periods']:.4g}"
+        parts.append(f"{count} {'period' if count == '1' else 'periods'} of the fundamental")
+    if source["edges_per_second"] is not None:
+        edges = number_text(source["edges_per_second"] * drive["duration"])
+        parts.append(f"{edges} edges of the common-mode voltage")
+    speed, temperature = rpm(drive["speed"]), drive["temperature"] - 273.15
+    return f"{speed:.4g} rpm, {temperature:.4g} °C; {', '.join(parts)}."
+
+
+def _sections(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Section]:
+    if result.remedies:
+        yield Section("Remedies", tuple(remedy_blocks(result, summary)))
+    yield Section("Largest discharges", tuple(event_blocks(result)))

@@ -1,1 +1,0 @@
-"""Parts of a report about drives: numbers, assumptions, remedies, discharges and limits."""

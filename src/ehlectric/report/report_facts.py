@@ -1,0 +1,296 @@
+"""Tables and figures of a report from the rows and figures of the commands, with captions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from matplotlib.figure import Figure
+
+from ehlectric.errors import CODES, InputError, ResultWarning, Severity, printable
+from ehlectric.figures.figure_names import with_units_kept
+from ehlectric.figures.result_figures import figure, figure_names
+from ehlectric.quantities.rows import Row
+from ehlectric.report.report_content import Picture, Table, Text, WarningLine, Warnings
+
+if TYPE_CHECKING:
+    from rich.table import Table as RichTable
+
+
+_HEADS, _SHARES = ("quantity", "value", "unit", "note"), (0.42, 0.17, 0.1, 0.31)
+
+# Order of warnings in a report, the most important first.
+_SEVERITIES = ("severe", "warning", "note")
+
+# Sentences below tables with bounds, by their signs.
+BOUNDS: Mapping[str, str] = MappingProxyType(
+    {
+        "≤": "≤ marks an upper bound, before a range one of both ends. Real films are thinner than "
+        "isothermal, fully flooded, smooth ones, and break down at lower voltages.",
+        "≥": "≥ marks a lower bound: the field is higher in thinner films.",
+    }
+)
+
+
+def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:
+    """Tables of rows, one for each heading, and a sentence about the bounds in them.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+        Rows that a command prints.
+    title : str
+        Caption of the rows before the first heading.
+    """
+    groups: list[tuple[str, list[Row]]] = [(title, [])]
+    for row in rows:
+        if row.heading:
+            groups.append((printable(row.name), []))
+        else:
+            groups[-1][1].append(row)
+    bounds: set[str] = set()
+    for caption, group in groups:
+        if not group:
+            continue
+        cells = tuple(tuple(_cells(row)) for row in group)
+        bounds |= {row.bound for row in group}
+        alarms = tuple(number for number, row in enumerate(group) if row.alarm)
+        yield Table(caption, _HEADS, cells, numeric=(1,), alarms=alarms, shares=_SHARES)
+    meanings = [text for bound, text in BOUNDS.items() if bound in bounds]
+    if meanings:
+        yield Text(" ".join(meanings))
+
+
+def _cells(row: Row) -> Iterator[str]:
+    name = printable(row.name)
+    indent = "\u2003" * ((len(name) - len(name.lstrip(" "))) // 2)
+    yield indent + name.strip()
+    yield unbroken(row.bounded)
+    yield printable(row.unit).replace(" ", "\xa0")
+    yield printable(row.note.lstrip(",; ").strip())
+
+
+def unbroken(text: str) -> str:
+    """Text of a cell whose sign of a bound stays on the line of its number."""
+    return printable(text).replace("≤ ", "≤\xa0").replace("≥ ", "≥\xa0")
+
+
+def cell_table(table: RichTable, caption: str, first: str) -> Table:
+    """Table of a report from one of the terminal; columns that are aligned to the right stay so.
+
+    Parameters
+    ----------
+    table : rich.table.Table
+        Table that a command prints.
+    caption : str
+        Its caption.
+    first : str
+        Head of a column that has none.
+    """
+    from rich.text import Text as RichText
+
+    columns = table.columns
+    heads = tuple(_plain(column.header, RichText).replace("\n", " ").strip() or first for column in columns)
+    rows = zip(*([_plain(cell, RichText) for cell in column.cells] for column in columns), strict=True)
+    numeric = tuple(number for number, column in enumerate(columns) if column.justify == "right")
+    return Table(caption, heads, tuple(tuple(row) for row in rows), numeric=numeric)
+
+
+def _plain(cell: object, text: type) -> str:
+    """Cell of a table of the terminal as plain text."""
+    return cell.plain if isinstance(cell, text) else str(text.from_markup(str(cell)).plain)  # type: ignore[attr-defined]
+
+
+def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:
+    """Warnings by kind with their meaning, the severe ones first; a sentence where there are none."""
+    if not warnings:
+        return Text("The result has no warnings.")
+    ordered = sorted(warnings, key=lambda warning: _SEVERITIES.index(warning.severity))
+    kinds: dict[tuple[Severity, str], list[str]] = {}
+    for one in ordered:
+        kinds.setdefault((one.severity, one.code), []).append(printable(one.text))
+    return Warnings(
+        tuple(
+            WarningLine(severity, code, CODES[code].meaning, tuple(texts))
+            for (severity, code), texts in kinds.items()
+        )
+    )
+
+
+def alarms_of(warnings: Iterable[ResultWarning], failure: str) -> Iterator[Text]:
+    """Sentences that stand at the top of a report: why its numbers must not be used.
+
+    Parameters
+    ----------
+    warnings : iterable of ResultWarning
+        Warnings of the result.
+    failure : str
+        What is not solved; empty where all is.
+    """
+    if failure:
+        yield Text(failure, "alarm")
+    severe = dict.fromkeys(one.code for one in warnings if one.severity == "severe")
+    for code in severe:
+        yield Text(f"Do not use the numbers: {CODES[code].meaning}", "alarm")
+
+
+# Captions of figures by the names of their files without the ending.
+CAPTIONS: Mapping[str, str] = MappingProxyType(
+    {
+        # Line contacts
+        "film": "Pressure and film thickness along the contact, from the inlet to the outlet.",
+        "field_strength": "Map of the electric field strength in the film, between both surfaces.",
+        "field_profiles": "Field strength along the film, on both walls and at mid-film.",
+        # Point contacts
+        "film_map": "Film thickness, with contours and the position of the minimum.",
+        "pressure_map": "Pressure, and where the film cavitates.",
+        "field_map": "Field strength at mid-film, the contour at 95 % of its maximum, and the position of "
+        "the maximum.",
+        "field_sections": "Sections of the film along and across entrainment through the maximum field, "
+        "coloured by the field strength.",
+        "cuts": "Pressure, film and field along and across entrainment, through the centre and through the "
+        "minimum film.",
+        # Contacts of both kinds
+        "field_deviation": "Deviation of the field strength from voltage divided by film thickness, the "
+        "usual estimate.",
+        "roughness": "Roughness of the surfaces, and the change of the film that it causes.",
+        "breakdown": "Voltage at which the film breaks down, over the position in the contact.",
+        "meter": "Capacitance that a meter reads, collected up to a distance from the contact.",
+        "temperature": "Temperature across the film, at its middle and on both surfaces, and shear stress at "
+        "mid-film; of a point contact along y = 0.",
+        "shear_stress": "Shear stress at mid-film, of a point contact along y = 0, and the pressure times "
+        "the traction coefficient.",
+        # Moving roughness
+        "motion_history": "Minimum film, maximum field and its position, over time.",
+        "motion_maps": "Film, pressure and field over position and time, with lines of the mean speed and of "
+        "the speed of the rough surface.",
+        "motion_beside_stationary": "Film, pressure and field of moving and of stationary roughness at the "
+        "instant of the same position.",
+        # Bearings
+        "bearing_loads": "Load and minimum film of the contacts around the bearing.",
+        "bearing_circuit": "Capacitance of each contact and, where one is computed, the bearing voltage at "
+        "which the contact breaks down, over the elements.",
+        "bearing_pitch": "Capacitance and, where they vary, breakdown voltages over one pitch of the cage.",
+        "bearing_impedance": "Magnitude and, where it varies, phase of the impedance of the bearing over "
+        "frequency.",
+        "capacitance_over_speed": "Capacitance of the bearing over the speed of the shaft, with contacts "
+        "that are not solved, scaled to the result.",
+        "breakdown_over_speed": "First breakdown voltage and shaft voltage over the speed of the shaft, with "
+        "contacts that are not solved, scaled to the result.",
+        # Drives
+        "drive_voltages": "Common-mode voltage and the voltages across the films over two periods of the "
+        "carrier, with their discharges. A discharge of one bearing takes the voltage of both: they are "
+        "parallel.",
+        "drive_histogram": "Share of time at the voltages across the films, and share of time above a "
+        "voltage of either sign; dots are the limits of the key numbers.",
+        "drive_spectrum": "Amplitudes (peak values) of the shaft voltage over the frequency, without a "
+        "window. Where lines are too close to be seen apart, the largest one is drawn.",
+        "drive_discharges": "Distributions of voltage, charge, energy and peak current of the discharges of "
+        "each bearing. Charge, energy and current follow from the given resistance of an arc.",
+        "drive_remedies": "Discharges per second with bounds of 95 %, and mean energy of a discharge, of the "
+        "drive as it is and of each remedy. An arrow is the upper bound where nothing discharged.",
+        # Sweeps
+        "sensitivity": "Share of the spread that each varied input contributes, with confidence intervals.",
+    }
+)
+
+# Meaning of a mark of sweeps.
+_RING = "A ring marks a point that is less accurate than others, as its warnings in sweep.csv say."
+
+# Captions of maps and lines of a sweep, which are named by the value that they show.
+_OF_SWEEPS = (
+    (
+        "map_",
+        f"Map of the value over the varied inputs. Points without a usable film have marks. {_RING}",
+    ),
+    (
+        "lines_",
+        f"Lines of the value over the varied inputs; points without a usable film are left out. {_RING}",
+    ),
+)
+
+# Sentence below each figure of a result that is not converged.
+UNCONVERGED = "NOT CONVERGED: the figure shows no solution; do not use it."
+
+
+def caption_of(name: str, *, converged: bool) -> str:
+    """Caption of a figure; that of a result that is not converged says so.
+
+    Parameters
+    ----------
+    name : str
+        Name of the figure, without the ending of a file.
+    converged : bool
+        Whether the result is converged.
+
+    Examples
+    --------
+    >>> caption_of("film_map", converged=True)
+    'Film thickness, with contours and the position of the minimum.'
+    """
+    text = CAPTIONS.get(name, "")
+    for start, caption in _OF_SWEEPS:
+        if name.startswith(start):
+            text = caption
+    return " ".join(filter(None, ["" if converged else UNCONVERGED, with_units_kept(text)]))
+
+
+# Values of a sweep that a report draws beside the breakdown voltage; all others are drawn by ehlectric map.
+SWEPT = ("bearing.margin", "bearing.capacitance", "film.minimum_thickness", "field.max_strength")
+
+# Sentences in place of figures that have nothing to show.
+_EMPTY: Mapping[str, str] = MappingProxyType(
+    {"breakdown_over_speed": "There is no figure of the breakdown voltage over the speed: no speed has one."}
+)
+
+# Marks of formulas in titles, which matplotlib draws.
+_FORMULA = re.compile(r"(?<!\\)\$|\\mathrm|[{}]")
+
+
+def pictures_of(
+    result: Any, *, converged: bool, names: Iterable[str] | None = None
+) -> Iterator[Picture | Text]:
+    """Figures of a result; a sentence in place of a figure that has nothing to show.
+
+    Parameters
+    ----------
+    result : Result, PointResult, BearingResult, DriveResult, MotionResult or SweepResults
+        Result.
+    converged : bool
+        Whether the result is converged; captions say so where it is not.
+    names : iterable of str, optional
+        Names of the figures; by default all of the result.
+    """
+    for name in figure_names(result) if names is None else names:
+        try:
+            drawn = figure(result, name, style="screen")
+        except InputError as error:
+            yield Text(_EMPTY.get(name) or f"The figure {name} is not drawn: {error.text}.")
+            continue
+        title = title_of(drawn)
+        if title and converged:
+            _drop_finding(drawn)
+        yield Picture(name, title or name, caption_of(name, converged=converged), drawn)
+
+
+def swept_names(result: Any, values: Iterable[str]) -> list[str]:
+    """Names of the figures of a sweep that a report has, for these keys of the summary."""
+    names = figure_names(result)
+    wanted = [f"{way}{value}" for value in dict.fromkeys(values) for way in ("map_", "lines_")]
+    return [name for name in ("sensitivity", *wanted) if name in names]
+
+
+def title_of(drawn: Figure) -> str:
+    """Title of a figure as plain text on one line."""
+    lines = (line.strip() for line in drawn.get_suptitle().split("\n"))
+    text = _FORMULA.sub("", " ".join(filter(None, lines)))
+    return printable(text.replace(r"\$", "$").replace("\xa0", " "))
+
+
+def _drop_finding(drawn: Figure) -> None:
+    """Take the finding out of the title of a figure, as the caption has it; lines below it stay."""
+    lines = drawn.get_suptitle().split("\n")
+    below = "\n".join(line for line in lines if not line.strip())
+    drawn.suptitle(below, x=0.01, ha="left")

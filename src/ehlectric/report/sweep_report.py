@@ -1,0 +1,230 @@
+"""Part of a report about a sweep: its points, its sensitivity, and its input file."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from ehlectric.cases.drive_case import DriveCase
+from ehlectric.cases.input_keys import unit_of
+from ehlectric.errors import InputError, printable
+from ehlectric.quantities.formats import CELSIUS, Scale
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.rows import value_at
+from ehlectric.report.drive_report import (
+    assumption_section,
+    drive_limits,
+    drive_references,
+    listed_values,
+    swept_values,
+    swept_verdict,
+)
+from ehlectric.report.limits import limits_of, references_of
+from ehlectric.report.report_content import Block, Part, Section, Table, Text, lead_of
+from ehlectric.report.report_facts import SWEPT, cell_table, pictures_of, row_tables, swept_names
+from ehlectric.runtime.values import is_number
+from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.points import Point
+from ehlectric.sweep.result import SweepResults
+from ehlectric.sweep.sensitivity import sensitivity
+from ehlectric.sweep.sweep_inputs import breakdown_of, main_value, ranked_value
+from ehlectric.sweep.warnings import sweep_warnings
+from ehlectric.tables.sweep_summary import indices_table, spread_rows, sweep_rows
+
+# Largest number of points that a report lists.
+_LISTED = 100
+
+# Largest number of values of a varied input that are listed.
+_SHOWN = 12
+
+# Units of columns, whatever their values: engineers' units, and volts, whose values may span decades.
+_SCALES: Mapping[str, Scale] = MappingProxyType(
+    {"rad/s": Scale(30.0 / np.pi, "rpm"), "K": CELSIUS, "V": Scale(1.0, "V")}
+)
+
+# Results of a point that a report lists, as far as the summaries have them.
+_RESULTS = ("film.minimum_thickness", "field.max_strength", "bearing.capacitance")
+
+
+def sweep_part(results: SweepResults) -> Part:
+    """Part of a report about a sweep.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep.
+    """
+    count, case = results.summary(), results.case
+    of_drive = isinstance(case, DriveCase)
+    return Part(
+        kind=f"sweep of {count['points']} points over {', '.join(results.varied)}",
+        command="sweep",
+        lead=lead_of(results),
+        failure=_failure(results, count),
+        verdict=swept_verdict(results) if of_drive else results.verdict,
+        warnings=tuple(sweep_warnings(results)),
+        before=(assumption_section(case, varied=results.varied),) if isinstance(case, DriveCase) else (),
+        numbers=tuple(row_tables(sweep_rows(results), "Overview")),
+        pictures=tuple(_pictures(results)),
+        further=tuple(_sections(results)),
+        limits=tuple(drive_limits(case) if isinstance(case, DriveCase) else limits_of(case)),
+        references=tuple(drive_references(case) if isinstance(case, DriveCase) else references_of(case)),
+        details=_details(results),
+        toml=sweep_toml(results),
+        varied=tuple(results.varied),
+    )
+
+
+def _failure(results: SweepResults, count: Mapping[str, Any]) -> str:
+    """Sentences about points that are not solved or must not be used; empty where there are none."""
+    states = ("not converged", "failed", "open")
+    missing = [
+        f"{count[state]} {'not computed yet' if state == 'open' else state}"
+        for state in states
+        if count[state]
+    ]
+    doubtful = sum(point.solved and point.doubtful for point in results.points)
+    sentences = []
+    if missing:
+        solved = f"of {count['points']} points, {count['solved']} are solved, {', '.join(missing)}"
+        sentences.append(f"NOT COMPLETE: {solved}.")
+    if doubtful:
+        sentences.append(
+            f"{doubtful} of {count['solved']} solved points must not be used; they are left out."
+        )
+    return " ".join(sentences)
+
+
+def _pictures(results: SweepResults) -> Iterator[Block]:
+    shown = swept_values(results) if isinstance(results.case, DriveCase) else SWEPT
+    names = swept_names(results, (main_value(results.case), *shown))
+    yield from pictures_of(results, converged=True, names=names)
+    yield Text(
+        "Other values and other varied inputs along the axes are drawn by: ehlectric map FOLDER --x KEY"
+    )
+
+
+def _details(results: SweepResults) -> dict[str, str]:
+    versions = dict.fromkeys(point.version for point in results.points if point.version)
+    return {
+        "points computed by": ", ".join(f"ehlectric {version}" for version in versions),
+        "design": f"{results.design}, {len(results.points)} points",
+        "computing time of all points": f"{results.summary()['seconds']:.3g} s",
+    }
+
+
+def _sections(results: SweepResults) -> Iterator[Section]:
+    if results.design == "sobol":
+        yield Section("Sensitivity", tuple(_sensitivity(results)))
+    yield Section("Points", tuple(_points(results)))
+
+
+def _sensitivity(results: SweepResults) -> Iterator[Block]:
+    try:
+        indices = sensitivity(results, ranked_value(results.case))
+    except InputError as error:
+        yield Text(f"There are no sensitivity indices: {error.text}.")
+        return
+    yield from row_tables(spread_rows(results, indices), "Spread over the samples")
+    yield cell_table(indices_table(results, indices), "Sensitivity indices of the varied inputs", "input")
+
+
+def _points(results: SweepResults) -> Iterator[Block]:
+    """Table of the points with their varied inputs, their status, and some results."""
+    breakdown = breakdown_of(results.case)
+    further = listed_values(results) if isinstance(results.case, DriveCase) else _RESULTS
+    wanted = dict.fromkeys((main_value(results.case), breakdown.value, breakdown.margin, *further))
+    values = [key for key in wanted if any(is_number(_value(point, key)) for point in results.points)]
+    inputs = [
+        _column(results, key, [point.inputs.get(key) for point in results.points]) for key in results.varied
+    ]
+    found = [_column(results, key, [_value(point, key) for point in results.points]) for key in values]
+    # Real films are thinner than those of a sweep, and break down earlier.
+    bounds = (breakdown.value, breakdown.margin, *(f"{end}.breakdown_voltage" for end in ENDS))
+    found = [
+        (f"{head}, upper bound (≤)" if key in bounds else head, column)
+        for key, (head, column) in zip(values, found, strict=True)
+    ]
+    heads = ("point", *(head for head, _ in inputs), "status", *(head for head, _ in found))
+    listed = results.points[:_LISTED]
+    rows = tuple(
+        (
+            str(point.number),
+            *(cells[n] for _, cells in inputs),
+            _status(point),
+            *(cells[n] for _, cells in found),
+        )
+        for n, point in enumerate(listed)
+    )
+    numeric = tuple(n for n in range(len(heads)) if heads[n] != "status")
+    alarms = tuple(n for n, point in enumerate(listed) if not point.solved or point.doubtful)
+    if len(results.points) > _LISTED:
+        yield Text(f"The first {_LISTED} of {len(results.points)} points; sweep.csv has all of them.")
+    yield Table("Varied inputs", ("input", "values"), tuple(_varied(results)))
+    yield Table("Points of the sweep", heads, rows, numeric, alarms)
+
+
+def _varied(results: SweepResults) -> Iterator[tuple[str, str]]:
+    """Varied inputs with their values, or with their ranges."""
+    for key, values in results.axes.items():
+        head, cells = _column(results, key, values)
+        more = f", ... ({len(cells)} values)" if len(cells) > _SHOWN else ""
+        yield f"{key}: {head}", ", ".join(cells[:_SHOWN]) + more
+    for key, ends in results.ranges.items():
+        head, cells = _column(results, key, (ends.start, ends.stop))
+        yield f"{key}: {head}", f"{' to '.join(cells)}, {ends.spacing}"
+
+
+def _value(point: Point, key: str) -> Any:
+    """Value of a usable point; None for others, so that no table shows it as a result."""
+    return value_at(point.summary or {}, key) if point.solved and not point.doubtful else None
+
+
+def _status(point: Point) -> str:
+    if point.status == "open":
+        return "not computed yet"
+    return "do not use" if point.solved and point.doubtful else point.status
+
+
+def _column(results: SweepResults, key: str, values: Iterable[Any]) -> tuple[str, list[str]]:
+    """Head with the unit, and cells of a column."""
+    listed = list(values)
+    label = label_of(key, results.case)
+    numbers = np.array([float(value) for value in listed if is_number(value)])
+    if not numbers.size:
+        return printable(label.name), ["" if value is None else printable(str(value)) for value in listed]
+    scale = _SCALES.get(label.unit) or label.scaled(np.median(np.abs(numbers), keepdims=True))
+    unit = f" [{scale.unit}]" if scale.unit else ""
+    return f"{label.name}{unit}", [_number(scale.of(value)) if is_number(value) else "" for value in listed]
+
+
+def _number(value: float) -> str:
+    """Number with four digits, without a power of ten up to a million."""
+    return f"{float(f'{value:.4g}'):g}"
+
+
+def sweep_toml(results: SweepResults) -> str:
+    """Sweep file of a sweep, as TOML text in SI units."""
+    import tomli_w
+
+    table: dict[str, Any] = {"title": results.title, "design": results.design}
+    if results.design == "sobol":
+        table |= {"samples": results.samples, "seed": results.seed}
+    ranges = {
+        key: {"from": _written(key, one.start), "to": _written(key, one.stop), "spacing": one.spacing}
+        for key, one in results.ranges.items()
+    }
+    axes = {key: [_written(key, value) for value in values] for key, values in results.axes.items()}
+    table["case"] = tomllib.loads(results.case.to_toml())
+    table["vary"] = {**axes, **ranges}
+    text: str = tomli_w.dumps(table)
+    return text
+
+
+def _written(key: str, value: Any) -> Any:
+    """Value as a file has it: a rotational speed without a unit is refused there."""
+    return f"{value!r} rad/s" if unit_of(key) == "rad/s" and is_number(value) else value

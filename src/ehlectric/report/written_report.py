@@ -1,0 +1,160 @@
+"""Files of a report: one HTML page that needs no other files, and PDF."""
+
+from __future__ import annotations
+
+import base64
+import re
+import sys
+from collections.abc import Callable, Mapping
+from importlib import resources
+from pathlib import Path
+from types import MappingProxyType, ModuleType
+
+from jinja2 import Environment, StrictUndefined
+
+from ehlectric.errors import SEVERITY_WORDS, InputError, shown
+from ehlectric.report.light import Light
+from ehlectric.report.pdf import best_image
+from ehlectric.report.report_content import Link, Picture, Report, Table, Text, Warnings
+from ehlectric.runtime.files import refuse_special, write
+
+# Name of each class of blocks in the template.
+_NAMES: Mapping[type, str] = MappingProxyType(
+    {Text: "text", Table: "table", Picture: "picture", Warnings: "warnings", Light: "light"}
+)
+
+
+def html_of(report: Report) -> str:
+    """Page of a report.
+
+    Parameters
+    ----------
+    report : Report
+        Content of the report. Its texts are escaped: a title with markup stays a text.
+
+    Returns
+    -------
+    str
+        HTML page, to be encoded as UTF-8.
+    """
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters |= {"anchor": anchor, "data": _data}
+    environment.tests["link"] = lambda cell: isinstance(cell, Link)
+    environment.globals["severity_words"] = SEVERITY_WORDS
+    environment.globals["name_of"] = lambda block: _NAMES[type(block)]
+    template = (resources.files("ehlectric.report") / "page.html.jinja").read_text(encoding="utf-8")
+    style = (resources.files("ehlectric.report") / "page.css").read_text(encoding="utf-8")
+    # The style is a file of the package, without characters that HTML would take for markup.
+    return environment.from_string(template).render(report=report, style=style)
+
+
+def anchor(title: str) -> str:
+    """Name of a section in addresses.
+
+    Examples
+    --------
+    >>> anchor("What the model leaves out")
+    'what-the-model-leaves-out'
+    """
+    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
+
+
+def _data(picture: Picture) -> str:
+    """Address that holds the image of a figure itself."""
+    kind, content = best_image(picture)
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
+
+
+FORMATS = ("html", "pdf")
+
+
+def _html(report: Report) -> bytes:
+
+    return html_of(report).encode()
+
+
+def _pdf(report: Report) -> bytes:
+    _load_reportlab()
+    from ehlectric.report.pdf import pdf_of
+
+    return pdf_of(report)
+
+
+def _load_reportlab() -> None:
+    """Load reportlab, also where its settings cannot be looked for in the home of the user.
+
+    Its own import goes on without the file ``.reportlab_mods`` of a home, but not where the home is no
+    folder, as that of many services is /dev/null.
+    """
+    try:
+        import reportlab  # noqa: F401
+    except OSError:
+        # The module that the file would have been: reportlab then does not look into the home.
+        sys.modules["reportlab_mods"] = ModuleType("reportlab_mods")
+
+
+_CONTENTS: Mapping[str, Callable[[Report], bytes]] = MappingProxyType({"html": _html, "pdf": _pdf})
+
+
+def write_report(result: str | Path, target: str | Path, *further: str | Path) -> list[Path]:
+    """Write the report of a stored result, as HTML or PDF.
+
+    Parameters
+    ----------
+    result : str or Path
+        Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.
+    target : str or Path
+        File of the report; its ending, .html or .pdf, decides about its format. An existing file is replaced.
+    *further : str or Path
+        Further files with the same content, as in the other format.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        If the ending is another one, the folder has no result or several, or a file cannot be read or
+        written.
+
+    Notes
+    -----
+    The environment variable SOURCE_DATE_EPOCH, in seconds since 1970, sets the date of the report; two
+    reports of one result are then equal to the last byte.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from ehlectric import save, solve
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> result = solve({"contact": contact, "lubricant": {"base": "paper"}, "grid": {"nodes": 401}})
+    >>> with TemporaryDirectory() as folder:
+    ...     files = save(result, folder)
+    ...     [path.name for path in write_report(folder, Path(folder) / "report.html")]
+    ['report.html']
+    """
+    targets = [Path(one) for one in (target, *further)]
+    contents = [_content_for(one) for one in targets]
+    from ehlectric.report.build import report_of
+
+    report = report_of(result)
+    for path, content in zip(targets, contents, strict=True):
+        write(path, content(report))
+    return targets
+
+
+def _content_for(target: Path) -> Callable[[Report], bytes]:
+    """Function that makes the content of a file, by its ending; nothing is computed for a wrong target."""
+    ending = target.suffix.lower().removeprefix(".")
+    if ending not in _CONTENTS:
+        takes = " or ".join(f".{name}" for name in FORMATS)
+        raise InputError(target, f"ends in {shown(target.suffix)}", takes=f"a file that ends in {takes}")
+    if not target.parent.is_dir():
+        raise InputError(target, "cannot be written to, its folder does not exist")
+    refuse_special(target)
+    return _CONTENTS[ending]

@@ -1,1 +1,0 @@
-"""Results in the file formats of other programs."""

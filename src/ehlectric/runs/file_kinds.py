@@ -1,0 +1,163 @@
+"""Kinds of files: how each is recognised, and what a file given to the wrong command is told.
+
+The kinds are the cases of a contact, with or without motion, bearing files, drive files and sweep files.
+Results are recognised by the first bytes of their files, so that their names do not matter.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Literal
+
+from ehlectric.cases.table import read_toml
+from ehlectric.errors import InputError
+from ehlectric.runtime.reading import regular
+
+FileKind = Literal["contact", "motion", "bearing", "drive", "sweep"]
+
+# Tables and keys that only sweep files have.
+_OF_SWEEPS = ("case", "vary", "design")
+
+# Tables that only drive files have.
+_OF_DRIVES = ("source", "circuit", "breakdown", "drive", "drive_end", "non_drive_end")
+
+# Name of a file of each kind, and the command that solves it.
+_NAMES: Mapping[FileKind, tuple[str, str]] = MappingProxyType(
+    {
+        "contact": ("a case of a contact", "run"),
+        "motion": ("a case of a contact", "run"),
+        "bearing": ("a bearing file", "bearing"),
+        "drive": ("a drive file", "drive"),
+        "sweep": ("a sweep file", "sweep"),
+    }
+)
+
+# First bytes of results, what they are, and how they are drawn.
+_RESULTS = (
+    (b"\x89HDF", "a NetCDF file, such as a result", "plot {file}"),
+    (b"CDF", "a NetCDF file, such as a result", "plot {file}"),
+    (b"SQLite format 3", "the database of a sweep", "plot {folder}"),
+)
+_SUMMARY = "summary.json"
+
+
+def kind_of_file(path: str | Path) -> FileKind:
+    """Kind of a TOML file: "contact", "motion", "bearing", "drive" or "sweep", by its tables.
+
+    Parameters
+    ----------
+    path : str or Path
+        A case file, bearing file, drive file or sweep file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not TOML.
+    """
+    return kind_of_tables(read_toml(path)) or "contact"
+
+
+def expect(path: Path, *kinds: FileKind) -> FileKind:
+    """Kind of a TOML file that a command is given; a file of another kind is told the right command.
+
+    Parameters
+    ----------
+    path : Path
+        File given to the command.
+    *kinds : str
+        Kinds that the command takes.
+
+    Returns
+    -------
+    str
+        Kind of the file, one of ``kinds``. A file that has no table of any kind gets the first of them, and
+        is refused where it is read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is a result, is not TOML, or is of another kind.
+    """
+    _refuse_result(path)
+    kind = kind_of_tables(read_toml(path))
+    if kind is None:
+        return kinds[0]
+    if kind not in kinds:
+        name, command = _NAMES[kind]
+        wanted = _NAMES[kinds[0]][0]
+        raise InputError(path, f"is {name}", takes=f"{wanted}; solve it with: {_typed(command, path)}")
+    return kind
+
+
+def command_of_file(path: str | Path) -> str:
+    """Command that solves a TOML file: "run", "bearing", "drive" or "sweep".
+
+    Parameters
+    ----------
+    path : str or Path
+        A case file, bearing file, drive file or sweep file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not TOML.
+    """
+    return _NAMES[kind_of_file(path)][1]
+
+
+def refuse_input(path: Path) -> None:
+    """Refuse a TOML file where a result is expected, and name the command that solves it.
+
+    Raises
+    ------
+    InputError
+        If the file has the suffix of TOML files.
+    """
+    if path.suffix.lower() == ".toml" and path.is_file():
+        name, command = _NAMES[kind_of_file(path)]
+        raise InputError(path, f"is {name}", takes=f"a result; solve it with: {_typed(command, path)}")
+
+
+def kind_of_tables(table: Mapping[str, Any]) -> FileKind | None:
+    """Kind of the tables of a file; None if none of them tells it."""
+    if any(key in table for key in _OF_SWEEPS):
+        return "sweep"
+    if any(key in table for key in _OF_DRIVES):
+        return "drive"
+    if "bearing" in table:
+        return "bearing"
+    if "motion" in table:
+        return "motion"
+    if "contact" in table:
+        return "contact"
+    # Bearing files load the physics of bearings, which few files without a table of a kind need.
+    from ehlectric.cases.bearing_case import bearing_key
+
+    return None if bearing_key(table) is None else "bearing"
+
+
+def _refuse_result(path: Path) -> None:
+    """Refuse a result where a TOML file is expected, and name the command that draws it."""
+    if path.is_dir():
+        raise InputError(path, "is a folder", takes=f"a TOML file; draw results with: {_typed('plot', path)}")
+    with regular(path) as file:
+        start = file.read(16)
+    for first, name, command in _RESULTS:
+        if start.startswith(first):
+            draw = "ehlectric " + command.format(file=_quoted(path), folder=_quoted(path.parent))
+            raise InputError(path, f"is {name}", takes=f"a TOML file; draw it with: {draw}")
+    if path.name == _SUMMARY:
+        draw = _typed("plot", path.parent)
+        raise InputError(path, "is the summary of a result", takes=f"a TOML file; draw it with: {draw}")
+
+
+def _typed(command: str, path: Path) -> str:
+    """Command line that gives a file to a command."""
+    return f"ehlectric {command} {_quoted(path)}"
+
+
+def _quoted(path: Path) -> str:
+    return shlex.quote(str(path))

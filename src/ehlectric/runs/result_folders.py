@@ -1,0 +1,201 @@
+"""Folders of results: the files that ehlectric writes there, and results that no other run replaces.
+
+A folder holds one result. A run removes the files of an earlier result of any kind, by the names that
+ehlectric writes, and leaves all other files alone. A sweep and a run of moving roughness may have taken
+hours, so another run does not replace them: it is refused.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ehlectric.errors import InputError
+from ehlectric.figures.figure_names import (
+    ALL_FIGURES,
+    BEARING_FIGURE_FILES,
+    DRIVE_FIGURE_FILES,
+    FORMATS,
+    MEASURED_FIGURE,
+    MOTION_FIGURE_FILES,
+    SENSITIVITY_FIGURE,
+    SPEED_FIGURE_FILES,
+    in_formats,
+)
+from ehlectric.runtime.reading import refuse_unreadable
+
+if TYPE_CHECKING:
+    from ehlectric.cases.case import Case
+
+SENSITIVITY = "sensitivity.json"
+REPORTS = ("report.html", "report.pdf")
+
+# Figures with names of their own; maps and lines of a sweep are named by the value that they show.
+_FIGURES = (
+    *ALL_FIGURES,
+    *MOTION_FIGURE_FILES,
+    *BEARING_FIGURE_FILES,
+    *DRIVE_FIGURE_FILES,
+    *SPEED_FIGURE_FILES,
+    SENSITIVITY_FIGURE,
+    MEASURED_FIGURE,
+)
+
+# Name of a map or of lines: the key of the value, and the values of the keys that are held. Name of a figure
+# over speed with values of keys that are held.
+_FORMAT = rf"\.(?:{'|'.join(FORMATS)})"
+_MAP = re.compile(rf"(?:map|lines)_(?P<key>.+?)(?:_at_.*=.*)?{_FORMAT}")
+_SPEED = re.compile(rf"(?:capacitance|breakdown)_over_speed_at_.*=.*{_FORMAT}")
+
+
+def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Names of all files that a result of any kind may have in a folder.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Folder of a result; it need not exist.
+    keep : tuple of str
+        Names to leave out.
+
+    Returns
+    -------
+    tuple of str
+        Names of files and figures, whether they exist or not, and of the maps of sweeps that exist. The
+        database of a sweep is not among them.
+    """
+    from ehlectric.bearing.run import FILES as OF_BEARINGS
+    from ehlectric.cases.film_factors import FILES as OF_MEASUREMENTS
+    from ehlectric.contact.run import FILES as OF_CONTACTS
+    from ehlectric.drive.run import FILES as OF_DRIVES
+    from ehlectric.motion.stored_run import MOTION_FILES
+    from ehlectric.sweep.result import FILES as OF_SWEEPS
+
+    names = (
+        *OF_CONTACTS,
+        *MOTION_FILES,
+        *OF_BEARINGS,
+        *OF_DRIVES,
+        *OF_SWEEPS,
+        *OF_MEASUREMENTS,
+        SENSITIVITY,
+        *REPORTS,
+        *in_formats(_FIGURES, FORMATS),
+    )
+    return tuple(name for name in dict.fromkeys((*names, *_maps(Path(folder)))) if name not in keep)
+
+
+def _maps(folder: Path) -> Iterator[str]:
+    """Names of the maps and lines of sweeps in a folder: files named by a key of a summary."""
+    from ehlectric.quantities.bearing_results import BEARING_KEYS
+    from ehlectric.quantities.contact_results import CONTACT_KEYS
+    from ehlectric.quantities.drive_results import DRIVE_KEYS
+    from ehlectric.quantities.quantity import key_of
+
+    known = (*CONTACT_KEYS.values(), BEARING_KEYS, DRIVE_KEYS)
+    for path in sorted(folder.iterdir()) if folder.is_dir() else ():
+        match = _MAP.fullmatch(path.name)
+        of_map = match and any(key_of(keys, match["key"]) for keys in known)
+        if of_map or _SPEED.fullmatch(path.name):
+            yield path.name
+
+
+def protect(folder: str | Path, case: Case | None = None, *, sweep: bool = False) -> None:
+    """Refuse a folder with a result that may have taken hours and that a run would replace.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Folder of the run; it need not exist.
+    case : Case, optional
+        Case with moving roughness. Its own run in the folder is no obstacle: it is resumed.
+    sweep : bool
+        Whether the run is a sweep, which keeps the points of a sweep in the folder.
+
+    Raises
+    ------
+    InputError
+        If the folder has a sweep, or recorded steps of another case with moving roughness.
+    """
+    from ehlectric.motion.stored_run import MOTION, saved_steps
+    from ehlectric.sweep.store import NAME
+
+    folder = Path(folder)
+    if not sweep and (points := _points(folder / NAME)) is not None:
+        raise InputError(
+            folder,
+            f"has a sweep of {points[1]} points, of which {points[0]} are saved",
+            takes=f"another folder, as with -o; or remove {NAME} from this one",
+        )
+    motion = folder / MOTION
+    steps = saved_steps(motion) if motion.is_file() else 0
+    if steps and not (case is not None and _case_of(motion) == case.to_toml()):
+        raise InputError(
+            folder,
+            f"has {steps} saved steps of another case with moving roughness",
+            takes=f"another folder, as with -o; or remove {MOTION} from this one",
+        )
+
+
+def _points(path: Path) -> tuple[int, int] | None:
+    """Number of saved points and of all points of a sweep; None if the file is missing or is no sweep."""
+    from ehlectric.sweep.store import saved_points
+
+    if not path.is_file():
+        return None
+    try:
+        return saved_points(path.parent)
+    except InputError:
+        # A database of somebody else, which no run touches.
+        return None
+
+
+def _case_of(path: Path) -> str:
+    """Case of a run with moving roughness, as TOML; empty if the file does not have it."""
+    from ehlectric.runtime.netcdf import opened
+
+    with opened(path) as file:
+        return str(file.attrs["case"]) if "case" in file.attrs else ""
+
+
+def stored_result(path: str | Path) -> Path:
+    """File from which the figures of a result are drawn, of a file or of a folder of any kind.
+
+    Parameters
+    ----------
+    path : str or Path
+        A result.nc, bearing.nc, drive.nc or motion.nc, which is returned as it is; any other file of a
+        result; or the folder of a result.
+
+    Returns
+    -------
+    Path
+        A NetCDF file, or the database of a sweep.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or if the folder has no result or several.
+    """
+    from ehlectric.bearing.run import NETCDF as BEARING
+    from ehlectric.contact.run import NETCDF as CONTACT
+    from ehlectric.drive.run import NETCDF as DRIVE
+    from ehlectric.motion.stored_run import MOTION
+    from ehlectric.sweep.store import NAME as SWEEP
+
+    path, names = Path(path), (CONTACT, BEARING, DRIVE, MOTION, SWEEP)
+    if not path.is_dir():
+        refuse_unreadable(path)
+        beside = path.name in files_of_results(path.parent) and path.name not in names
+        if not beside:
+            return path
+        path = path.parent
+    found = [path / name for name in names if (path / name).is_file()]
+    if not found:
+        raise InputError(path, "has no result", takes=f"a folder with one of {', '.join(names)}")
+    if len(found) > 1:
+        results = " and ".join(file.name for file in found)
+        raise InputError(path, f"has {results}", takes="one result; name the file to draw")
+    return found[0]

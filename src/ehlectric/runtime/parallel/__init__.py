@@ -1,1 +1,0 @@
-"""Tasks in processes of this machine, or on other machines."""

@@ -1,0 +1,237 @@
+"""Worker processes of this machine, and other crews that solve tasks.
+
+The processes end as soon as nobody waits for a task of theirs, and with their parent process.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from ehlectric.runtime.locks import held_back
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future, ProcessPoolExecutor
+
+T = TypeVar("T")
+
+# Tasks in flight per process: one that is being solved, and three that wait, so that no process idles while
+# finished tasks are saved. A disk takes up to 30 ms for that, and a line contact 15 ms.
+_AHEAD = 4
+
+# Largest number of processes: Windows can wait for no more at once.
+_MOST = 61 if os.name == "nt" else sys.maxsize
+
+# Environment variables in which BLAS libraries look up the number of threads when they are loaded.
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def cores() -> int:
+    """Number of cores that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return (os.cpu_count() or 1) if affinity is None else len(affinity(0))
+
+
+def cancel(futures: Iterable[Future[Any]]) -> None:
+    """Cancel the futures whose tasks have not begun."""
+    for future in futures:
+        future.cancel()
+
+
+@dataclass(frozen=True)
+class Crew:
+    """Processes or machines that solve tasks.
+
+    Attributes
+    ----------
+    submit : callable
+        Function that submits a call with its arguments, and returns its future.
+    width : callable
+        Function that returns the number of tasks that may be in flight.
+    renew : callable
+        Function that replaces processes that died.
+    waiting : callable
+        Function that returns what the crew is waiting for, as text; empty if it is working.
+    one_machine : bool
+        Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
+    abandon : callable
+        Function that is given the futures that nobody waits for any more, and stops what it can of them.
+    check : callable
+        Function that is called about every second while nothing finishes, and ends a crew that would never
+        finish.
+    """
+
+    submit: Callable[..., Future[Any]]
+    width: Callable[[], int]
+    renew: Callable[[], None] = lambda: None
+    waiting: Callable[[], str] = str
+    one_machine: bool = False
+    abandon: Callable[[Iterable[Future[Any]]], None] = cancel
+    check: Callable[[], None] = lambda: None
+
+
+def crew_of(executor: Executor) -> Crew:
+    """Crew of an executor with the interface of ``concurrent.futures``.
+
+    Parameters
+    ----------
+    executor : Executor
+        Executor whose workers can import ehlectric. It is not shut down here, but by its owner.
+
+    Returns
+    -------
+    Crew
+        The workers of the executor.
+    """
+    workers = getattr(executor, "_max_workers", None) or 32
+    of_dask = type(executor).__module__.partition(".")[0] == "distributed"
+    return Crew(
+        packed_submit(executor) if of_dask else executor.submit,
+        lambda: _AHEAD * workers + 1,
+    )
+
+
+def packed_submit(executor: Executor) -> Callable[..., Future[Any]]:
+    """Submit function of an executor of Dask, whose workers need no package to receive a task.
+
+    A worker of Dask that receives a function that it cannot import ends without a word, and the task waits
+    for another one for ever. The task is therefore received as bytes, and the error is its outcome.
+    """
+
+    def submit(call: Callable[..., T], *values: Any) -> Future[T]:
+        return executor.submit(pickle.loads, pickle.dumps(_Packed(call, values)))
+
+    return submit
+
+
+@dataclass(frozen=True)
+class _Packed:
+    """Call whose unpickling is to do it, so that its value comes out."""
+
+    call: Callable[..., Any]
+    values: tuple[Any, ...]
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return self.call, self.values
+
+
+@contextmanager
+def processes(number: int) -> Iterator[Crew]:
+    """Context manager that yields a crew of processes on this machine.
+
+    The processes end when the context or the calling process ends.
+
+    Parameters
+    ----------
+    number : int
+        Number of processes; each uses one BLAS thread.
+
+    Yields
+    ------
+    Crew
+        The processes.
+    """
+    number = min(number, _MOST)
+    pool = _pool(number)
+
+    def submit(call: Callable[..., T], *values: Any) -> Future[T]:
+        # The first calls start the processes, which inherit the setting that ignores interrupts (Ctrl-C).
+        # Later calls hold an interrupt back: it would be lost.
+        with without_interrupts() if len(_of(pool)) < number else held_back():
+            return pool.submit(call, *values)
+
+    def renew() -> None:
+        nonlocal pool
+        end_now(pool)
+        pool = _pool(number)
+
+    def abandon(_: Iterable[Future[Any]]) -> None:
+        """They end with the pool. Were they cancelled as a process dies, its own thread would fail."""
+
+    def check() -> None:
+        # Where a process dies in the middle of a result, the pool waits for the rest of it.
+        if any(process.exitcode is not None for process in _of(pool)):
+            _terminate(pool)
+
+    try:
+        yield Crew(submit, lambda: _AHEAD * number + 1, renew, one_machine=True, abandon=abandon, check=check)
+    finally:
+        # Not left to end by themselves: in a process that multiprocessing started, the pool's thread may come
+        # too late to tell them, and the process then waits for them for ever. This is also faster.
+        end_now(pool)
+
+
+def _pool(number: int) -> ProcessPoolExecutor:
+    # Every command asks for the number of cores; few start processes.
+    from concurrent.futures import ProcessPoolExecutor
+
+    from ehlectric.runtime.spawning import Context
+
+    return ProcessPoolExecutor(number, mp_context=Context(), initializer=_prepare_process)
+
+
+def _prepare_process() -> None:
+    """Prepare a new process: it ends with its parent, and uses one BLAS thread."""
+    from threadpoolctl import threadpool_limits
+
+    # Where the process has not inherited it, as on Windows.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_parent()
+    # The environment limits libraries that are loaded later; threadpool_limits limits loaded libraries.
+    os.environ |= dict.fromkeys(_THREADS, "1")
+    threadpool_limits(1)
+
+
+def end_now(pool: ProcessPoolExecutor) -> None:
+    """End a pool and its processes at once, without waiting for the tasks that are running."""
+    with without_interrupts():
+        _terminate(pool)
+        pool.shutdown(cancel_futures=True)
+
+
+def _of(pool: ProcessPoolExecutor) -> list[Any]:
+    """Processes of a pool."""
+    return list((getattr(pool, "_processes", None) or {}).values())
+
+
+def _terminate(pool: ProcessPoolExecutor) -> None:
+    """End the processes of a pool, also where one of them is sending a result."""
+    for process in _of(pool):
+        process.terminate()
+    results = getattr(pool, "_result_queue", None)
+    if results is not None:
+        # Of a result that was cut off, the pool's thread would wait for the rest while a writer is open.
+        results._writer.close()
+
+
+@contextmanager
+def without_interrupts() -> Iterator[None]:
+    """Context in which Ctrl-C is ignored, and other signals that stop the program are held back.
+
+    In other threads than the main thread it does nothing.
+    """
+    with held_back():
+        if threading.current_thread() is threading.main_thread():
+            # Processes that are started inherit this; ``held_back`` restores what was before.
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+        yield
+
+
+def end_with_parent() -> None:
+    """Start a thread that ends this process as soon as its parent has ended. Processes of a pool call it."""
+    import multiprocessing
+
+    def watch() -> None:
+        parent = multiprocessing.parent_process()
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

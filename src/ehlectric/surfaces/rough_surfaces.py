@@ -1,0 +1,599 @@
+"""Roughness of a contact: the height of each rough surface as a function of position, beyond its measured
+length too.
+
+Roughness of a line contact: the height of each rough surface as a function of position.
+The midpoint of a profile lies at x = 0. A profile that is shorter than the domain is continued by the key
+``extend`` of the case. The warnings about a profile are in ``ehlectric.surfaces.surface_warnings``.
+
+Roughness of a point contact: the height of each rough surface as a function of position (x, y).
+A measured map is used whole. A measured profile, or one line of a map, is extended along the lay, across its
+own direction. Lengths are in metres, and x runs along entrainment.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from functools import partial
+from itertools import chain
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ehlectric.arrays import Array
+from ehlectric.cases.roughness_inputs import GENERATORS, SHAPES, Roughness
+from ehlectric.errors import InputError, ResultWarning
+from ehlectric.surfaces import generated_maps as map_generators
+from ehlectric.surfaces import generated_profiles as generators
+from ehlectric.surfaces.generated_profiles import Domain, turned
+from ehlectric.surfaces.maps import Map, processed_map
+from ehlectric.surfaces.maps import statistics as map_statistics
+from ehlectric.surfaces.profiles import TAPER, Points, Processing, Profile, processed, rms, statistics
+from ehlectric.surfaces.profiles import statistics as of_profile
+from ehlectric.surfaces.surface_files import Surface, read_surface
+
+# Height of a map [m] as a function of positions x and y [m] whose shapes broadcast, and height of a profile
+# [m] as a function of position x [m].
+MapHeight: TypeAlias = Callable[[Array, Array], Array]
+Height = Callable[[Array], Array]
+
+
+def continued_map(surface: Map, extend: str) -> MapHeight:
+    """Height of a map at any position: a bicubic spline inside the map, and its continuation outside.
+
+    Parameters
+    ----------
+    surface : Map
+        Map, with its middle at (0, 0).
+    extend : str
+        Continuation beyond the sides. "mirror" reflects the map at its sides. "repeat" repeats the map; near
+        opposite sides, over 5 % of the length, the heights are blended so that they join. "flat" continues
+        with zero; the map fades to zero over 5 % of the length at each side.
+
+    Returns
+    -------
+    callable
+        Height [m] as a function of positions x and y [m] whose shapes broadcast.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> ramp = Map(1.0, 1.0, np.add.outer(np.linspace(-1.0, 1.0, 21), np.zeros(21)))
+    >>> np.round(continued_map(ramp, "mirror")(np.array([10.0, 15.0, 30.0]), np.zeros(3)), 2)
+    array([ 1. ,  0.5, -1. ])
+    """
+    from scipy import ndimage  # imported here, as smooth contacts do not need it
+
+    z = surface.heights
+    mode: Literal["mirror", "grid-wrap"] = "mirror"
+    fades = [_fade(n) for n in z.shape]
+    if extend == "flat":
+        z = z * np.outer(*fades)
+    elif extend == "repeat":
+        z, mode = _joined(_joined(z, fades[0]).T, fades[1]).T[:-1, :-1], "grid-wrap"
+    coefficients = ndimage.spline_filter(z, order=3, mode=mode)
+    middle = [0.5 * (n - 1) for n in surface.heights.shape]
+
+    def height(x: Array, y: Array) -> Array:
+        places = x / surface.spacing_x + middle[0], y / surface.spacing_y + middle[1]
+        at = np.array(np.broadcast_arrays(*places))
+        heights: Array = ndimage.map_coordinates(coefficients, at, order=3, mode=mode, prefilter=False)
+        if extend == "flat":
+            heights[(np.abs(x) > 0.5 * surface.length_x) | (np.abs(y) > 0.5 * surface.length_y)] = 0.0
+        return heights
+
+    return height
+
+
+def _fade(n: int) -> Array:
+    """Factors over n points, shape (n,): zero at both ends, one inside, with a smooth taper between."""
+    ends = np.clip((0.5 - np.abs(np.linspace(-0.5, 0.5, n))) / TAPER, 0.0, 1.0)
+    fade: Array = 0.5 - 0.5 * np.cos(np.pi * ends)
+    return fade
+
+
+def _joined(z: Array, fade: Array) -> Array:
+    """Heights (n, m) blended near the first and the last row into the mean of both, without step or kink."""
+    joint = 0.5 * (z[0] + z[-1])
+    joined: Array = joint + (z - joint) * fade[:, np.newaxis]
+    return joined
+
+
+def continued(profile: Profile, extend: str) -> Height:
+    """Height of a profile at any position: a cubic spline inside the profile, and its continuation outside.
+
+    Parameters
+    ----------
+    profile : Profile
+        Profile, with its midpoint at x = 0.
+    extend : str
+        Continuation beyond the ends. "mirror" reflects the profile at its ends. "repeat" repeats the profile;
+        near the ends, over 5 % of the length, the heights are blended so that they join. "flat" continues
+        with zero; the profile fades to zero over 5 % of the length at each end.
+
+    Returns
+    -------
+    callable
+        Height [m], shape (n,), as a function of positions [m], shape (n,).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> ramp = Profile(1.0, np.linspace(-1.0, 1.0, 21))
+    >>> np.round(continued(ramp, "mirror")(np.array([5.0, 12.0, 30.0])), 12)
+    array([ 0.5,  0.8, -1. ])
+    """
+    x, z = profile.x, profile.heights
+    half, length = 0.5 * profile.length, profile.length
+    if extend == "mirror":
+        spline = CubicSpline(x, z)
+        return lambda at: spline(np.abs((at + half + length) % (2.0 * length) - length) - half)
+    ends = np.clip((half - np.abs(x)) / (TAPER * length), 0.0, 1.0)
+    fade = 0.5 - 0.5 * np.cos(np.pi * ends)
+    if extend == "flat":
+        spline = CubicSpline(x, z * fade)
+        return lambda at: np.where(np.abs(at) < half, spline(np.clip(at, -half, half)), 0.0)
+    # Both ends are blended into the mean of the two, so that the joint has neither step nor kink.
+    joint = 0.5 * (z[0] + z[-1])
+    spline = CubicSpline(x, joint + (z - joint) * fade)
+    return lambda at: spline((at + half) % length - half)
+
+
+# Largest correlation length or roll-off wavelength, as a fraction of the domain. With fewer than ten of them
+# in the domain, the statistics of the heights there are random.
+MOST_OF_DOMAIN = 0.1
+
+# Fraction of the points that ``truncate`` may cut off without a warning.
+_MOST_CUT = 0.05
+
+
+def processing_of(table: Roughness) -> Processing:
+    """Processing steps of a table ``[[roughness]]``.
+
+    For a file without form removal the mean is removed.
+    """
+    steps = Processing(**{step.name: getattr(table, step.name) for step in fields(Processing)})
+    return replace(steps, form="mean") if table.file is not None and steps.form == "none" else steps
+
+
+def step_warnings(
+    table: Roughness, steps: Sequence[tuple[str, Points]], voids: float | None
+) -> Iterator[ResultWarning]:
+    """Warnings about voids that were filled and peaks that were cut off in a profile or a map.
+
+    ``steps`` has the surface after every processing step, ``voids`` the fraction of points without data.
+    """
+    if voids:
+        whose, how = "line", "linear"
+        if isinstance(steps[0][1], Map):
+            whose, how = "map", "harmonic"
+        yield ResultWarning(
+            "voids-filled",
+            f"{100 * voids:.2g} % of the {whose} of surface {table.surface} has no data; these voids were "
+            f"filled by {how} interpolation",
+        )
+    if table.truncate is not None:
+        share = float(np.mean(np.abs(steps[-2][1].heights) > table.truncate))
+        if share > _MOST_CUT:
+            yield ResultWarning(
+                "heights-cut",
+                f"truncate cuts {100 * share:.2g} % of the points of surface {table.surface}, whose Rq was "
+                f"{rms(steps[-2][1].heights) * 1e9:.3g} nm before: the truncated surface differs from the "
+                "measured one; raise truncate",
+            )
+
+
+# Points of a generated profile beyond each end of the domain. The end conditions of a spline have no effect
+# farther inside.
+_MARGIN = 64
+
+
+@dataclass(frozen=True)
+class RoughSurface:
+    """Rough surface of a line contact.
+
+    Attributes
+    ----------
+    surface : int
+        Number of the surface, 1 (lower) or 2 (upper).
+    height : callable
+        Height [m] as a function of position [m], positive out of the body.
+    surface_read : Surface or None
+        Content of the file; None for a generated surface.
+    steps : list of (str, Profile)
+        Description of each processing step and the profile after it; empty for an exact shape.
+    extent : float
+        Length of the profile before its continuation [m]; infinite for an exact shape.
+    voids : float or None
+        Fraction of the points of the line without data in the file; None for a generated surface.
+    warnings : tuple of ResultWarning
+        Warnings about the file and the processing steps.
+    """
+
+    surface: int
+    height: Height
+    surface_read: Surface | None
+    steps: list[tuple[str, Profile]]
+    extent: float
+    voids: float | None = None
+    warnings: tuple[ResultWarning, ...] = ()
+
+    def describe(self) -> dict[str, Any]:
+        """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
+        read = self.surface_read
+        return {
+            "surface": self.surface,
+            "source": None if read is None else read.source,
+            "size": None if read is None else list(read.heights.shape),
+            "voids": self.voids,
+            "height_step": None if read is None else read.height_step,
+            "steps": [
+                {"step": name, "points": profile.heights.size, "spacing": profile.spacing}
+                | vars(statistics(profile))
+                for name, profile in self.steps
+            ],
+        }
+
+
+def rough_surfaces(tables: Sequence[Roughness], domain: Domain) -> list[RoughSurface]:
+    """Read or generate the roughness of a line contact.
+
+    Parameters
+    ----------
+    tables : sequence of Roughness
+        Tables ``[[roughness]]`` of the case.
+    domain : Domain
+        Domain of the film [m].
+
+    Returns
+    -------
+    list of RoughSurface
+        One surface per table, in their order.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be used, or a shape does not fit the domain.
+    """
+    return [_rough_surface(table, domain) for table in tables]
+
+
+def _rough_surface(table: Roughness, domain: Domain) -> RoughSurface:
+    if table.generator in SHAPES:
+        return RoughSurface(table.surface, _shape(table, domain.length), None, [], np.inf)
+    if table.file is not None:
+        return measured(table)
+    reach = max(abs(end - table.shift) for end in (domain.inlet, domain.outlet))
+    return _of_profile(table, _random(table, domain.length, reach), None)
+
+
+def measured(table: Roughness, surface: Surface | None = None) -> RoughSurface:
+    """Rough surface from one line of a measured file, processed without reference to a contact.
+
+    The file is read unless ``surface`` has its content. The mean height is always removed, as the zero of an
+    instrument is arbitrary.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used.
+    """
+    assert table.file is not None
+    if surface is None:
+        surface = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+    return _of_profile(table, surface.line(table.line or 0, along=table.along), surface)
+
+
+def _of_profile(table: Roughness, profile: Profile, read: Surface | None) -> RoughSurface:
+    steps = processed(profile, processing_of(table))
+    last = steps[-1][1]
+    height = _shifted(_cut(continued(last, table.extend), table.truncate), table.shift)
+    voids = None if read is None else read.line_voids(table.line or 0, along=table.along)
+    warnings = (*(read.warnings if read else ()), *step_warnings(table, steps, voids))
+    return RoughSurface(table.surface, height, read, steps, last.length, voids, warnings)
+
+
+def _cut(height: Height, limit: float | None) -> Height:
+    """Height limited to ``limit`` [m] between the points too, as a spline overshoots there."""
+    return height if limit is None else lambda x: np.clip(height(x), -limit, limit)
+
+
+def _shape(table: Roughness, domain: float) -> Height:
+    names = chain(*GENERATORS[str(table.generator)])
+    values: dict[str, Any] = {
+        name: getattr(table, name) for name in names if getattr(table, name) is not None
+    }
+    if values.get("width", 0.0) > domain:
+        raise InputError(
+            "roughness.width", got=f"{values['width']:.3g} m", takes=f"less than the domain, {domain:.3g} m"
+        )
+    return _shifted(partial(generators.SHAPES[str(table.generator)], **values), table.shift)
+
+
+def _shifted(height: Height, shift: float) -> Height:
+    return height if shift == 0.0 else lambda x: height(x - shift)
+
+
+def _random(table: Roughness, domain: float, reach: float) -> Profile:
+    """Random profile that extends ``reach`` [m] to both sides after the trim, for a domain length [m]."""
+    assert table.rq is not None and table.seed is not None
+    key = "correlation_length" if table.generator == "gaussian" else "rolloff_wavelength"
+    longest = getattr(table, key)
+    if longest > MOST_OF_DOMAIN * domain:
+        raise InputError(
+            f"roughness.{key}",
+            got=f"{longest:.3g} m",
+            takes=f"at most {MOST_OF_DOMAIN * domain:.3g} m, a tenth of the domain: the heights of "
+            "fewer waves are those of chance",
+        )
+    trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
+    common: dict[str, Any] = {"rq": table.rq, "seed": table.seed}
+    shortest = table.shortest_wavelength or longest / 100.0
+    if table.generator == "gaussian":
+        finest = longest / generators.POINTS_IN_CORRELATION
+    else:
+        finest = shortest / generators.POINTS_IN_SHORTEST
+    common["length"] = 2.0 * (reach + trim + _MARGIN * finest)
+    try:
+        if table.generator == "gaussian":
+            return generators.gaussian(correlation_length=longest, **common)
+        assert table.hurst is not None
+        return generators.self_affine(
+            hurst=table.hurst, rolloff_wavelength=longest, shortest=shortest, **common
+        )
+    except InputError as error:
+        raise error.under("roughness") from None
+
+
+# Points of a generated map beyond each side of the domain. The effect of the end conditions of a spline there
+# is 1e-18 of the heights.
+_MAP_MARGIN = 32
+
+
+@dataclass(frozen=True)
+class RoughMap:
+    """Rough surface of a point contact.
+
+    Attributes
+    ----------
+    surface : int
+        Number of the surface, 1 (lower) or 2 (upper).
+    at : callable
+        Height [m] as a function of positions x and y [m] whose shapes broadcast, positive out of the body.
+    surface_read : Surface or None
+        Content of the file; None for a generated surface.
+    steps : list of (str, Map) or list of (str, Profile)
+        Description of each processing step and the surface after it: a map, or the profile that is extended.
+        Empty for an exact shape.
+    extent : tuple of float
+        Lengths along the surface's own x and y axes before its continuation [m]. Infinite for an exact shape,
+        and along the lay of a profile.
+    orientation : float
+        Angle of the surface's own x axis, counter-clockwise [degrees].
+    voids : float or None
+        Fraction of the points used that have no data in the file; None for a generated surface.
+    warnings : tuple of ResultWarning
+        Warnings about the file and the processing steps.
+    """
+
+    surface: int
+    at: MapHeight
+    surface_read: Surface | None
+    steps: Sequence[tuple[str, Map | Profile]]
+    extent: tuple[float, float]
+    orientation: float = 0.0
+    voids: float | None = None
+    warnings: tuple[ResultWarning, ...] = ()
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Heights of the surface at the nodes of a grid.
+
+        Parameters
+        ----------
+        x : ndarray, shape (nx,)
+            Positions along entrainment [m], zero at the centre of the contact.
+        y : ndarray, shape (ny,)
+            Positions across entrainment [m].
+
+        Returns
+        -------
+        ndarray, shape (nx, ny)
+            Heights [m], positive out of the body.
+        """
+        return self.at(*np.meshgrid(x, y, indexing="ij"))
+
+    def describe(self) -> dict[str, Any]:
+        """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
+        read = self.surface_read
+        return {
+            "surface": self.surface,
+            "source": None if read is None else read.source,
+            "size": None if read is None else list(read.heights.shape),
+            "voids": self.voids,
+            "height_step": None if read is None else read.height_step,
+            "steps": [{"step": name} | _described(step) for name, step in self.steps],
+        }
+
+
+def _described(step: Map | Profile) -> dict[str, Any]:
+    if isinstance(step, Profile):
+        return {"points": step.heights.size, "spacing": step.spacing} | vars(of_profile(step))
+    nx, ny = step.heights.shape
+    size = {"points_x": nx, "points_y": ny, "spacing_x": step.spacing_x, "spacing_y": step.spacing_y}
+    return size | vars(map_statistics(step))
+
+
+def rough_maps(tables: Sequence[Roughness], domain: Domain) -> list[RoughMap]:
+    """Read or generate the roughness of a point contact.
+
+    Parameters
+    ----------
+    tables : sequence of Roughness
+        Tables ``[[roughness]]`` of the case.
+    domain : Domain
+        Domain of the film [m].
+
+    Returns
+    -------
+    list of RoughMap
+        One surface per table, in their order.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be used, or a shape does not fit the domain.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> bump = Roughness(surface=2, generator="asperity", height=2e-8, width=1e-5, position_y=1e-5)
+    >>> (rough,) = rough_maps([bump], Domain(-4e-4, 2e-4, 3e-4))
+    >>> rough.height(np.zeros(1), np.array([5e-6, 1e-5])).round(12)
+    array([[1.e-08, 2.e-08]])
+    """
+    return [_rough_map(table, domain) for table in tables]
+
+
+def _rough_map(table: Roughness, domain: Domain) -> RoughMap:
+    if table.file is not None:
+        return measured_map(table)
+    if table.generator in SHAPES:
+        return RoughMap(table.surface, _map_shape(table, domain), None, [], (np.inf, np.inf))
+    return _of_map(table, _random_map(table, domain), None)
+
+
+def measured_map(table: Roughness) -> RoughMap:
+    """Rough surface from a measured file, processed without reference to a contact.
+
+    The mean height is always removed, as the zero of an instrument is arbitrary.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used.
+    """
+    assert table.file is not None
+    read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+    if read.spacing_y is None or table.line is not None:
+        return _extended(table, read)
+    return whole_map(table, read)
+
+
+def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
+    """Rough surface from a whole measured map.
+
+    The file is read unless ``read`` has its content.
+
+    Raises
+    ------
+    InputError
+        If the file has no map, or the table asks for one line of it.
+    """
+    assert table.file is not None
+    if table.line is not None:
+        raise InputError("line", got=f"{table.line} for a whole map", takes="one or the other")
+    if table.direction == "y":
+        raise InputError(
+            "roughness.direction",
+            got="'y' for a whole map",
+            takes="along = 'column' to turn it, or a line of it",
+        )
+    if read is None:
+        read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
+    return _of_map(table, read.map(along=table.along), read)
+
+
+def _extended(table: Roughness, read: Surface) -> RoughMap:
+    """Rough surface from one measured line, constant along the lay, which is perpendicular to the line."""
+    across = table.direction == "y"
+    # Along y the position of the profile is y, and its shift is the shift along y.
+    line = measured(table.model_copy(update={"shift": table.shift_y if across else table.shift}), read)
+
+    def at(x: Array, y: Array) -> Array:
+        along, other = (y, x) if across else (x, y)
+        return np.broadcast_to(line.height(along), np.broadcast_shapes(along.shape, other.shape))
+
+    extent = (np.inf, line.extent) if across else (line.extent, np.inf)
+    return RoughMap(
+        table.surface, at, line.surface_read, line.steps, extent, voids=line.voids, warnings=line.warnings
+    )
+
+
+def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
+    steps = processed_map(made, processing_of(table))
+    last = steps[-1][1]
+    turn = table.orientation or 0.0
+    height = continued_map(last, table.extend)
+
+    def at(x: Array, y: Array) -> Array:
+        heights = height(*turned(x - table.shift, y - table.shift_y, turn))
+        # The limit is applied between the points too, as the spline overshoots there.
+        return heights if table.truncate is None else np.clip(heights, -table.truncate, table.truncate)
+
+    voids = None if read is None else read.voids
+    warnings = (*(read.warnings if read else ()), *step_warnings(table, steps, voids))
+    extent = last.length_x, last.length_y
+    return RoughMap(table.surface, at, read, steps, extent, turn, voids=voids, warnings=warnings)
+
+
+def _map_shape(table: Roughness, domain: Domain) -> MapHeight:
+    names = chain(*GENERATORS[str(table.generator)])
+    values: dict[str, Any] = {
+        name: getattr(table, name) for name in names if getattr(table, name) is not None
+    }
+    if values.get("width", 0.0) > domain.shorter:
+        raise InputError(
+            "roughness.width",
+            got=f"{values['width']:.3g} m",
+            takes=f"less than the shorter side of the domain, {domain.shorter:.3g} m",
+        )
+    made: MapHeight = partial(map_generators.SHAPES[str(table.generator)], **values)
+    return lambda x, y: made(x - table.shift, y - table.shift_y)
+
+
+def _random_map(table: Roughness, domain: Domain) -> Map:
+    """Random map that covers the domain after its ends have been trimmed."""
+    assert table.rq is not None and table.seed is not None
+    trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
+    reach = [length + trim for length in domain.reach(table)]
+    try:
+        if table.generator == "gaussian":
+            assert table.correlation_length is not None
+            lengths = table.correlation_length, table.correlation_length_y or table.correlation_length
+            _check_waves("correlation_length", min(lengths), domain)
+            beyond = [_MAP_MARGIN * length / map_generators.POINTS_IN_CORRELATION for length in lengths]
+            return map_generators.gaussian(
+                rq=table.rq,
+                correlation_length=lengths[0],
+                correlation_length_y=lengths[1],
+                reach_x=reach[0] + beyond[0],
+                reach_y=reach[1] + beyond[1],
+                seed=table.seed,
+            )
+        assert table.hurst is not None and table.rolloff_wavelength is not None
+        _check_waves("rolloff_wavelength", table.rolloff_wavelength, domain)
+        shortest = table.shortest_wavelength or table.rolloff_wavelength / map_generators.SHORTEST_PART
+        margin = _MAP_MARGIN * shortest / map_generators.POINTS_IN_SHORTEST
+        return map_generators.self_affine(
+            rq=table.rq,
+            hurst=table.hurst,
+            rolloff_wavelength=table.rolloff_wavelength,
+            reach_x=reach[0] + margin,
+            reach_y=reach[1] + margin,
+            seed=table.seed,
+            shortest=shortest,
+        )
+    except InputError as error:
+        raise error.under("roughness") from None
+
+
+def _check_waves(key: str, length: float, domain: Domain) -> None:
+    most = MOST_OF_DOMAIN * domain.shorter
+    if length > most:
+        raise InputError(
+            key,
+            got=f"{length:.3g} m",
+            takes=f"at most {most:.3g} m, a tenth of the shorter side of the domain: the heights of "
+            "fewer waves are those of chance",
+        )

@@ -1,0 +1,435 @@
+"""Warnings about rough surfaces, which need no film, and their summits."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ehlectric.cases.roughness_inputs import Roughness
+from ehlectric.errors import ResultWarning
+from ehlectric.formulas.asperities import LEAST_BANDWIDTH, SpectralMoments, map_moments, profile_moments
+from ehlectric.surfaces.generated_profiles import Domain
+from ehlectric.surfaces.maps import Map, statistics
+from ehlectric.surfaces.profiles import LEAST_POINTS, Profile
+from ehlectric.surfaces.profiles import statistics as profiles_statistics
+from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
+
+# Intervals in the table of a surface, in spacings of its points, and fewest intervals in its length.
+_STEPS = (1, 2, 4, 8, 16)
+_LEAST_INTERVALS = 64
+
+
+def surface_moments(surface: Profile | Map, interval: float | None = None) -> SpectralMoments:
+    """Spectral moments of a profile, or of the isotropic surface that stands for a map.
+
+    Parameters
+    ----------
+    surface : Profile or Map
+        Surface after its processing. A profile is taken as a line over an isotropic surface.
+    interval : float, optional
+        Sampling interval [m], rounded to a whole number of spacings; by default one spacing.
+
+    Returns
+    -------
+    SpectralMoments
+        Mean squares of height, slope and second derivative.
+
+    Raises
+    ------
+    ValueError
+        If the surface is shorter than eight intervals.
+
+    Examples
+    --------
+    >>> from ehlectric.surfaces.generated_profiles import gaussian
+    >>> made = gaussian(rq=1e-7, correlation_length=1e-5, length=0.1, seed=1)
+    >>> round(surface_moments(made).bandwidth, 1)
+    3.0
+    """
+    if isinstance(surface, Profile):
+        return profile_moments(surface.heights, surface.spacing, interval)
+    return map_moments(surface.heights, surface.spacing_x, surface.spacing_y, interval).isotropic
+
+
+def summit_statistics(surface: Profile | Map) -> list[dict[str, Any]]:
+    """Spectral moments and summits of a surface at sampling intervals of 1, 2, 4, 8 and 16 spacings.
+
+    Parameters
+    ----------
+    surface : Profile or Map
+        Surface after its processing.
+
+    Returns
+    -------
+    list of dict
+        For each interval that fits 64 times into the surface, and for the shortest one at least: ``interval``
+        [m], ``m0`` [m^2], ``m2``, ``m4`` [1/m^2], ``bandwidth``, ``summit_density`` [1/m^2],
+        ``summit_radius`` [m], ``summit_deviation`` [m], and for a map ``slope_ratio``, the slope along x over
+        that along y. Bandwidth and ratio are None for a flat surface; the summits are None where the
+        bandwidth is below 1.5, as no isotropic Gaussian surface has it.
+    """
+    if isinstance(surface, Profile):
+        spacing, length = surface.spacing, surface.length
+    else:
+        spacing = max(surface.spacing_x, surface.spacing_y)
+        length = min(surface.length_x, surface.length_y)
+    steps = [step for step in _STEPS if step == 1 or step * spacing * _LEAST_INTERVALS <= length]
+    return [_at_interval(surface, step * spacing) for step in steps]
+
+
+def _at_interval(surface: Profile | Map, interval: float) -> dict[str, Any]:
+    moments = surface_moments(surface, interval)
+    flat = moments.m2 == 0.0
+    found: dict[str, Any] = {"interval": interval, "m0": moments.m0, "m2": moments.m2, "m4": moments.m4}
+    found["bandwidth"] = None if flat else moments.bandwidth
+    summits = None if flat or moments.bandwidth < LEAST_BANDWIDTH else moments.summits()
+    found["summit_density"] = summits and summits.density
+    found["summit_radius"] = summits and summits.radius
+    found["summit_deviation"] = summits and summits.height_deviation
+    if isinstance(surface, Map):
+        both = map_moments(surface.heights, surface.spacing_x, surface.spacing_y, interval)
+        found["slope_ratio"] = both.slope_ratio if both.along_y.m2 > 0.0 else None
+    return found
+
+
+# Minimum number of grid spacings in a correlation length, and in a wavelength or the width of a feature.
+LEAST_IN_CORRELATION = 2.0
+LEAST_IN_SHAPE = 8.0
+
+# Fraction of the variance of the heights that a grid may miss without a warning.
+MOST_MISSED = 0.01
+
+
+def map_surface_warnings(
+    tables: Sequence[Roughness], rough: Sequence[RoughMap], domain: Domain, dx: float, dy: float
+) -> Iterator[ResultWarning]:
+    """Warnings about the roughness of a point contact, before its film is computed.
+
+    Parameters
+    ----------
+    tables : sequence of Roughness
+        Tables ``[[roughness]]`` of the case.
+    rough : sequence of RoughMap
+        Rough surfaces that ``rough_maps`` returned for the tables.
+    domain : Domain
+        Domain of the film [m].
+    dx, dy : float
+        Spacings of the nodes of the film [m].
+
+    Yields
+    ------
+    ResultWarning
+        Warnings about files and processing steps, continuation, and roughness that is finer than the grid.
+    """
+    for table, surface in zip(tables, rough, strict=True):
+        yield from surface.warnings
+        yield from _continued(table, surface, domain)
+        if not surface.steps:
+            yield from _map_shape_warnings(table, domain, dx, dy)
+            continue
+        last = surface.steps[-1][1]
+        if isinstance(last, Map):
+            yield from _map_warnings(table, surface, last, domain, (dx, dy))
+        elif table.direction == "y":
+            ends = -domain.side - table.shift_y, domain.side - table.shift_y
+            yield from profile_warnings(surface.surface, last, dy, ends)
+        else:
+            ends = domain.inlet - table.shift, domain.outlet - table.shift
+            yield from profile_warnings(surface.surface, last, dx, ends)
+    yield from same_seeds(tables)
+
+
+def _continued(table: Roughness, surface: RoughMap, domain: Domain) -> Iterator[ResultWarning]:
+    needed = [2.0 * reach for reach in domain.reach(table)]
+    short = [k for k in (0, 1) if surface.extent[k] < needed[k]]
+    if short:
+        axis = short[0]
+        yield ResultWarning(
+            "roughness-continued",
+            f"surface {surface.surface} is {surface.extent[axis] * 1e6:.4g} µm long along {'xy'[axis]}, but "
+            f"the domain needs {needed[axis] * 1e6:.4g} µm, since the map is centred"
+            + (" (it is too short along y, too)" if len(short) == 2 else "")
+            + f": it was continued by extend = {table.extend!r}; to avoid this, use a larger map, "
+            + ("change roughness.shift or raise" if axis == 0 else "change roughness.shift_y or lower")
+            + (" grid.inlet" if axis == 0 else " grid.side"),
+        )
+
+
+def _map_shape_warnings(table: Roughness, domain: Domain, dx: float, dy: float) -> Iterator[ResultWarning]:
+    """Warnings about exact shapes inside the domain that are finer than the grid of a point contact."""
+    whose = f"the {table.generator} of surface {table.surface}"
+    if table.wavelength is not None:
+        turn = np.deg2rad(table.orientation or 0.0)
+        axes = (("x", dx, abs(np.cos(turn))), ("y", dy, abs(np.sin(turn))))
+        name, spacing, waves = max(axes, key=lambda axis: axis[1] * axis[2])
+        if spacing * waves > table.wavelength / LEAST_IN_SHAPE:
+            yield unresolved(spacing, f"{whose}, whose wavelength along {name}", table.wavelength / waves)
+        return
+    assert table.width is not None
+    x, y = (table.position or 0.0) + table.shift, (table.position_y or 0.0) + table.shift_y
+    near = 2.0 * table.width
+    if not (domain.inlet - near < x < domain.outlet + near and abs(y) < domain.side + near):
+        return
+    # The rim of a pit is half as wide as the pit.
+    finest = 0.5 * table.width if table.rim else table.width
+    if max(dx, dy) > finest / LEAST_IN_SHAPE:
+        whose = f"the rim of the pit of surface {table.surface}" if table.rim else whose
+        yield unresolved(max(dx, dy), f"{whose}, whose width", finest)
+
+
+def _map_warnings(
+    table: Roughness, surface: RoughMap, last: Map, domain: Domain, spacing: tuple[float, float]
+) -> Iterator[ResultWarning]:
+    """Warnings about a map that is finer than the grid along one of the axes of the grid."""
+    lengths = _correlation_lengths(last, surface.orientation)
+    worst = max((0, 1), key=lambda k: spacing[k] / lengths[k])
+    if spacing[worst] > lengths[worst] / LEAST_IN_CORRELATION:
+        whose = f"the map of surface {surface.surface}, whose correlation length along {'xy'[worst]}"
+        yield unresolved(spacing[worst], whose, lengths[worst])
+    within = _inside(table, last, domain)
+    missed = map_variance_beyond(within, 0.5 / spacing[0], 0.5 / spacing[1], surface.orientation)
+    if missed > MOST_MISSED:
+        coarser = max(spacing)
+        yield ResultWarning(
+            "variance-missed",
+            f"the grid spacing of {spacing[0] * 1e6:.3g} x {spacing[1] * 1e6:.3g} µm misses "
+            f"{100 * missed:.2g} % of the variance of surface {surface.surface}, in waves shorter than two "
+            f"spacings; use more grid.nodes, or a cutoff_short of at least {4e6 * coarser:.3g} µm",
+        )
+
+
+def _correlation_lengths(last: Map, orientation: float) -> list[float]:
+    """Correlation lengths along the axes of the grid of a map that is turned [m]."""
+    parameters = statistics(last)
+    inverse = 1.0 / parameters.correlation_length_x**2, 1.0 / parameters.correlation_length_y**2
+    turn = np.deg2rad(orientation)
+    squares = np.cos(turn) ** 2, np.sin(turn) ** 2
+    return [float((squares[k] * inverse[0] + squares[1 - k] * inverse[1]) ** -0.5) for k in (0, 1)]
+
+
+def shortest_wave(table: Roughness, rough: RoughSurface | RoughMap) -> float:
+    """Length along entrainment that stands for the shortest wave of a rough surface [m].
+
+    It is the wavelength, the width of a pit or an asperity, half of it if the pit has a rim, or four
+    correlation lengths. It is infinite for a surface that is uniform along entrainment.
+
+    Parameters
+    ----------
+    table : Roughness
+        Table ``[[roughness]]`` of the surface.
+    rough : RoughSurface or RoughMap
+        Surface made from the table.
+    """
+    if table.wavelength is not None:
+        along = abs(np.cos(np.deg2rad(table.orientation or 0.0)))
+        return table.wavelength / along if along > 1e-6 else np.inf
+    if table.width is not None:
+        return 0.5 * table.width if table.rim else table.width
+    last, in_correlation = rough.steps[-1][1], LEAST_IN_SHAPE / LEAST_IN_CORRELATION
+    if isinstance(last, Map):
+        assert isinstance(rough, RoughMap)
+        return in_correlation * _correlation_lengths(last, rough.orientation)[0]
+    if isinstance(rough, RoughMap) and table.direction == "y":
+        return np.inf
+    return in_correlation * profiles_statistics(last).correlation_length
+
+
+def _inside(table: Roughness, last: Map, domain: Domain) -> Map:
+    """Part of a map inside the domain.
+
+    A map that is rotated, or has fewer than 16 points inside along an axis, is returned whole.
+    """
+    x, y = last.x + table.shift, last.y + table.shift_y
+    rows = np.flatnonzero((x >= domain.inlet) & (x <= domain.outlet))
+    columns = np.flatnonzero(np.abs(y) <= domain.side)
+    if table.orientation or min(rows.size, columns.size) < LEAST_POINTS:
+        return last
+    return last.with_heights(last.heights[np.ix_(rows, columns)])
+
+
+def map_variance_beyond(
+    surface: Map, frequency_x: float, frequency_y: float, orientation: float = 0.0
+) -> float:
+    """Fraction of the variance of a map in waves that are too short for a grid, from the periodogram.
+
+    Parameters
+    ----------
+    surface : Map
+        Map of heights.
+    frequency_x, frequency_y : float
+        Largest spatial frequencies along the axes of the grid [1/m]. A wave that exceeds either is too short.
+    orientation : float
+        Angle from the x axis of the grid to the x axis of the map, counter-clockwise [degrees].
+
+    Returns
+    -------
+    float
+        Fraction of the variance, from 0 to 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> k = np.arange(800)
+    >>> waves = 3e-8 * np.sin(k / 20)[:, np.newaxis] + 1e-8 * np.sin(k[:200] / 2)
+    >>> [round(map_variance_beyond(Map(1e-7, 1e-7, waves), 1e9, f), 3) for f in (4e5, 1e6)]
+    [0.1, 0.0]
+    """
+    z = surface.heights - np.mean(surface.heights)
+    # A Hann window removes the effect of the step between opposite sides.
+    power = np.abs(np.fft.rfft2(z * np.outer(*(np.hanning(n) for n in z.shape)))) ** 2
+    # rfft2 leaves out negative frequencies along y: waves with a component along y count twice.
+    power[:, 1 : (z.shape[1] + 1) // 2] *= 2.0
+    own_x = np.fft.fftfreq(z.shape[0], surface.spacing_x)[:, np.newaxis]
+    own_y = np.fft.rfftfreq(z.shape[1], surface.spacing_y)
+    turn = np.deg2rad(orientation)
+    waves_x = own_x * np.cos(turn) - own_y * np.sin(turn)
+    waves_y = own_x * np.sin(turn) + own_y * np.cos(turn)
+    beyond = (np.abs(waves_x) > frequency_x) | (np.abs(waves_y) > frequency_y)
+    total = float(np.sum(power))
+    return float(np.sum(power[beyond])) / total if total > 0.0 else 0.0
+
+
+def profile_surface_warnings(
+    tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
+) -> Iterator[ResultWarning]:
+    """Warnings about the roughness of a line contact, before its film is computed.
+
+    Parameters
+    ----------
+    tables : sequence of Roughness
+        Tables ``[[roughness]]`` of the case.
+    rough : sequence of RoughSurface
+        Rough surfaces that ``rough_surfaces`` returned for the tables.
+    domain : Domain
+        Domain of the film [m].
+    dx : float
+        Spacing of the nodes of the film [m].
+
+    Yields
+    ------
+    ResultWarning
+        Warnings about files and processing steps, continuation, and roughness that is finer than the grid.
+    """
+    for table, surface in zip(tables, rough, strict=True):
+        yield from surface.warnings
+        ends = domain.inlet - table.shift, domain.outlet - table.shift
+        reach = 2.0 * max(map(abs, ends))
+        if surface.extent < reach:
+            yield ResultWarning(
+                "roughness-continued",
+                f"the profile of surface {surface.surface} is {surface.extent * 1e6:.4g} µm long, but the "
+                f"domain needs {reach * 1e6:.4g} µm, since the profile is centred and must reach the farther "
+                f"end: it was continued by extend = {table.extend!r}; to avoid this, use a longer profile, "
+                "change roughness.shift or raise grid.inlet",
+            )
+        if surface.steps:
+            yield from profile_warnings(surface.surface, surface.steps[-1][1], dx, ends)
+        else:
+            yield from _profile_shape_warnings(table, dx, ends)
+    yield from same_seeds(tables)
+
+
+def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
+    """Warnings about generated surfaces that share a seed and so are not independent of each other."""
+    for seed, times in Counter(table.seed for table in tables if table.seed is not None).items():
+        if times > 1:
+            yield ResultWarning(
+                "seed-repeated",
+                f"{times} rough surfaces have the seed {seed}: their random numbers are the same, so they "
+                "are not independent; give each surface its own seed",
+            )
+
+
+def unresolved(dx: float, what: str, length: float) -> ResultWarning:
+    """Warning about roughness that the grid does not resolve.
+
+    Parameters
+    ----------
+    dx : float
+        Spacing of the nodes [m].
+    what : str
+        Words that name the surface and the kind of the length.
+    length : float
+        Length that is not resolved [m].
+    """
+    return ResultWarning(
+        "roughness-unresolved",
+        f"the grid spacing of {dx * 1e6:.3g} µm does not resolve {what} is {length * 1e6:.3g} µm: the error "
+        "estimate is not meaningful; use more grid.nodes",
+    )
+
+
+def _profile_shape_warnings(
+    table: Roughness, dx: float, ends: tuple[float, float]
+) -> Iterator[ResultWarning]:
+    """Warnings about exact shapes inside the domain that are finer than the grid of a line contact."""
+    name, length = ("wavelength", table.wavelength) if table.wavelength else ("width", table.width)
+    assert length is not None
+    position = table.position or 0.0
+    if name == "width" and not ends[0] - 2.0 * length < position < ends[1] + 2.0 * length:
+        return
+    # The rim of a pit is half as wide as the pit.
+    finest = 0.5 * length if table.rim else length
+    if dx > finest / LEAST_IN_SHAPE:
+        whose = f"the {'rim of the ' if table.rim else ''}{table.generator} of surface {table.surface}"
+        yield unresolved(dx, f"{whose}, whose {name}", finest)
+
+
+def profile_warnings(
+    surface: int, last: Profile, dx: float, ends: tuple[float, float]
+) -> Iterator[ResultWarning]:
+    """Warnings about a profile that is finer than the grid after its last processing step.
+
+    ``surface`` is the number of the surface, ``dx`` the spacing of the nodes [m], and ``ends`` the range of x
+    that the domain covers [m].
+    """
+    length = profiles_statistics(last).correlation_length
+    if dx > length / LEAST_IN_CORRELATION:
+        whose = f"the profile of surface {surface}, whose correlation length"
+        yield unresolved(dx, whose, length)
+    missed = profile_variance_beyond(last, 0.5 / dx, ends)
+    if missed > MOST_MISSED:
+        yield ResultWarning(
+            "variance-missed",
+            f"the grid spacing of {dx * 1e6:.3g} µm misses {100 * missed:.2g} % of the variance of surface "
+            f"{surface}, in waves shorter than two spacings; use more grid.nodes, or a cutoff_short of at "
+            f"least {4e6 * dx:.3g} µm",
+        )
+
+
+def profile_variance_beyond(profile: Profile, frequency: float, ends: tuple[float, float]) -> float:
+    """Fraction of the variance of a profile in waves above a spatial frequency, from the periodogram.
+
+    Parameters
+    ----------
+    profile : Profile
+        Profile of heights.
+    frequency : float
+        Spatial frequency [1/m].
+    ends : tuple of float
+        Ends of the part of the profile that counts [m]. If it has fewer than 16 points, the whole profile
+        counts.
+
+    Returns
+    -------
+    float
+        Fraction of the variance, from 0 to 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> k = np.arange(4000)
+    >>> two_waves = Profile(1e-7, 3e-8 * np.sin(k / 50) + 1e-8 * np.sin(k / 2))
+    >>> round(profile_variance_beyond(two_waves, 1e5, (-1.0, 1.0)), 3)
+    0.1
+    """
+    inside = (profile.x >= ends[0]) & (profile.x <= ends[1])
+    z = profile.heights[inside] if np.count_nonzero(inside) >= LEAST_POINTS else profile.heights
+    # A Hann window removes the effect of the step between the last and the first point.
+    power = np.abs(np.fft.rfft((z - np.mean(z)) * np.hanning(z.size))) ** 2
+    total = float(np.sum(power))
+    waves = np.fft.rfftfreq(z.size, profile.spacing)
+    return float(np.sum(power[waves > frequency])) / total if total > 0.0 else 0.0

@@ -1,0 +1,404 @@
+"""Results of a sweep: values of its points as columns, a dataset, CSV, NetCDF and Parquet."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.cases.input_keys import kind_of, of_both_ends
+from ehlectric.cases.table import nearest
+from ehlectric.discharge.film_verdict import Verdict
+from ehlectric.errors import InputError
+from ehlectric.quantities.quantity import key_of
+from ehlectric.runtime.files import Content, column_head, csv_of, write_together
+from ehlectric.runtime.folders import FIGURE_LOCK, alone_in
+from ehlectric.runtime.netcdf import content_of
+from ehlectric.runtime.values import Shown, headline, is_number
+from ehlectric.sweep.labels import label_of, result_keys
+from ehlectric.sweep.points import Point, Range, Spacing, Status, SweepPoints, as_number, flat
+from ehlectric.sweep.sweep_verdict import sweep_verdict
+from ehlectric.version import __version__
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+
+# Keys of the summary whose values are texts that may differ between points.
+_TEXTS = ("bearing.lubrication", "bearing.regime", "bearing.first_break_at")
+
+# Variables of a point besides its inputs and results, with their attributes in the CF conventions.
+_OWN = {
+    "number": {"long_name": "number of the point in the order of the design", "units": "1"},
+    "status": {"long_name": "what became of the point"},
+    "reason": {"long_name": "why it is not solved"},
+    "warnings": {"long_name": "what to know before using its numbers"},
+    "warning_codes": {"long_name": "codes of the warnings"},
+    "seconds": {"long_name": "time it took", "units": "s"},
+}
+
+
+def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
+    """Columns of the table of a sweep, with one row for each point.
+
+    Parameters
+    ----------
+    results : SweepPoints
+        A sweep, finished or not.
+
+    Returns
+    -------
+    dict
+        Columns by name. First are number, status, reason, warnings, warning_codes and seconds; several
+        warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, in SI
+        units.
+
+        A result is None if the point is not solved, or its summary has no such value. An input that
+        the summary repeats has a column only if it differs between points. A value of the summary with the
+        key of a varied input, such as a film factor, has no column of its own.
+    """
+    points = results.points
+    columns: dict[str, list[Any]] = {
+        "number": [point.number for point in points],
+        "status": [point.status for point in points],
+        "reason": [point.reason for point in points],
+        "warnings": ["; ".join(map(str, point.warnings)) for point in points],
+        "warning_codes": ["; ".join(warning.code for warning in point.warnings) for point in points],
+        "seconds": [point.seconds for point in points],
+    }
+    columns |= {key: [point.inputs[key] for point in points] for key in results.varied}
+    summaries = texts_of(results) | numbers_of(results)
+    return columns | {key: values for key, values in summaries.items() if key not in columns}
+
+
+def texts_of(results: SweepPoints) -> dict[str, list[str | None]]:
+    """Texts of the summaries by dotted key, each a list over the points; only bearings have such texts."""
+    rows = [flat(point.summary) if point.solved and point.summary else {} for point in results.points]
+    return {key: [row.get(key) for row in rows] for key in _TEXTS if any(key in row for row in rows)}
+
+
+def numbers_of(results: SweepPoints) -> dict[str, list[float | None]]:
+    """Numbers of the summaries by dotted key, each a list over the points, None if a point has none.
+
+    An input that the summaries repeat is kept only if it differs between points and is not a varied key. An
+    example is a viscosity that follows from a varied temperature.
+    """
+    rows = [_numbers(point.summary) if point.solved and point.summary else {} for point in results.points]
+    keys = dict.fromkeys(key for row in rows for key in row)
+    columns = {key: [row.get(key) for row in rows] for key in keys}
+    varied = {f"inputs.{key}" for one in results.varied for key in of_both_ends(one)}
+    return {
+        key: values
+        for key, values in columns.items()
+        if not key.startswith("inputs.") or (key not in varied and len({*values} - {None}) > 1)
+    }
+
+
+def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
+    """Numbers of a summary by dotted key."""
+    return {key: value for key, value in flat(summary).items() if is_number(value)}
+
+
+def dataset_of(results: SweepPoints) -> xr.Dataset:
+    """Convert a sweep to a dataset in SI units.
+
+    Parameters
+    ----------
+    results : SweepPoints
+        A sweep, finished or not.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dataset over the varied keys for a "grid" design, else over ``point``. Numbers of the summaries have
+        their dotted key as name, and are NaN where a point is not solved. ``status``, ``reason``,
+        ``warnings`` and ``warning_codes`` are texts; so are the lubrication and the first contact to break of
+        a bearing.
+    """
+    import xarray as xr
+
+    gridded = results.design == "grid"
+    dimensions = results.varied if gridded else ("point",)
+    shape = tuple(len(axis) for axis in results.axes.values()) if gridded else (len(results.points),)
+
+    def laid_out(values: list[Any]) -> tuple[tuple[str, ...], Any]:
+        return dimensions, _array(values).reshape(shape)
+
+    columns = columns_of(results)
+    own = {name: (*laid_out(columns.pop(name)), attributes) for name, attributes in _OWN.items()}
+    inputs = {key: columns.pop(key) for key in results.varied}
+    coordinates = {
+        key: (
+            key if gridded else "point",
+            _array(list(results.axes[key] if gridded else values)),
+            _attributes(key, results),
+        )
+        for key, values in inputs.items()
+    }
+    summaries = {
+        key: (*laid_out(values if key in _TEXTS else list(map(as_number, values))), _attributes(key, results))
+        for key, values in columns.items()
+    }
+    return xr.Dataset(
+        own | summaries,
+        coords=coordinates,
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": results.title or results.case.title or "Sweep of a lubricated contact",
+            "source": f"ehlectric {__version__}",
+            "comment": "SI units; NaN where a point is not solved; see warnings before a value is used",
+            "case": results.case.to_toml(),
+            "design": results.design,
+            "ranges": json.dumps({key: vars(over) for key, over in results.ranges.items()}),
+            "samples": results.samples,
+            "seed": results.seed,
+        },
+    )
+
+
+def _array(values: list[Any]) -> Any:
+    """Values as an array of numbers, or of texts if some are not numbers; lists become JSON texts."""
+    numeric = [is_number(value) for value in values]
+    if all(numeric):
+        return np.array(values)
+    return np.array([cell(value) for value in values], dtype=object)
+
+
+def cell(value: Any) -> Any:
+    """Text of a value in a CSV file: None as an empty text, a float with all digits, lists as JSON."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    return repr(value) if isinstance(value, float) else json.dumps(value)
+
+
+def _attributes(key: str, results: SweepPoints) -> dict[str, str]:
+    """CF attributes of an input or result: its name and, if it is a number, its unit."""
+    label = label_of(key, results.case)
+    attributes = {"long_name": label.name}
+    if key in _TEXTS or (key in results.varied and kind_of(key) is None):
+        return attributes
+    return attributes | {"units": label.unit.replace("**", "^").replace("*", " ") or "1"}
+
+
+def unit_of_column(results: SweepPoints, key: str) -> str | None:
+    """SI unit of a column of numbers, empty for a dimensionless one; None for texts and for point numbers.
+
+    Parameters
+    ----------
+    results : SweepPoints
+        A sweep, finished or not.
+    key : str
+        Name of a column of ``columns_of``.
+    """
+    if key in _OWN:
+        return "s" if key == "seconds" else None
+    if key in _TEXTS or (key in results.varied and kind_of(key) is None):
+        return None
+    return label_of(key, results.case).unit
+
+
+__all__ = ["Point", "Range", "Spacing", "Status", "SweepResults", "as_number", "flat"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SweepResults(Shown, SweepPoints):
+    """Results of a sweep, complete or still in progress.
+
+    Attributes
+    ----------
+    case : Case, BearingCase or DriveCase
+        Base case of the sweep.
+    design : str
+        "grid", "paired" or "sobol".
+    axes : mapping
+        Values of each varied key in the order of the input, in SI units; empty for a "sobol" design.
+    ranges : mapping
+        Range of each varied key of a "sobol" design, in the order of the input; empty for other designs.
+    samples : int
+        Base samples n of a "sobol" design; 0 for other designs.
+    points : tuple of Point
+        All points in the order of the design; in a "grid" the last varied key varies fastest.
+    seed : int
+        Seed of the random numbers of a "sobol" design.
+    title : str
+        Title of the sweep, for figures.
+    """
+
+    def values(self, key: str) -> Array:
+        """Value of a key of the summary at every point.
+
+        Parameters
+        ----------
+        key : str
+            Dotted key of the summary, such as "discharge.breakdown_voltage".
+
+        Returns
+        -------
+        ndarray, shape (points,)
+            Values in SI units, doubtful points included; NaN where a point is not solved, or its summary has
+            no number at this key.
+
+        Raises
+        ------
+        InputError
+            If ``key`` is neither a varied key nor a key of the summary; the message has the nearest key.
+        """
+        if key in self.varied:
+            return np.array([as_number(point.inputs.get(key)) for point in self.points])
+        self._check(key)
+        column = [flat(point.summary or {}).get(key) if point.solved else None for point in self.points]
+        return np.array([as_number(value) for value in column])
+
+    @cached_property
+    def verdict(self) -> Verdict | None:
+        """Verdict: at how many points breakdown is expected; None where no point has a margin."""
+        return sweep_verdict(self)
+
+    def _check(self, key: str) -> None:
+        """Raise an InputError for a key that no summary has and that is not documented."""
+        rows = [flat(point.summary) for point in self.points if point.solved and point.summary]
+        if any(key in row for row in rows) or key_of(result_keys(self.case), key) is not None:
+            return
+        known = list(numbers_of(self)) or list(result_keys(self.case))
+        table = key.partition(".")[0] + "."
+        alike = [name for name in known if name.startswith(key) or name.endswith(f".{key}")]
+        within = [name for name in known if name.startswith(table)]
+        raise InputError.unknown(key, alike[0] if alike else nearest(key, within or known))
+
+    def summary(self) -> dict[str, Any]:
+        """Number of points of each status, and the design of the sweep.
+
+        Returns
+        -------
+        dict
+            ``title``, ``design``, ``varied``, ``points`` (number of all points), the numbers of points that
+            are ``solved``, ``not converged``, ``failed`` and ``open``, and the time ``seconds`` [s].
+        """
+        counts = Counter(point.status for point in self.points)
+        states: tuple[Status, ...] = ("solved", "not converged", "failed", "open")
+        return {
+            "title": self.title or self.case.title,
+            "design": self.design,
+            "varied": list(self.varied),
+            "points": len(self.points),
+            **{status: counts[status] for status in states},
+            "seconds": sum(point.seconds for point in self.points),
+        }
+
+    def to_xarray(self) -> xr.Dataset:
+        """Dataset of inputs and results, over the varied keys in a "grid" design, the same as sweep.nc."""
+        return dataset_of(self)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Points as a table of pandas, a row for each.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns by dotted key as in sweep.csv, SI units; NaN where a point is not solved.
+            ``attrs["units"]`` has the unit of each column of numbers.
+        """
+        import pandas as pd
+
+        columns = columns_of(self)
+        units = {key: unit_of_column(self, key) for key in columns}
+        frame = pd.DataFrame(columns)
+        frame.attrs["units"] = {key: unit for key, unit in units.items() if unit is not None}
+        return frame
+
+    def _headline(self) -> str:
+        """Title, number of points, varied keys and status on one line."""
+        counts = self.summary()
+        others = [f"{counts[status]} {status}" for status in ("not converged", "failed", "open")]
+        return headline(
+            str(counts["title"]),
+            f"{self.design} of {len(self.points)} points over {', '.join(map(self._name, self.varied))}",
+            f"{counts['solved']} solved",
+            *(text for text in others if not text.startswith("0 ")),
+            verdict=self.verdict,
+        )
+
+    def _name(self, key: str) -> str:
+        return label_of(key, self.case).name
+
+
+CSV = "sweep.csv"
+PARQUET = "sweep.parquet"
+NETCDF = "sweep.nc"
+FILES = (CSV, PARQUET, NETCDF)
+
+
+def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
+    """Write sweep.csv, sweep.nc and, if pyarrow is installed, sweep.parquet, all of them or none.
+
+    Parameters
+    ----------
+    results : SweepResults
+        A sweep, finished or not.
+    folder : str or Path
+        Output folder; created if it does not exist.
+
+    Returns
+    -------
+    list of Path
+        Files written.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written to, its disk is full, or another command writes into it.
+    """
+    columns = columns_of(results)
+    rows = zip(*(map(_cell, column) for column in columns.values()), strict=True)
+    contents: dict[str, Content] = {
+        CSV: csv_of(_heads(results, columns), rows, ending="\n"),
+        NETCDF: content_of(results.to_xarray()),
+    }
+    if find_spec("pyarrow") is not None:
+        contents[PARQUET] = partial(_write_parquet, columns)
+    with alone_in(folder, FILES, locks=[FIGURE_LOCK]) as folder:
+        return write_together(folder, contents, FILES)
+
+
+def _write_parquet(columns: Mapping[str, list[Any]], file: BinaryIO) -> None:
+    """Write columns as Parquet."""
+    import pyarrow
+    from pyarrow import parquet
+
+    # In memory: the library would close the file itself.
+    sink = pyarrow.BufferOutputStream()
+    parquet.write_table(pyarrow.table({key: _plain(column) for key, column in columns.items()}), sink)
+    file.write(sink.getvalue())
+
+
+def _cell(value: Any) -> Any:
+    """Value for a cell of sweep.csv."""
+    # The writer of Python quotes no carriage return where lines end in line feeds; no title has one.
+    if isinstance(value, str):
+        return value.replace("\r", r"\r")
+    return value if is_number(value) else cell(value)
+
+
+def _heads(results: SweepResults, columns: Iterable[str]) -> list[str]:
+    """Heads of sweep.csv: the dotted key of each column, and the unit of numbers in brackets."""
+    units = {key: unit_of_column(results, key) for key in columns}
+    return [key if unit is None else column_head(key, unit) for key, unit in units.items()]
+
+
+def _plain(column: list[Any]) -> list[Any]:
+    """Column with values of a single type, as Parquet needs."""
+    texts = any(isinstance(value, str | list | bool) for value in column)
+    if texts:
+        return [None if value is None else cell(value) for value in column]
+    if any(isinstance(value, float) for value in column):
+        return [None if value is None else float(value) for value in column]
+    return column

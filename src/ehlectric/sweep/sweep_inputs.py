@@ -1,0 +1,745 @@
+"""Input of a sweep: base case, varied keys with their values or ranges, and the design of its points."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+from pydantic import ValidationInfo, create_model, field_validator, model_validator
+from pydantic.fields import FieldInfo
+
+from ehlectric.arrays import Array
+from ehlectric.cases.amounts import WRITTEN, Amount, Count
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.drive_case import (
+    DriveCase,
+    SweptCase,
+    swept_case_of_dict,
+    swept_case_of_file,
+    with_found_files,
+)
+from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of, number_of
+from ehlectric.cases.table import Table, Title, nearest, nearest_key, read_toml
+from ehlectric.errors import InputError, printable, short, shown
+from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.runtime.values import Tabled, headline
+from ehlectric.sweep.points import Range
+from ehlectric.sweep.result import SweepResults
+
+# Keys of a bearing file that a key of a drive replaces at both ends.
+_REPLACED = {
+    "bearing.inner_speed": "drive.speed",
+    "bearing.temperature": "drive.temperature",
+    "contacts": "drive.contacts",
+}
+
+# Keys of a bearing file that no sweep varies: they are not a part of the bearing.
+_NOT_VARIED = ("title", "ranges")
+
+
+def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> None:
+    """Check that a key is one of a case, and that varying it changes the case.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key.
+    case : Case, BearingCase or DriveCase
+        Base case of a sweep.
+    varied : collection of str
+        All keys that the sweep varies.
+
+    Raises
+    ------
+    InputError
+        If the case has no such key; the message names the nearest one. Of a drive also if another key of the
+        drive stands in its place.
+    """
+    if isinstance(case, DriveCase):
+        _check_drive(key, case, varied)
+        return
+    model: type[Table] = BearingCase if isinstance(case, BearingCase) else Case
+    if is_of_drive(key):
+        raise InputError.unknown(key, nearest_key(key, model))
+    try:
+        input_field(key)
+    except InputError as error:
+        if model is BearingCase and "unknown key" in error.text:
+            raise InputError.unknown(key, nearest_key(key, model)) from None
+        raise
+
+
+def _check_drive(key: str, case: DriveCase, varied: Collection[str]) -> None:
+    """Check a key of a drive."""
+    end, own = end_and_key(key)
+    if not is_of_drive(key) and key != "title":
+        raise InputError.unknown(key, _nearest(key))
+    if key == BOTH:
+        raise InputError(key, "is a table", takes=f"one of its keys, as {BOTH}.bearing.radial_load")
+    input_field(key)
+    if end and own.partition(".")[0] in _NOT_VARIED:
+        raise InputError.worded(key, "cannot vary", takes="a key of the bearing")
+    above = _REPLACED.get(own) if end else None
+    if above is not None and (above in varied or getattr(case.drive, above.partition(".")[2]) is not None):
+        raise InputError.worded(key, f"has no effect, as {above} is given for both bearings", takes=above)
+    both = f"{BOTH}.{own}"
+    if end in ENDS and both in varied:
+        raise InputError.worded(key, f"varies beside {both}; vary one of them, or both ends", takes=both)
+
+
+def _nearest(key: str) -> str:
+    """Key of a drive that is nearest to a key of another kind of file; one of a bearing is that of both."""
+    if key.partition(".")[0] not in BearingCase.known_keys():
+        return nearest_key(key, DriveCase)
+    of_bearing = nearest_key(key, BearingCase)
+    return _REPLACED.get(of_bearing, f"{BOTH}.{of_bearing}")
+
+
+@dataclass(frozen=True)
+class Breakdown:
+    """Keys and names of a breakdown voltage, the applied voltage and the margin between them.
+
+    All keys are empty for a drive: its films are charged and discharged, and no single voltage is applied.
+
+    Attributes
+    ----------
+    value : str
+        Dotted key of the breakdown voltage in the summary.
+    margin : str
+        Dotted key of the margin, breakdown voltage divided by applied voltage.
+    voltage : str
+        Dotted key of the applied voltage.
+    name : str
+        Name of the breakdown voltage in figures.
+    voltage_name : str
+        Name of the applied voltage in figures.
+    """
+
+    value: str
+    margin: str
+    voltage: str
+    name: str = "breakdown voltage"
+    voltage_name: str = "applied voltage"
+
+    @property
+    def keys(self) -> tuple[str, str]:
+        """Dotted keys of the breakdown voltage and of the margin."""
+        return self.value, self.margin
+
+    def voltages(self, results: SweepResults) -> Array:
+        """Applied voltage of every point of a sweep [V], shape (points,); NaN where a point has none."""
+        return results.values(self.voltage) if self.voltage else np.full(len(results.points), np.nan)
+
+    def margins(self, results: SweepResults) -> Array:
+        """Breakdown voltage divided by applied voltage of every point of a sweep.
+
+        Parameters
+        ----------
+        results : SweepResults
+            Results of a sweep.
+
+        Returns
+        -------
+        ndarray, shape (points,)
+            Margin of each point, from its summary or, where that has none, from the two voltages; NaN where a
+            point has no breakdown voltage.
+        """
+        if not self.margin:
+            return np.full(len(results.points), np.nan)
+        margin = results.values(self.margin)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = results.values(self.value) / results.values(self.voltage)
+        return np.where(np.isfinite(margin), margin, ratio)
+
+
+CONTACT = Breakdown("discharge.breakdown_voltage", "discharge.margin", "field.voltage")
+FIRST_BREAK = Breakdown(
+    "bearing.first_break",
+    "bearing.margin",
+    "bearing.shaft_voltage",
+    "first breakdown",
+    "shaft voltage",
+)
+THROUGH = Breakdown(
+    "bearing.through_breakdown",
+    "bearing.through_margin",
+    "bearing.shaft_voltage",
+    "ring-to-ring breakdown",
+    "shaft voltage",
+)
+
+# With a coating on a ring, the breakdown voltages beside the shaft voltage are those of the shaft.
+_COATED_FIRST = replace(FIRST_BREAK, value="bearing.shaft_first_break")
+_COATED_THROUGH = replace(THROUGH, value="bearing.shaft_through_breakdown")
+
+
+# Of a drive no applied voltage stands beside the breakdown voltage of a film.
+_NONE = Breakdown("", "", "")
+
+
+def main_value(case: SweptCase) -> str:
+    """Key of the summary that figures of a sweep show first.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Base case of the sweep.
+
+    Returns
+    -------
+    str
+        Breakdown voltage of a contact, first breakdown of a bearing, or discharges per second of a drive.
+    """
+    return breakdown_of(case).value or "drive.events_per_second"
+
+
+def ranked_value(case: SweptCase) -> str:
+    """Key of the summary to whose spread the inputs of a Sobol design are ranked.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Base case of the sweep.
+
+    Returns
+    -------
+    str
+        Margin of a bearing with a motor, of which the breakdown voltage is only a part; else ``main_value``.
+    """
+    if isinstance(case, BearingCase) and case.motor is not None and case.discharge.has_strength:
+        return breakdown_of(case).margin
+    return main_value(case)
+
+
+def breakdown_of(case: SweptCase, value: str | None = None) -> Breakdown:
+    """Breakdown voltage that a value of a summary belongs to.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Base case of the sweep.
+    value : str, optional
+        Dotted key of the value.
+
+    Returns
+    -------
+    Breakdown
+        Breakdown of a contact. For a bearing, the first breakdown of one of its contacts, except if ``value``
+        is a key of the ring-to-ring breakdown. Without keys for a drive.
+    """
+    if isinstance(case, DriveCase):
+        return _NONE
+    if not isinstance(case, BearingCase):
+        return CONTACT
+    if case.bearing.coating is not None:
+        through = value in (*THROUGH.keys, _COATED_THROUGH.value)
+        return _COATED_THROUGH if through else _COATED_FIRST
+    return THROUGH if value in THROUGH.keys else FIRST_BREAK
+
+
+def grid(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
+    """Points of a grid design: every combination of the values of all keys.
+
+    Parameters
+    ----------
+    axes : mapping
+        Values of each key.
+
+    Yields
+    ------
+    dict
+        Inputs of a point by key; the last key varies fastest.
+
+    Examples
+    --------
+    >>> list(grid({"a": [1, 2], "b": [3, 4]}))
+    [{'a': 1, 'b': 3}, {'a': 1, 'b': 4}, {'a': 2, 'b': 3}, {'a': 2, 'b': 4}]
+    """
+    for values in product(*axes.values()):
+        yield dict(zip(axes, values, strict=True))
+
+
+def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
+    """Points of a paired design: the first values of all keys, then the second values, and so on.
+
+    Parameters
+    ----------
+    axes : mapping
+        Values of each key, equally many.
+
+    Yields
+    ------
+    dict
+        Inputs of a point by key.
+
+    Raises
+    ------
+    ValueError
+        If the keys have different numbers of values.
+
+    Examples
+    --------
+    >>> list(paired({"a": [1, 2], "b": [3, 4]}))
+    [{'a': 1, 'b': 3}, {'a': 2, 'b': 4}]
+    """
+    for values in zip(*axes.values(), strict=True):
+        yield dict(zip(axes, values, strict=True))
+
+
+def sobol(
+    ranges: Mapping[str, Range], samples: int, seed: int, whole: Collection[str] = ()
+) -> Iterator[dict[str, Any]]:
+    """Points of a Sobol design, from which first-order and total sensitivity indices are estimated.
+
+    Parameters
+    ----------
+    ranges : mapping
+        Range of each key, in SI units.
+    samples : int
+        Number n of rows of the matrices A and B, a power of two.
+    seed : int
+        Seed of the scrambling of Sobol's sequence: the same seed gives the same points.
+    whole : collection of str
+        Keys whose values are whole numbers. Every whole number of the range is equally likely with linear
+        spacing.
+
+    Yields
+    ------
+    dict
+        Inputs of a point by key, in SI units. For d keys there are n(d + 2) points. The rows of A come
+        first, then the rows of B. For each key, the rows of A follow with the column of this key from B.
+
+    Notes
+    -----
+    A and B are the halves of a scrambled Sobol sequence in 2d dimensions. Saltelli et al., Comput. Phys.
+    Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, table 2. The values computed at
+    these points are f_A, f_B and f_AB of ``scipy.stats.sobol_indices``.
+
+    Examples
+    --------
+    >>> points = list(sobol({"a": Range(0.0, 1.0), "b": Range(1.0, 100.0, "log")}, 4, seed=0))
+    >>> len(points), points[8] == {"a": points[4]["a"], "b": points[0]["b"]}
+    (16, True)
+    """
+    from scipy.stats import qmc
+
+    count = len(ranges)
+    engine = qmc.Sobol(2 * count, scramble=True, seed=np.random.default_rng(seed))
+    # The sequence is balanced only for a power of two of samples.
+    unit = engine.random_base2(samples.bit_length() - 1)
+    first, second = unit[:, :count], unit[:, count:]
+    yield from _rows(ranges, first, whole)
+    yield from _rows(ranges, second, whole)
+    for k in range(count):
+        mixed = first.copy()
+        mixed[:, k] = second[:, k]
+        yield from _rows(ranges, mixed, whole)
+
+
+def _rows(ranges: Mapping[str, Range], unit: Array, whole: Collection[str]) -> Iterator[dict[str, Any]]:
+    """Points of a design from rows of the unit cube, shape (n, keys)."""
+    columns = [
+        (shares if key in whole else between)(over, unit[:, k]).tolist()
+        for k, (key, over) in enumerate(ranges.items())
+    ]
+    for values in zip(*columns, strict=True):
+        yield dict(zip(ranges, values, strict=True))
+
+
+def between(over: Range, unit: ArrayLike) -> Array:
+    """Values at given fractions of a range.
+
+    Parameters
+    ----------
+    over : Range
+        Ends and spacing of the range.
+    unit : array_like, shape (...)
+        Fraction of the range, from 0 at its start to 1 at its end.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Values in the unit of the range; at 0 and 1 its exact ends.
+
+    Examples
+    --------
+    >>> between(Range(1.0, 100.0, "log"), [0.0, 0.5, 1.0])
+    array([  1.,  10., 100.])
+    """
+    unit = np.asarray(unit, dtype=float)
+    if over.spacing == "log":
+        values = over.start ** (1.0 - unit) * over.stop**unit
+    else:
+        values = (1.0 - unit) * over.start + unit * over.stop
+    return np.clip(values, over.start, over.stop)
+
+
+def shares(over: Range, unit: ArrayLike) -> Array:
+    """Whole numbers at given fractions of a range.
+
+    Parameters
+    ----------
+    over : Range
+        Ends of the range, whole numbers, and its spacing.
+    unit : array_like, shape (...)
+        Fraction of the range, from 0 to 1.
+
+    Returns
+    -------
+    ndarray of int, shape (...)
+        Whole numbers of the range. With linear spacing, each covers an equal part of the unit interval.
+        Rounding alone would give half a part to each of the two ends.
+
+    Examples
+    --------
+    >>> shares(Range(1, 3), [0.0, 0.3, 0.4, 0.6, 0.7, 1.0])
+    array([1, 1, 2, 2, 3, 3])
+    """
+    wider = Range(over.start - 0.5, over.stop + 0.5, over.spacing)
+    rounded = np.floor(between(wider, unit) + 0.5)
+    return np.clip(rounded, over.start, over.stop).astype(np.int64)
+
+
+# Summaries and tables take about 20 kB of memory per point, thus 4 GB for this number of points.
+MOST_POINTS = 200_000
+_RANGE_KEYS = ("from", "to", "count", "spacing")
+_SPACINGS = ("linear", "log")
+_RANGE = "a list of values, or a table of from, to, count and optionally spacing"
+
+
+class Sweep(Tabled, Table):
+    """Sweep over many cases: a base case, and the keys of it that vary.
+
+    ``vary`` maps dotted keys of the case to their values in SI units or, in a "sobol" design, to a ``Range``.
+    It is made from lists, arrays, or tables of ``from``, ``to``, ``count`` and optionally ``spacing``.
+    Rough surfaces are numbered from 1, as in "roughness.1.rescale_rq". A varied key replaces its alternative
+    in the base case, as a load replaces a Hertz pressure. In a drive "bearings" before a key of a bearing
+    file stands for both bearings, as in "bearings.bearing.radial_load".
+
+    Examples
+    --------
+    >>> contact = {"reduced_radius": "14.1 mm", "reduced_modulus": "226 GPa"}
+    >>> contact |= {"max_hertz_pressure": "1 GPa", "entrainment_speed": "4 m/s"}
+    >>> case = Case.from_dict({"contact": contact, "lubricant": {"base": "paper"}})
+    >>> vary = {"contact.entrainment_speed": ["1 m/s", "2 m/s"], "grid.nodes": [1601, 3201]}
+    >>> sweep = Sweep.from_dict({"case": case, "vary": vary})
+    >>> sweep.size, list(sweep.points())[1]
+    (4, {'contact.entrainment_speed': 1.0, 'grid.nodes': 3201})
+    """
+
+    title: Title = ""
+    case: SweptCase
+    design: Literal["grid", "paired", "sobol"] = "grid"
+    vary: Mapping[str, Any]
+    samples: Annotated[int, Count(2, 2**16, "rows of each matrix of a sobol design")] | None = None
+    seed: Annotated[int, Count(0, 2**32, "of the random numbers of a sobol design")] = 0
+
+    @field_validator("case")
+    @classmethod
+    def _alone(cls, case: SweptCase) -> SweptCase:
+        """Case without remedies, which a sweep does not solve: what they change may vary."""
+        remedied = isinstance(case, DriveCase) and case.remedies
+        return case.replace(remedies=()) if remedied else case
+
+    @field_validator("vary", mode="before")
+    @classmethod
+    def _parsed(cls, tables: Any, info: ValidationInfo) -> Any:
+        """Varied values in SI units; unchanged if the case or the design is already invalid."""
+        case, design = info.data.get("case"), info.data.get("design")
+        if not isinstance(tables, Mapping) or case is None or design is None:
+            return tables
+        flat = _flattened(tables)
+        if not flat:
+            raise InputError(got="no key", takes="at least one key of the case with its values or its range")
+        written = bool(info.context and info.context.get(WRITTEN))
+        for key in flat:
+            check_varied(key, case, flat)
+        return {key: _axis(key, value, design, written=written) for key, value in flat.items()}
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if isinstance(self.case, Case) and self.case.motion is not None:
+            raise InputError(
+                "case.motion",
+                got="[motion] in a sweep, whose films are stationary",
+                takes="a case without it",
+            )
+        if self.design == "sobol":
+            if self.samples is None:
+                raise InputError.worded("samples", "missing; a sobol design needs it: a power of two")
+            if self.samples & (self.samples - 1):
+                raise InputError("samples", got=self.samples, takes="a power of two, such as 64 or 1024")
+        for name in ("samples", "seed") if self.design != "sobol" else ():
+            if name in self.model_fields_set:
+                raise InputError.worded(
+                    name, f"is not used by a {self.design} design; only a sobol design needs it"
+                )
+        lengths = {key: len(axis) for key, axis in self.axes.items()}
+        if self.design == "paired" and len(set(lengths.values())) > 1:
+            counts = ", ".join(f"{length} of {key}" for key, length in lengths.items())
+            raise InputError("vary", got=counts, takes="as many of each in a paired design")
+        if self.size > MOST_POINTS:
+            raise InputError("vary", got=f"{self.size} points", takes=f"at most {MOST_POINTS}")
+        return self
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a sweep from a TOML file; file names in it are relative to its folder.
+
+        Parameters
+        ----------
+        path : str or Path
+            TOML file.
+
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
+        Raises
+        ------
+        InputError
+            If the file or its case file cannot be read or is not TOML, or if the sweep is not valid.
+        """
+        table, folder = read_toml(path), Path(path).parent
+        match table.get("case"):
+            case str(name):
+                table["case"] = str(folder / name)
+            case dict(inner):
+                table["case"] = with_found_files(inner, folder)
+        if isinstance(table.get("vary"), dict):
+            _locate(table["vary"], folder)
+        return cls.from_written(table)
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any]) -> Self:
+        """Create a sweep from nested tables.
+
+        Parameters
+        ----------
+        table : mapping
+            Tables of the sweep. Its ``case`` is a Case, BearingCase or DriveCase, the tables of one, or the
+            path of its file.
+
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
+        Raises
+        ------
+        InputError
+            If a key or value is invalid. The message is one line: the key, its value, and what is allowed.
+        """
+        return super().from_dict(_with_case(table, written=False))
+
+    @classmethod
+    def from_written(cls, table: Mapping[str, Any]) -> Self:
+        """Create a sweep from tables that a person wrote into a file; rotational speeds must have their unit.
+
+        Parameters
+        ----------
+        table : mapping
+            Tables of the sweep, as for ``from_dict``.
+
+        Returns
+        -------
+        Sweep
+            Sweep with its base case and its varied keys.
+
+        Raises
+        ------
+        InputError
+            If a key or value is invalid. The message is one line: the key, its value, and what is allowed.
+        """
+        return super().from_written(_with_case(table, written=True))
+
+    def _headline(self) -> str:
+        """Title, number of points and varied keys on one line."""
+        title = self.title or self.case.title
+        return headline(title, f"{self.design} of {self.size} points over {', '.join(self.vary)}")
+
+    @property
+    def axes(self) -> dict[str, tuple[Any, ...]]:
+        """Values of each varied key, in SI units; empty for a "sobol" design."""
+        return {} if self.design == "sobol" else dict(self.vary)
+
+    @property
+    def ranges(self) -> dict[str, Range]:
+        """Range of each varied key of a "sobol" design, in SI units; empty for other designs."""
+        return dict(self.vary) if self.design == "sobol" else {}
+
+    @property
+    def size(self) -> int:
+        """Number of points of the design."""
+        if self.design == "sobol":
+            return (self.samples or 0) * (len(self.vary) + 2)
+        lengths = [len(axis) for axis in self.axes.values()]
+        return math.prod(lengths) if self.design == "grid" else lengths[0]
+
+    def points(self) -> Iterator[dict[str, Any]]:
+        """Inputs of every point by dotted key of the case, in SI units, in the order of the design."""
+        if self.design == "sobol":
+            whole = [key for key in self.vary if isinstance(number_of(input_field(key)), Count)]
+            return sobol(self.ranges, self.samples or 0, self.seed, whole)
+        return {"grid": grid, "paired": paired}[self.design](self.axes)
+
+
+def _with_case(table: Mapping[str, Any], *, written: bool) -> Mapping[str, Any]:
+    """Tables of a sweep with its base case in place of the tables or the file of the case."""
+    case = table.get("case")
+    try:
+        if isinstance(case, str | Path):
+            return {**table, "case": swept_case_of_file(case)}
+        if isinstance(case, Mapping):
+            return {**table, "case": swept_case_of_dict(case, written=written)}
+        if case is not None and not isinstance(case, SweptCase):
+            raise InputError("case", got=shown(case), takes="a table or the name of a file")
+    except InputError as error:
+        if error.key in ("case", printable(str(case)) if isinstance(case, str | Path) else None):
+            raise
+        if isinstance(case, str | Path):
+            raise error.retold(str(case), str(error)) from None
+        raise error.under("case") from None
+    return table
+
+
+def _flattened(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Values and ranges by dotted key, from dotted keys and nested tables in any mixture."""
+    flat: dict[str, Any] = {}
+    for key, value in tables.items():
+        table = isinstance(value, Mapping) and not {"from", "to"} & set(value)
+        if table and kind_of(f"{prefix}{key}") is not None:
+            raise InputError(
+                f"{prefix}{key}",
+                got=f"a table of {short(', '.join(map(str, value))) or 'nothing'}",
+                takes=_RANGE,
+            )
+        inner = _flattened(value, f"{prefix}{key}.") if table else {f"{prefix}{key}": value}
+        for name in inner.keys() & flat.keys():
+            raise InputError.worded(name, "is given twice")
+        flat |= inner
+    return flat
+
+
+def _locate(tables: dict[str, Any], folder: Path, prefix: str = "") -> None:
+    """Make file names among the varied values absolute; in the sweep file they are relative to its folder."""
+    for name, value in tables.items():
+        key = prefix + name
+        if isinstance(value, dict):
+            _locate(value, folder, f"{key}.")
+        elif isinstance(value, list) and _names_a_file(key):
+            tables[name] = [str((folder / v).absolute()) if isinstance(v, str) else v for v in value]
+
+
+def _names_a_file(key: str) -> bool:
+    """Whether the values of a key are names of files."""
+    return key == "source.file" or (key.startswith("roughness.") and key.endswith(".file"))
+
+
+def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...] | Range:
+    """Values of a varied key, in SI units, or its range in a sobol design."""
+    if key.partition(".")[0] == "motion":
+        raise InputError.worded(key, "cannot vary: the films of a sweep are stationary")
+    field = input_field(key)
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, Mapping):
+        return _range(key, value, number_of(field), design, written=written)
+    if isinstance(value, Range):
+        value = {"from": value.start, "to": value.stop, "spacing": value.spacing}
+        return _range(key, value, number_of(field), design)
+    if design == "sobol":
+        raise InputError(key, got=shown(value), takes="a table with from and to in a sobol design")
+    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) == 0:
+        raise InputError(key, got=shown(value), takes="a list of values or a table with from and to")
+    values = tuple(_values(key, field, value, written=written))
+    known: set[str] = set()
+    for each in values if design == "grid" else ():
+        text = json.dumps(each)
+        if text in known:
+            raise InputError(key, got=f"{shown(each)} twice", takes="values that differ in a grid design")
+        known.add(text)
+    return values
+
+
+def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool) -> Iterator[Any]:
+    """Values of a varied key as a case stores them; numbers are in SI units."""
+    table, _, leaf = key.rpartition(".")
+    annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    keys: Any = {leaf: (annotation, ...)}
+    value_of: type[Table] = create_model("Value", __base__=Table, **keys)
+    for each in values:
+        value = each.item() if isinstance(each, np.generic) else each
+        try:
+            made = value_of.from_written({leaf: value}) if written else value_of.from_dict({leaf: value})
+            parsed = made.model_dump(mode="json")[leaf]
+        except InputError as error:
+            raise error.under(table) from None
+        yield parsed
+
+
+def _range(
+    key: str, table: Mapping[str, Any], number: Amount | Count | None, design: str, *, written: bool = False
+) -> tuple[Any, ...] | Range:
+    """Values of a varied key between two ends, in SI units, or its range in a sobol design."""
+    if number is None:
+        raise InputError(key, got="a range", takes="a list of values, because the key is not a number")
+    for name in table:
+        if name not in _RANGE_KEYS:
+            near = nearest(str(name), _RANGE_KEYS)
+            raise InputError.unknown(f"{key}.{name}", f"{key}.{near}")
+    over = _over(key, table, number, written=written)
+    if design == "sobol":
+        if "count" in table:
+            raise InputError.worded(
+                f"{key}.count", "is not used by a sobol design; samples gives the number for all keys"
+            )
+        return over
+    count = table.get("count")
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_POINTS:
+        got = None if count is None else shown(count)
+        raise InputError(
+            f"{key}.count", got=got, takes=f"how many values, a whole number from 2 to {MOST_POINTS}"
+        )
+    values = between(over, np.linspace(0.0, 1.0, count))
+    if isinstance(number, Amount):
+        return tuple(values.tolist())
+    rounded = tuple(np.floor(values + 0.5).astype(int).tolist())
+    if design == "grid" and len(set(rounded)) < count:
+        raise InputError(
+            f"{key}.count", got=count, takes=f"at most the whole numbers from {over.start:g} to {over.stop:g}"
+        )
+    return rounded
+
+
+def _over(key: str, table: Mapping[str, Any], number: Amount | Count, *, written: bool) -> Range:
+    """Range of a varied key: its ends in SI units, and its spacing."""
+    ends = []
+    for name in ("from", "to"):
+        if name not in table:
+            raise InputError.missing(f"{key}.{name}", number.takes)
+        try:
+            end = table[name]
+            ends.append(
+                number.parse(end, written=written) if isinstance(number, Amount) else number.parse(end)
+            )
+        except InputError as error:
+            raise error.under(f"{key}.{name}") from None
+    start, stop = ends
+    spacing = table.get("spacing", "linear")
+    if spacing not in _SPACINGS:
+        raise InputError(f"{key}.spacing", got=shown(spacing), takes="'linear' or 'log'")
+    if not start < stop:
+        raise InputError(f"{key}.to", got=shown(table["to"]), takes=f"more than from, {shown(table['from'])}")
+    if spacing == "log" and start <= 0.0:
+        raise InputError(f"{key}.from", got=shown(table["from"]), takes="more than 0 with spacing 'log'")
+    return Range(start, stop, spacing)

@@ -1,0 +1,261 @@
+"""Verdict on a sweep: at how many of its points breakdown is expected, and at which value that begins."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from ehlectric.arrays import Array
+from ehlectric.bearing.quick_contacts import formula_factor
+from ehlectric.bearing.solution import percent
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.defaults import QUICK
+from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.discharge.film_verdict import (
+    DOUBTS,
+    Level,
+    Verdict,
+    assumption_of,
+    ratio_text,
+    strength_interval,
+)
+from ehlectric.quantities.formats import Scale
+from ehlectric.quantities.rows import value_at
+from ehlectric.runtime.values import is_number
+from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.points import Point, SweepPoints
+
+# Reason for which a bearing with a lambda ratio below 1 has no margin.
+_TOUCH = "surfaces touch (discharges likely as contacts open)"
+
+
+def sweep_verdict(results: SweepPoints) -> Verdict | None:
+    """Verdict on a sweep from the margins of its points.
+
+    Parameters
+    ----------
+    results : SweepPoints
+        Results of a sweep.
+
+    Returns
+    -------
+    Verdict or None
+        Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
+        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where the
+        margin of a contact is that of a boundary film, as its asperities touch. Nor is it green or red where
+        the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by
+        its warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces
+        touch at all points of a bearing with a motor, yellow where they touch at some or without a motor, and
+        None where they touch at none, and None for drives.
+    """
+    if isinstance(results.case, DriveCase):
+        return None  # it is a number of discharges whose harm depends on the bearing, not on a margin
+    usable = _margins(results)
+    known = usable[np.isfinite(usable)]
+    if not known.size:
+        return _without_voltages(results)
+    below, missing = int(np.sum(known < 1.0)), usable.size - known.size
+    lowest, highest = float(np.min(known)), float(np.max(known))
+    count = str(below) if below else "none"
+    span = f"{ratio_text(lowest)} to {ratio_text(highest)}"
+    doubts = list(_doubts(results, usable))
+    # A verdict that is not sure at its points is not sure between them.
+    word = "likely" if doubts and below else "expected"
+    sentences = [
+        f"Breakdown is {word} at {count} of {known.size} points: the margin is {span}.",
+        *_crossings(results, usable, word),
+    ]
+    if missing:
+        sentences.append(f"{missing} more {_have(missing)} no margin, {_why(results, usable)}.")
+    touching = sum(
+        math.isfinite(margin) and any(one.code == "asperities-touch" for one in point.warnings)
+        for point, margin in zip(results.points, usable, strict=True)
+    )
+    if touching:
+        sentences.append(
+            f"At {touching} of the points the surfaces touch: spots conduct, and the margin is that of the "
+            "boundary film; use the asperities of these points."
+        )
+    level: Level = "red" if below == known.size else "yellow" if below or missing or touching else "green"
+    if doubts:
+        level = "yellow"
+    return Verdict(level, " ".join([*sentences, *doubts, *_assumptions(results)]), lowest)
+
+
+def _without_voltages(results: SweepPoints) -> Verdict | None:
+    """Verdict on points without a margin: red where contacts open and close at all, None where at none."""
+    states = [value_at(point.summary or {}, "bearing.lubrication") for point in results.points]
+    count = states.count("conducting")
+    if not count:
+        return None
+    sure = all(point.solved and not point.doubtful for point in results.points)
+    everywhere = sure and count == len(states) and _driven(results)
+    return Verdict(
+        "red" if everywhere else "yellow",
+        f"Discharges likely: at {count} of {len(states)} points surfaces touch (lambda ratio below 1), and "
+        "contacts discharge at a low voltage as they open; no voltage is computed for that.",
+    )
+
+
+def _driven(results: SweepPoints) -> bool:
+    """Whether all points have a motor, whose common-mode voltage lies on the shaft."""
+    case = results.case
+    return isinstance(case, BearingCase) and case.motor is not None
+
+
+def _doubts(results: SweepPoints, margins: Array) -> Iterator[str]:
+    """Sentences for which margins may lie on the other side of 1."""
+    known = [
+        (point, margin)
+        for point, margin in zip(results.points, margins, strict=True)
+        if math.isfinite(margin)
+    ]
+    errors = [_film_error(point, results.case) for point, _ in known]
+    off = max(errors)
+    near = sum(
+        margin / (1.0 + error) < 1.0 <= margin * (1.0 + error)
+        for error, (_, margin) in zip(errors, known, strict=True)
+    )
+    if near:
+        yield f"At {near} of the points the margin is within the {percent(off)} that films may be off."
+    if not _strength_varies(results):
+        weak = sum(low < 1.0 <= high for low, high in (strength_interval(margin) for _, margin in known))
+        if weak:
+            yield f"At {weak} of the points a strength that differs by 20 % takes the margin across 1."
+    doubtful = sum(
+        bool({one.code for one in point.warnings} & {*DOUBTS, "partial-film"})
+        for point, margin in known
+        if margin >= 1.0
+    )
+    if doubtful:
+        yield f"At {doubtful} of the points warnings say that the margin may be lower."
+
+
+def _film_error(point: Point, case: SweptCase) -> float:
+    """Relative error of the films of a bearing that is not solved; 0 of other points."""
+    summary = point.summary or {}
+    contacts = value_at(summary, "bearing.contacts")
+    if contacts not in QUICK or not isinstance(case, BearingCase):
+        return 0.0
+    if contacts == "formula":
+        return formula_factor(case.bearing.kind) - 1.0
+    return float(value_at(summary, "bearing.film_error") or 0.0)
+
+
+def _strength_varies(results: SweepPoints) -> bool:
+    """Whether the strength is among the varied inputs."""
+    return any(key.startswith("discharge.") for key in results.varied)
+
+
+def _assumptions(results: SweepPoints) -> Iterator[str]:
+    """Sentence about the assumptions behind the margins, which drives have not."""
+    if isinstance(results.case, DriveCase):
+        return
+    bound = ""
+    factors = {value_at(point.summary or {}, "bearing.film_factor") for point in results.points}
+    if not isinstance(results.case, BearingCase):
+        supplied = results.case.inlet is not None or any(key.startswith("inlet.") for key in results.varied)
+        heated = results.case.film is not None and results.case.film.thermal
+        cold = "" if heated and "film.thermal" not in results.varied else "isothermal"
+        kinds = [kind for kind in (cold, "" if supplied else "fully flooded") if kind]
+        bound = f"Upper bound: {', '.join(kinds)} film; " if kinds else ""
+    else:
+        heat = "isothermal, fully flooded, smooth film" if factors & {1.0} else "smooth film"
+        bound = f"Upper bound: {heat}; "
+    discharge = results.case.discharge
+    if discharge is None or not discharge.has_strength:
+        return
+    if _strength_varies(results):
+        clause = "the dielectric strength is an assumption"
+    else:
+        clause = assumption_of(discharge)
+    text = f"{bound}{clause}."
+    yield text[0].upper() + text[1:]
+
+
+def _have(count: int) -> str:
+    return "point has" if count == 1 else "points have"
+
+
+def _margins(results: SweepPoints) -> Array:
+    """Margin at every point; NaN where a point has none or its film must not be used."""
+    table = "bearing" if isinstance(results.case, BearingCase) else "discharge"
+    used = [(point.summary or {}) if point.solved and not point.doubtful else {} for point in results.points]
+    values = [value_at(summary, f"{table}.margin") for summary in used]
+    return np.array([math.nan if value is None else float(value) for value in values])
+
+
+def _why(results: SweepPoints, margins: Array) -> str:
+    """Reasons why points have no margin, with their numbers."""
+    counts: dict[str, int] = {}
+    for point, margin in zip(results.points, margins, strict=True):
+        if math.isfinite(margin):
+            continue
+        state = value_at(point.summary or {}, "bearing.lubrication")
+        if not point.solved:
+            reason = "not solved"
+        elif point.doubtful:
+            reason = "solved, but not to be used"
+        else:
+            reason = _TOUCH if state == "conducting" else "no breakdown voltage or no voltage"
+        counts[reason] = counts.get(reason, 0) + 1
+    if len(counts) == 1:
+        return next(iter(counts))
+    return ", ".join(f"{count} {reason}" for reason, count in counts.items())
+
+
+def _crossings(results: SweepPoints, margins: Array, word: str) -> list[str]:
+    """Sentences about the values of a single varied input at which the margin crosses 1."""
+    if len(results.varied) != 1 or results.design == "sobol":
+        return []
+    key = results.varied[0]
+    inputs = [point.inputs[key] for point in results.points]
+    if not all(map(is_number, inputs)):
+        return []
+    rows = sorted(
+        (float(value), float(margin))
+        for value, margin in zip(inputs, margins, strict=True)
+        if math.isfinite(margin)
+    )
+    return [
+        f"{'Below' if low[1] < high[1] else 'Above'} about "
+        f"{value_text(key, crossing(low, high), results.case)} the margin is below 1: breakdown is {word}."
+        for low, high in pairwise(rows)
+        if (low[1] < 1.0) != (high[1] < 1.0)
+    ]
+
+
+def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
+    """Input at which the margin is 1 between two points, interpolated in the logarithm of the margin.
+
+    Parameters
+    ----------
+    low, high : tuple of float
+        Input and margin at both points. The logarithm of the input is used where both inputs are above 0.
+
+    Examples
+    --------
+    A margin in proportion to the speed:
+
+    >>> round(crossing((100.0, 0.5), (400.0, 2.0)), 9)
+    200.0
+    """
+    logarithmic = low[0] > 0.0
+    ends = (math.log(low[0]), math.log(high[0])) if logarithmic else (low[0], high[0])
+    part = -math.log(low[1]) / (math.log(high[1]) - math.log(low[1]))
+    found = ends[0] + part * (ends[1] - ends[0])
+    return math.exp(found) if logarithmic else found
+
+
+def value_text(key: str, value: Any, case: SweptCase) -> str:
+    """Value of an input in the unit that is printed, with three digits; temperatures in degrees Celsius."""
+    label = label_of(key, case)
+    if label.unit == "K":
+        return f"{value - 273.15:.3g} °C"
+    scale = Scale(180.0 / math.pi, "deg") if label.unit == "rad" else label.scaled(np.array([value]))
+    shown = float(f"{value * scale.factor:.3g}")
+    return f"{shown:g} {scale.unit}".rstrip()

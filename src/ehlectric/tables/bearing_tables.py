@@ -1,0 +1,555 @@
+"""Rows of the totals of a bearing: films, meter, asperities, bounds, and tables of the contacts of its
+elements.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ehlectric.bearing.bearing_touching import SELDOM, time_text
+from ehlectric.bearing.margin import OF_TABLE
+from ehlectric.cases.defaults import HOW
+from ehlectric.cases.input_keys import unit_of
+from ehlectric.discharge.film_verdict import ratio_text
+from ehlectric.quantities.bearing_results import BEARING_BOOK
+from ehlectric.quantities.bounds import bearing_bound_words, bearing_bounds
+from ehlectric.quantities.formats import Scale, amount, formatted, scale_for, scale_of
+from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, shown_unit, value_at
+from ehlectric.quantities.sheets import BEARING, BEARING_CHECK, FILM_COLUMNS, LOAD_COLUMNS
+from ehlectric.quantities.units import rpm_text
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+# What a lambda ratio below 1 means, by the state of lubrication.
+_TOUCH = {
+    "conducting": ", surfaces touch (no voltage computed)",
+    "touching": ", surfaces touch",
+}
+
+# Heat of a film factor in words.
+_HEAT: Mapping[object, str] = {
+    "inlet-shear": "heating by shear in the inlet",
+    "solved": "solved heat in the film, in pure rolling",
+}
+
+# Laws of the share of time of a contact, in words.
+_LAWS = {"clarke": "Clarke's fit over lambda", "greenwood_williamson": "the number of spots"}
+
+
+def total_rows(summary: Summary) -> list[Row]:
+    """Rows of a bearing: the inputs that decide, its totals, and what moves its margin.
+
+    The first row is an alarm if a film is not converged.
+    """
+    rows = sheet_rows(BEARING, BEARING_BOOK, summary, _WORDS, bearing_bounds(BEARING_BOOK, summary))
+    return [*_status(summary), *rows]
+
+
+def check_rows(summary: Summary, words: Words | None = None) -> list[Row]:
+    """Rows of a bearing whose contacts are not solved, with further words beside its numbers."""
+    bounds = bearing_bounds(BEARING_BOOK, summary)
+    return list(sheet_rows(BEARING_CHECK, BEARING_BOOK, summary, _WORDS | (words or Words()), bounds))
+
+
+def input_rows(summary: Summary) -> Iterator[Row]:
+    """Rows of the inputs that decide about breakdown."""
+    return sheet_rows(BEARING[:1], BEARING_BOOK, summary, _WORDS)
+
+
+def _status(summary: Summary) -> Iterator[Row]:
+    """Row that warns of films that are not converged."""
+    if not summary["converged"]:
+        yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
+
+
+def loads_table(summary: Summary) -> Table:
+    """Table of the loads and dry contacts of all elements with both rings."""
+    return _contacts_table(summary, LOAD_COLUMNS)
+
+
+def films_table(summary: Summary) -> Table:
+    """Table of the films, capacitances and voltages of all elements with both rings."""
+    driven = summary["bearing"]["shaft_voltage"] is not None
+    other = "strength_per_volt" if driven else "max_strength"
+    return _contacts_table(summary, tuple(key for key in FILM_COLUMNS if key != other))
+
+
+def _contacts_table(summary: Summary, keys: tuple[str, ...]) -> Table:
+    """Table with a row for each element and ring, and these columns."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for name, unit in contact_heads(summary, keys):
+        # Rich would read a unit of small letters in brackets as a style.
+        table.add_column(escape(f"{name}\n{unit}".strip()), justify="right", no_wrap=True)
+    for row in summary["contacts"]:
+        table.add_row(*contact_cells(row, keys))
+    return table
+
+
+def contact_heads(summary: Summary, keys: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Names of columns of the contacts, and their units in brackets after the sign of a bound."""
+    bounds = bearing_bounds(BEARING_BOOK, summary)
+    for key in keys:
+        about = BEARING_BOOK[f"contacts.{key}"]
+        unit = shown_unit(about, 1.0)
+        yield about.head, " ".join(filter(None, [bounds.get(f"contacts.{key}"), f"[{unit}]" if unit else ""]))
+
+
+def contact_cells(row: Mapping[str, Any], keys: tuple[str, ...]) -> list[str]:
+    """Cells of a contact: numbers without units, and "gap" as the lambda ratio of a place without load."""
+    return [_cell(row, key) for key in keys]
+
+
+def _cell(row: Mapping[str, Any], key: str) -> str:
+    value, about = row[key], BEARING_BOOK[f"contacts.{key}"]
+    if key == "lambda_ratio" and not row["solved"]:
+        return "gap"
+    if value is None:
+        return "none"
+    if isinstance(value, str):
+        return value
+    return formatted(scale_of(shown_unit(about, value)).of(value), about.digits)
+
+
+def _bearing(summary: Summary) -> Mapping[str, Any]:
+    """Inputs of the table ``bearing``."""
+    found: Mapping[str, Any] = summary["inputs"]["bearing"]
+    return found
+
+
+def _of_temperature(summary: Summary) -> bool:
+    """Whether the viscosity depends on the temperature."""
+    given = summary["inputs"]["lubricant"]
+    return "viscosity" not in given or "atmospheric_law" in given
+
+
+def _supply(summary: Summary) -> Any:
+    return _bearing(summary).get("supply", "flooded")
+
+
+def _coated(summary: Summary) -> bool:
+    return value_at(summary, "bearing.coating_capacitance") is not None
+
+
+def _same_temperature(ring: str) -> Callable[[Summary], bool]:
+    """Whether a ring has the temperature of the oil."""
+    key = f"{ring}_temperature"
+    return lambda s: s["lubricant"].get(key, s["lubricant"]["temperature"]) == s["lubricant"]["temperature"]
+
+
+def _state(summary: Summary) -> Any:
+    return value_at(summary, "bearing.lubrication")
+
+
+# Keys that are not shown where a condition holds, although a summary has values. Shares of time below a
+# hundredth of a per cent have no rows beside the regime.
+_HIDDEN: tuple[tuple[Callable[[Summary], bool], tuple[str, ...]], ...] = (
+    *(
+        (lambda s, load=f"{name}_load": not _bearing(s)[load], (f"inputs.bearing.{name}_load",))
+        for name in ("radial", "axial")
+    ),
+    *(
+        (_same_temperature(ring), (f"lubricant.{ring}_temperature", f"lubricant.{ring}_viscosity"))
+        for ring in ("inner", "outer")
+    ),
+    (lambda s: not _of_temperature(s), ("lubricant.inner_viscosity", "lubricant.outer_viscosity")),
+    (lambda s: value_at(s, "bearing.unmounted_clearance") is None, ("bearing.running_clearance",)),
+    (
+        lambda s: _supply(s) == "flooded",
+        ("bearing.heat_factor", "bearing.supply_factor", "bearing.film_half_time"),
+    ),
+    (
+        lambda s: _bearing(s)["film_factor"] != "solved",
+        ("bearing.heat_factor", "bearing.inlet_shear_factor"),
+    ),
+    (lambda s: value_at(s, "bearing.contacts") == "solved", ("bearing.film_error",)),
+    (
+        lambda s: (value_at(s, "bearing.touching_time_share") or 0.0) < SELDOM,
+        (
+            *("bearing.inner_contact_time_share", "bearing.outer_contact_time_share"),
+            *("bearing.clarke_time_share", "bearing.insulating_time_share", "bearing.asperity_share_range"),
+        ),
+    ),
+    (lambda s: value_at(s, "bearing.contact_model") == "clarke", ("bearing.clarke_time_share",)),
+    (
+        lambda s: not (value_at(s, "bearing.parallel_capacitance") or _coated(s)),
+        ("bearing.shaft_capacitance",),
+    ),
+    (
+        lambda s: not _coated(s),
+        (
+            *("bearing.film_voltage", "bearing.shaft_first_break", "bearing.shaft_through_breakdown"),
+            "bearing.film_time_constant",
+        ),
+    ),
+    (lambda s: _state(s) != "partial film", ("bearing.lubrication",)),
+    (
+        lambda s: value_at(s, "bearing.margin") is None,
+        (
+            *("margin.range", "margin.critical_speed", "margin.upper_critical_speed"),
+            *("margin.touching_speed", "margin.effects", "margin.left_out"),
+        ),
+    ),
+    (
+        lambda s: value_at(s, "bearing.shaft_time_constant") is None,
+        (
+            *("bearing.relaxation_time", "bearing.shaft_voltage_after_rise"),
+            "bearing.shaft_voltage_after_period",
+        ),
+    ),
+)
+
+
+def _hidden(summary: Summary) -> frozenset[str]:
+    return frozenset(key for holds, keys in _HIDDEN if holds(summary) for key in keys)
+
+
+def _alpha_star(summary: Summary) -> str:
+    ambient = 1e9 * summary["lubricant"]["pressure_viscosity_coefficient"]
+    return f", reciprocal asymptotic; α = {ambient:.4g} 1/GPa at ambient pressure"
+
+
+def _strength(summary: Summary) -> Any:
+    """Dielectric strength, the scale of its Weibull law, or its range; that it is not given."""
+    discharge = summary["inputs"].get("discharge", {})
+    if "dielectric_strength" in discharge:
+        return discharge["dielectric_strength"]
+    if "weibull" in discharge:
+        return discharge["weibull"]["scale"]
+    if "strength_table" in discharge:
+        strengths = discharge["strength_table"]["strength"]
+        return " to ".join(f"{end / 1e6:.4g}" for end in (min(strengths), max(strengths))), "V/µm"
+    return "not given"
+
+
+def _strength_note(summary: Summary) -> str:
+    discharge = summary["inputs"].get("discharge", {})
+    if "dielectric_strength" in discharge:
+        return ", as assumed"
+    if "weibull" in discharge:
+        return f", Weibull scale, shape {discharge['weibull']['shape']:g}"
+    if "strength_table" in discharge:
+        over = "pressure" if "pressure" in discharge["strength_table"] else "temperature"
+        return f", table over {over}"
+    return ", no breakdown voltage is computed"
+
+
+def _loaded(ring: str, key: str, of: Callable[[Iterator[float]], float]) -> Callable[[Summary], Any]:
+    """Extreme value of the loaded contacts with a ring; None without any."""
+
+    def value(summary: Summary) -> float | None:
+        rows = [row for row in summary["contacts"] if row["ring"] == ring and row["max_pressure"]]
+        return of(row[key] for row in rows) if rows else None
+
+    return value
+
+
+def _how(summary: Summary) -> str:
+    return HOW[summary["bearing"]["contacts"]]
+
+
+def _minimum_film(summary: Summary) -> float:
+    ratio: float = summary["bearing"]["lambda_ratio"]
+    return ratio * float(_bearing(summary)["composite_rq"])
+
+
+def film_factor_note(summary: Summary) -> str:
+    """Note of the film factor of a bearing: its parts."""
+    supply = _supply(summary)
+    if summary["bearing"]["film_factor"] == 1.0:
+        return "(isothermal, fully flooded)"
+    factor = _bearing(summary)["film_factor"]
+    if supply == "flooded":
+        return f"({_HEAT.get(factor, 'given')})"
+    other = _HEAT.get(factor) or (f"given factor of {factor:.3g}" if factor not in ("none", 1.0) else "")
+    return f"({' and '.join(filter(None, (other, 'supply of oil')))})"
+
+
+def _supply_note(summary: Summary) -> str:
+    supply = _supply(summary)
+    return f"({supply}, by SKF's factor)" if isinstance(supply, str) else "(given)"
+
+
+def _rolling_note(summary: Summary) -> str:
+    flooded = "" if _supply(summary) == "flooded" else ", of flooded contacts"
+    return f"{flooded}, without spin, slip, cage, seals and churned oil"
+
+
+def _rise_note(ring: str) -> Callable[[Summary], str]:
+    """Note with the maximum temperature rise in the most loaded contact with a ring, and its error."""
+
+    def note(summary: Summary) -> str:
+        totals = summary["bearing"]
+        error = totals[f"{ring}_temperature_rise_error"]
+        known = "" if error is None else f" ± {error:.1g}"
+        return f", largest in the film {totals[f'{ring}_max_temperature_rise']:.2g}{known} K"
+
+    return note
+
+
+def _rolling_coefficient(ring: str) -> Callable[[Summary], str]:
+    return lambda s: f", rolling coefficient {s['bearing'][f'{ring}_rolling_coefficient']:.2g}"
+
+
+def _regime_note(summary: Summary) -> str:
+    totals = summary["bearing"]
+    if totals["contact_time_share"] == 0.0 and totals["touching_time_share"] > 0.0:
+        return ", ceramic elements or a coating insulate"
+    return f", contacts short it {time_text(totals['contact_time_share'])}"
+
+
+def _time(key: str) -> Callable[[Summary], str]:
+    return lambda summary: time_text(summary["bearing"][key])
+
+
+def _asperity_shares(summary: Summary) -> tuple[str, str]:
+    ends = (100.0 * summary["bearing"][f"asperity_share_{end}"] for end in ("low", "high"))
+    return " to ".join(f"{end:.2g}" for end in ends), "%"
+
+
+def _speed(name: str) -> Callable[[Summary], Any]:
+    """A speed of the table ``margin``, rounded as all speeds that are searched."""
+
+    def value(summary: Summary) -> tuple[str, str] | None:
+        found = value_at(summary, f"margin.{name}")
+        return None if found is None else (rpm_text(found), "rpm")
+
+    return value
+
+
+def _searched(summary: Summary) -> bool:
+    """Whether further speeds were searched for a margin of 1, and none has it."""
+    found = summary.get("margin") or {}
+    lowest, highest = found.get("lowest_speed"), found.get("highest_speed")
+    crossed = found.get("critical_speed") is not None or found.get("upper_critical_speed") is not None
+    return not crossed and lowest is not None and highest is not None and bool(lowest < highest)
+
+
+def _critical_speed(summary: Summary) -> Any:
+    """Critical speed, or the end of the searched speeds beyond which it lies."""
+    if not _searched(summary):
+        return _speed("critical_speed")(summary)
+    found, broken = summary["margin"], summary["bearing"]["margin"] < 1.0
+    end = found["highest_speed" if broken else "lowest_speed"]
+    return f"{'above' if broken else 'below'} {rpm_text(end)}", "rpm"
+
+
+def _critical_note(summary: Summary) -> str:
+    if not _searched(summary):
+        return ", breakdown below"
+    ends = (rpm_text(summary["margin"][f"{end}_speed"]) for end in ("lowest", "highest"))
+    return f", none from {' to '.join(ends)} rpm"
+
+
+def _parallel(summary: Summary) -> Any:
+    found = value_at(summary, "bearing.parallel_capacitance")
+    return found if found or found is None or "parallel_capacitance" in _bearing(summary) else "not given"
+
+
+def _parallel_note(summary: Summary) -> str:
+    given = _parallel(summary) != "not given"
+    return ", cage, shields and wiring" if given else ", taken as 0 (cage, shields and wiring)"
+
+
+def _meter(summary: Summary) -> Any:
+    """Capacitance that a meter reads; that it is not computed where asperities touch."""
+    found = value_at(summary, "bearing.meter_capacitance")
+    touching = _state(summary) in ("conducting", "partial film")
+    return "not computed" if found is None and touching else found
+
+
+def _meter_note(summary: Summary) -> str:
+    totals = summary["bearing"]
+    if totals["meter_capacitance"] is None:
+        return ", asperities touch"
+    return "" if totals["roughness_factor"] is None else ", rough films"
+
+
+def _shaft_note(summary: Summary) -> str:
+    leaks = "shaft-leaks" in summary["warning_codes"]
+    return f", by the capacitive divider{'; upper bound: the oil discharges it' if leaks else ''}"
+
+
+def _first_break(summary: Summary) -> Any:
+    """First breakdown voltage; that none is computed where surfaces touch, so that nothing reads as safe."""
+    return "not computed" if _state(summary) == "conducting" else value_at(summary, "bearing.first_break")
+
+
+def _first_break_note(summary: Summary) -> str:
+    if _state(summary) == "conducting":
+        return ", lambda below 1: contacts open and close and discharge at a low voltage"
+    return f", {summary['bearing']['first_break_at']}; {bearing_bound_words(summary)}"
+
+
+def _period(summary: Summary) -> str:
+    """Note of a time constant, compared with the period of the inverter."""
+    frequency = summary["inputs"].get("motor", {}).get("switching_frequency")
+    if frequency is None:
+        return ", compared with 50 to 250 µs of typical inverters"
+    return f", compared with a period of {amount(1.0 / frequency, 's')} of the inverter"
+
+
+def _broken(summary: Summary) -> bool:
+    return bool(summary["bearing"]["margin"] < 1.0)
+
+
+def _limits(summary: Summary) -> str:
+    low, *_, high = (f"{1e-6 * limit:g}" for limit in summary["bearing"]["current_density_limits"])
+    return f", published limits {low} to {high} A/mm²"
+
+
+def _over_limits(summary: Summary) -> bool:
+    totals = summary["bearing"]
+    return bool(totals["current_density"] > totals["current_density_limits"][0])
+
+
+def _range(summary: Summary) -> str | None:
+    found = summary.get("margin") or {}
+    return None if found.get("low") is None else _between(found["low"], found["high"])
+
+
+def _between(low: float, high: float) -> str:
+    """Two margins as text, in this order."""
+    return f"{ratio_text(low)} to {ratio_text(high)}"
+
+
+def _effects(summary: Summary) -> Iterator[Row]:
+    """Rows of the margins if one input changes, the largest effect first."""
+    bound = bearing_bounds(BEARING_BOOK, summary)["margin.effects"]
+    for effect in (summary.get("margin") or {}).get("effects", ()):
+        margins = _between(effect["low_margin"], effect["high_margin"])
+        name, _, beside = effect["label"].partition(" (")
+        note = f", {beside.removesuffix(')')}" if beside else ""
+        name = f"{name}, {input_range(effect)}"
+        yield Row(name, margins, note=note, bound=bound, key=f"margin.effects.{effect['key']}")
+
+
+def _left_out(summary: Summary) -> Iterator[Row]:
+    for text in (summary.get("margin") or {}).get("left_out", ()):
+        yield Row("not computed", note=text, key="margin.left_out")
+
+
+def input_range(effect: Mapping[str, Any]) -> str:
+    """Range of the input of an effect as text, in the unit that is printed.
+
+    Parameters
+    ----------
+    effect : mapping
+        Effect as in ``margin.effects`` of a summary.
+
+    Examples
+    --------
+    >>> input_range({"key": "bearing.temperature", "low_input": 333.15, "high_input": 353.15})
+    '60 to 80 °C'
+    >>> input_range({"key": "discharge.dielectric_strength", "low_input": 12e6, "high_input": 18e6})
+    '12 to 18 V/µm'
+    """
+    ends, unit = (effect["low_input"], effect["high_input"]), unit_of(effect["key"])
+    if effect["key"] == OF_TABLE:
+        unit = ""
+    if unit == "K":
+        return "{:.4g} to {:.4g} °C".format(*(end - 273.15 for end in ends))
+    scale = _SCALES.get(unit) or scale_for(max(map(abs, ends)), unit)
+    low, high = (f"{end * scale.factor:.4g}" for end in ends)
+    return f"{low} to {high} {scale.unit}".rstrip()
+
+
+# Units that are printed for lengths and strengths of bearings, whatever their size.
+_SCALES = {
+    "rad": Scale(180.0 / math.pi, "deg"),
+    "V/m": Scale(1e-6, "V/µm"),
+    "N": Scale(1.0, "N"),
+    "m**2/s": Scale(1e6, "mm²/s"),
+}
+
+
+_WORDS = Words(
+    notes={
+        "lubricant.temperature": lambda s: "" if _of_temperature(s) else ", without effect on the viscosity",
+        "lubricant.alpha_star": _alpha_star,
+        "bearing.running_clearance": lambda s: (
+            ", a preload" if s["bearing"]["running_clearance"] < 0.0 else ""
+        ),
+        "inputs.discharge.dielectric_strength": _strength_note,
+        "rings.inner.minimum_thickness": lambda s: f", {_how(s)}",
+        "rings.outer.minimum_thickness": lambda s: f", {_how(s)}",
+        "bearing.lambda_ratio": lambda s: _TOUCH.get(_state(s), _state(s)),
+        "bearing.film_factor": film_factor_note,
+        "bearing.heat_factor": lambda _: "(solved)",
+        "bearing.inlet_shear_factor": lambda _: "(Wilson and Sheu)",
+        "bearing.supply_factor": _supply_note,
+        "bearing.rolling_power_loss": _rolling_note,
+        "bearing.inner_contact_power_loss": _rolling_coefficient("inner"),
+        "bearing.outer_contact_power_loss": _rolling_coefficient("outer"),
+        "bearing.inner_inlet_temperature_rise": _rise_note("inner"),
+        "bearing.outer_inlet_temperature_rise": _rise_note("outer"),
+        "bearing.regime": _regime_note,
+        "bearing.inner_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
+        "bearing.outer_contact_time_share": lambda s: f", by {_LAWS[s['bearing']['contact_model']]}",
+        "bearing.asperity_share_range": lambda _: ", by the published laws",
+        "margin.capacitive_speed": lambda _: ", at this temperature",
+        "bearing.parallel_capacitance": _parallel_note,
+        "bearing.shaft_capacitance": lambda _: ", smooth films",
+        "bearing.meter_capacitance": _meter_note,
+        "bearing.bearing_voltage_ratio": lambda _: ", shaft / common-mode",
+        "bearing.shaft_voltage": _shaft_note,
+        "bearing.through_breakdown_mean": lambda _: ", of all cage positions",
+        "bearing.first_break_mean": lambda _: ", of all cage positions",
+        "bearing.first_break": _first_break_note,
+        "bearing.coating_share": lambda _: ", at high frequency",
+        "bearing.lubrication": lambda _: (
+            ", lambda below 3: discharges at a lower voltage as contacts open are not computed"
+        ),
+        "bearing.margin": lambda _: ", breakdown below 1",
+        "bearing.breakdown_probability": lambda _: ", while the films insulate",
+        "margin.critical_speed": _critical_note,
+        "margin.upper_critical_speed": lambda _: ", breakdown above",
+        "margin.touching_speed": lambda _: ", contacts open and close, discharges are likely",
+        "bearing.shaft_time_constant": _period,
+        "bearing.film_time_constant": _period,
+        "bearing.discharge_energy": lambda _: ", all that is connected to the shaft",
+        "bearing.pit_diameter": lambda _: ", hemisphere of the melted volume",
+        "bearing.current_density": _limits,
+    },
+    values={
+        "inputs.discharge.dielectric_strength": _strength,
+        **{
+            f"rings.{ring}.{key}": _loaded(ring, key, of)
+            for ring in ("inner", "outer")
+            for key, of in (("load", max), ("max_pressure", max), ("minimum_thickness", min))
+        },
+        "bearing.contacts": _how,
+        "bearing.minimum_thickness": _minimum_film,
+        **{
+            f"bearing.{key}": _time(key)
+            for key in (
+                *("inner_contact_time_share", "outer_contact_time_share"),
+                *("clarke_time_share", "insulating_time_share"),
+            )
+        },
+        "bearing.asperity_share_range": _asperity_shares,
+        "bearing.parallel_capacitance": _parallel,
+        "bearing.meter_capacitance": _meter,
+        "bearing.first_break": _first_break,
+        "margin.range": _range,
+        "margin.critical_speed": _critical_speed,
+        **{
+            f"margin.{name}": _speed(name)
+            for name in ("capacitive_speed", "upper_critical_speed", "touching_speed")
+        },
+    },
+    alarms={
+        "bearing.lambda_ratio": lambda s: _state(s) in _TOUCH,
+        "bearing.regime": lambda s: bool(s["bearing"]["regime"] != "capacitive"),
+        "bearing.first_break": lambda s: bool(_state(s) == "conducting"),
+        "bearing.margin": _broken,
+        "bearing.current_density": _over_limits,
+    },
+    rows={"margin.effects": _effects, "margin.left_out": _left_out},
+    hidden=_hidden,
+)

@@ -1,0 +1,555 @@
+"""Rows of the tables of contacts: before and after the solution, heat, meter, discharge, and touching
+surfaces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from ehlectric.cases.case import Case
+from ehlectric.cases.input_keys import unit_of
+from ehlectric.contact.conditions import Conditions, PointConditions
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.result import PointResult, Result
+from ehlectric.contact.summary import case_summary
+from ehlectric.contact.touching import share_text
+from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
+from ehlectric.film.film_error import UNRESOLVED
+from ehlectric.quantities.bounds import bound_words, contact_bounds
+from ehlectric.quantities.contact_results import CONTACT_BOOK
+from ehlectric.quantities.formats import amount, formatted
+from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
+from ehlectric.quantities.sheets import CHECK, CONTACT
+
+# Relative error of the field up to which the table does not repeat it for the breakdown voltage.
+_SMALL = 0.002
+
+# Error of the oil balance below which it is not stated.
+_LEAST_ERROR = 1e-4
+
+# Names of the laws between shear stress and shear rate.
+RHEOLOGIES = {
+    "newtonian": "Newtonian",
+    "eyring": "Ree-Eyring",
+    "carreau": "Carreau",
+    "limiting": "limiting shear stress",
+}
+
+
+def case_rows(case: Case, summary: Summary) -> list[Row]:
+    """Rows of a contact before it is solved: its conditions, dry contact, and film thicknesses by formulas.
+
+    ``summary`` is that of ``contact.summary.case_summary``.
+    """
+    words = _WORDS | Words(
+        values={"grid.film": lambda _: _grid(case), "field.voltage": lambda _: case.electric.voltage},
+        notes={"inputs.grid.side": lambda _: "semi-axes a"},
+    )
+    return list(sheet_rows(CHECK, CONTACT_BOOK[_geometry(summary)], summary, words))
+
+
+def condition_rows(case: Case, conditions: Conditions | PointConditions) -> Iterator[Row]:
+    """Rows of the operating conditions of a case, which decide film and field."""
+    summary = case_summary(case, conditions)
+    words = _WORDS | Words(values={"field.voltage": lambda _: case.electric.voltage})
+    return sheet_rows(CHECK[:1], CONTACT_BOOK[conditions.geometry], summary, words)
+
+
+def result_rows(result: Result | PointResult) -> list[Row]:
+    """Rows of a solved contact: its conditions, film, field and discharge, and the film by formulas."""
+    summary = result.summary()
+    book = CONTACT_BOOK[result.conditions.geometry]
+    rows = sheet_rows(CONTACT, book, summary, _WORDS | _of_arrays(result), contact_bounds(book, summary))
+    return [*_status(summary), *rows]
+
+
+def _status(summary: Summary) -> Iterator[Row]:
+    """Row that warns of a film that is not converged."""
+    if not summary["converged"]:
+        yield Row("NOT CONVERGED", note=f"{summary['status']}: do not use these numbers", alarm=True)
+
+
+def _of_arrays(result: Result | PointResult) -> Words:
+    """Words that need the arrays or the case of a result: what its summary does not have."""
+    kind = KINDS[result.conditions.geometry]
+    surfaces = getattr(result.film.heated, "surface_temperatures", None)
+    highest = () if surfaces is None else tuple(float(surface.max()) for surface in surfaces)
+    values: dict[str, Any] = {
+        f"film.surface_temperature_{k}": partial(_same, value) for k, value in enumerate(highest, 1)
+    }
+    return Words(
+        values=values | {"regime": partial(_same, kind.regime(result.conditions.contact))},
+        notes={
+            "film.rheology": lambda _: _constants(result.case),
+            "film.thermal": lambda _: _inlet(result.case),
+        },
+    )
+
+
+def _same(value: Any, _: Summary) -> Any:
+    """Value of any summary."""
+    return value
+
+
+def _geometry(summary: Summary) -> str:
+    return str(summary["inputs"]["contact"]["geometry"])
+
+
+def _touches(summary: Summary) -> bool:
+    return bool(value_at(summary, "asperities.spots"))
+
+
+# Of a film whose surfaces touch, not shown: what would be the breakdown of the boundary film, and errors of a
+# field that its thickness gives.
+_OF_FLOATING = frozenset(
+    f"{table}.{name}"
+    for table, names in (
+        ("field", ("max_strength_error", "max_dimensionless", "thin_gap_error")),
+        ("discharge", ("zone_position", "zone_size", "breakdown_energy", "dielectric_strength", "margin")),
+        ("discharge", ("breakdown_voltage", "breakdown_field_error", "breakdown_range", "probability")),
+    )
+    for name in names
+)
+
+# Not shown where the surfaces do not touch.
+_OF_SPOTS = frozenset(key for section in CONTACT for key in section.keys if key.startswith("asperities."))
+
+# Not shown where no film is left around the spots.
+_AROUND_SPOTS = frozenset(
+    f"asperities.{name}"
+    for name in ("mean_film", "rq_deformed", "lambda_undeformed", "lambda_deformed", "boundary_friction")
+)
+
+
+def _hidden(summary: Summary) -> frozenset[str]:
+    if not _touches(summary):
+        return _OF_SPOTS
+    return _OF_FLOATING | (_AROUND_SPOTS if summary["asperities"]["film_5"] is None else frozenset())
+
+
+def _axis_ratio(summary: Summary) -> float | None:
+    hertz = summary["hertz"]
+    return hertz["semi_axis_y"] / hertz["semi_axis_x"] if "semi_axis_x" in hertz else None
+
+
+def _behaviour(summary: Summary) -> str:
+    share = 100.0 * summary["asperities"]["time_share"]
+    return f", at 10 kHz; a spot is there {share:.3g} % of the time"
+
+
+def _grid(case: Case) -> str | tuple[str, str]:
+    """Nodes of the film, or the error to which its grid is refined."""
+    if case.grid.target is not None:
+        return f"refined to an error of {100.0 * case.grid.target:g} %"
+    if case.contact.geometry == "line":
+        return str(case.grid.nodes), "nodes"
+    return f"{case.first_grid.nodes_along} x {case.first_grid.nodes_across}", "nodes"
+
+
+def _speeds(summary: Summary) -> str:
+    """Note with the speeds of both surfaces."""
+    contact = summary["inputs"]["contact"]
+    mean, half = contact["entrainment_speed"], 0.5 * contact["slide_to_roll_ratio"]
+    if half == 0.0:
+        return ", pure rolling"
+    return f", surfaces at {mean * (1.0 + half):.4g} and {mean * (1.0 - half):.4g} m/s"
+
+
+def _half_width(summary: Summary) -> float:
+    hertz = summary["hertz"]
+    return float(hertz["half_width"] if "half_width" in hertz else hertz["semi_axis_x"])
+
+
+def _place(summary: Summary, key: str) -> str:
+    """Position in half-widths, or in semi-axes b of a point contact, with the name of the axes."""
+    position = value_at(summary, key)
+    places = position if isinstance(position, Sequence) else (position,)
+    texts = ", ".join(f"{place / _half_width(summary):.4g}" for place in places)
+    return f"{'x/b, y/b' if len(places) > 1 else 'x/b'} = {texts}"
+
+
+def _in_spot(summary: Summary) -> str:
+    """Note of a value in the boundary film; empty where the surfaces do not touch."""
+    return ", in the boundary film" if _touches(summary) else ""
+
+
+def _zone(summary: Summary) -> str:
+    return "Hertz zone" if _geometry(summary) == "line" else "Hertz ellipse"
+
+
+def _pressure_error(summary: Summary) -> str:
+    """Note with the error of the maximum pressure; empty if the error is unknown."""
+    error = summary["film"]["max_pressure_error"]
+    if error is None:
+        return ""
+    return f", error {100 * error:.2g} %" if error <= UNRESOLVED else ", not resolved by the grid"
+
+
+def _film_grid(summary: Summary) -> str:
+    """Note of the discretisation error: nodes, and the error that was asked for."""
+    film = summary["film"]
+    nodes = film["nodes"] if isinstance(film["nodes"], Sequence) else (film["nodes"],)
+    target = film["target_error"]
+    asked = "" if target is None else f", {100.0 * target:g} % asked"
+    touch = "where surfaces touch" if _touches(summary) else ""
+    return f"{touch}, {' x '.join(map(str, nodes))} nodes{asked}"
+
+
+def _iterations(summary: Summary) -> str:
+    film = summary["film"]
+    return f"after {film['newton_iterations']} {'V-cycles' if film['solver'] == 'paper' else 'Newton steps'}"
+
+
+def _known(key: str, *, only: str) -> Callable[[Summary], Any]:
+    """Value of a key, or "unknown" where it is null, of a table ``film`` that has a key of this name."""
+
+    def value(summary: Summary) -> Any:
+        if value_at(summary, "film") is None or only not in summary["film"]:
+            return None
+        found = value_at(summary, key)
+        return "unknown" if found is None else found
+
+    return value
+
+
+def _meniscus(summary: Summary) -> str | None:
+    """Where oil fills the gap; None without a supply of oil."""
+    film = summary["film"]
+    if "oil_layer" not in film:
+        return None
+    if film["meniscus"] is not None:
+        return _place(summary, "film.meniscus")
+    return "none: flooded" if film["film_ratio"] == 1.0 else "at the inlet edge on y = 0"
+
+
+def _change(name: str) -> Callable[[Summary], str]:
+    """Note with the effect of heat and shear on a film, over the isothermal, Newtonian one."""
+
+    def note(summary: Summary) -> str:
+        film = summary["film"]
+        simple = film["isothermal"][f"{name}_thickness"]
+        effect = "heat and shear" if film["thermal"] else "shear"
+        if simple is None or not summary["converged"]:
+            return ""
+        return f", {100.0 * (film[f'{name}_thickness'] / simple - 1.0):+.2g} % by {effect}"
+
+    return note
+
+
+def _solved_heat(key: str) -> Callable[[Summary], Any]:
+    """Value of a film with heat or shear, or that it did not converge; None of another film."""
+
+    def value(summary: Summary) -> Any:
+        found = value_at(summary, key)
+        return "not converged" if found is None and "rheology" in summary["film"] else found
+
+    return value
+
+
+def _constants(case: object) -> str:
+    """Note with the constants of the rheology of a case."""
+    if not isinstance(case, Case) or case.film is None:
+        return ""
+    given = case.film.constants(case.lubricant).items()
+    texts = (f"{key} {amount(value, unit_of(f'lubricant.{key}'))}".rstrip() for key, value in given)
+    return "".join(f", {text}" for text in texts)
+
+
+def _inlet(case: object) -> str:
+    """Note with the temperatures of the oil in the inlet and of the bodies."""
+    if not isinstance(case, Case) or case.contact.temperature is None:
+        return ""
+    contact = case.contact
+    found = {"oil": contact.temperature, "body 1": contact.temperature_1, "body 2": contact.temperature_2}
+    known = {name: value for name, value in found.items() if value is not None}
+    return "".join(f", {name} at {value - 273.15:.4g} °C" for name, value in known.items())
+
+
+def _temperature(summary: Summary) -> str | None:
+    thermal = summary["film"].get("thermal")
+    return None if thermal is None else "computed" if thermal else "that of the inlet"
+
+
+def _temperature_error(summary: Summary) -> str:
+    error = summary["film"]["temperature_rise_error"]
+    return "" if error is None else f", error {error:.1g} K"
+
+
+def _load_share(summary: Summary) -> tuple[str, str] | None:
+    """Load share with no more digits than its change from a coarser grid leaves."""
+    found = summary.get("asperities")
+    return found and (share_text(found["load_share"], found["load_share_coarser"]), "%")
+
+
+def _coarser_share(summary: Summary) -> str:
+    found = summary["asperities"]
+    before = found["load_share_coarser"]
+    if before is None:
+        return ", not known on a coarser grid"
+    error = formatted(100.0 * abs(found["load_share"] - before), ".2g")
+    half = share_text(before, found["load_share"])
+    return f", ± {error} percentage points by the grid: {half} % on half the nodes"
+
+
+def _area_error(summary: Summary) -> str:
+    """Note of the real area of contact: what it is a part of, and its error by the grid."""
+    error = summary["asperities"]["contact_area_error"]
+    part = "width" if _geometry(summary) == "line" else "area"
+    within = "" if error is None else f", ± {min(100.0 * error, 100.0):.0f} % of it by the grid"
+    return f", of the Hertz {part}{within}"
+
+
+def _spots(summary: Summary) -> str:
+    single = summary["asperities"]["spots_of_one_node"]
+    strips = ", strips along the contact" if _geometry(summary) == "line" else ""
+    return strips + (f", {single} of a single node" if single else "")
+
+
+def _oil_error(summary: Summary) -> Any:
+    error = value_at(summary, "asperities.mass_error")
+    if error is None or error >= _LEAST_ERROR:
+        return error
+    return f"< {100.0 * _LEAST_ERROR:g}", "%"
+
+
+def _resistance(summary: Summary) -> Any:
+    """Resistance of the spots; that it is not known where an input for it is missing."""
+    if not _touches(summary):
+        return None
+    found = summary["asperities"]["resistance"]
+    return "not known" if found is None else found
+
+
+def _resistance_note(summary: Summary) -> str:
+    electric, line = summary["inputs"]["electric"], _geometry(summary) == "line"
+    if summary["asperities"]["resistance"] is None:
+        missing = (
+            "resistivity of the bodies" if electric.get("resistivity") is None else "length of the contact"
+        )
+        return f": give the {missing}"
+    layer = "with their tribofilm" if electric.get("tribofilm_resistance") else "of metal"
+    return f", {layer}" + (", ridges along the whole length" if line else "")
+
+
+def _rough_columns(summary: Summary) -> Any:
+    """Columns of the field of a rough line contact, whose number follows from the roughness."""
+    rough_line = "roughness" in summary and _geometry(summary) == "line"
+    return (str(summary["field"]["columns"]), "columns") if rough_line else None
+
+
+def _field_place(summary: Summary) -> str:
+    wall = f", {summary['field']['max_strength_wall']}" if "roughness" in summary else ""
+    place = f" at {_place(summary, 'field.max_strength_position')}{_in_spot(summary)}{wall}"
+    return f"{place}, with {summary['field']['voltage']:.4g} V across the film"
+
+
+def _strength(summary: Summary) -> Any:
+    """Dielectric strength; that it is not given where there is no law."""
+    found = summary.get("discharge")
+    if found is None:
+        return None
+    return "not given" if found["strength_law"] is None else found["dielectric_strength"]
+
+
+def _strength_note(summary: Summary) -> str:
+    found = summary["discharge"]
+    return (
+        ", no breakdown voltage is computed"
+        if found["strength_law"] is None
+        else f", {found['strength_law']}"
+    )
+
+
+def _breakdown_note(summary: Summary) -> str:
+    strength = summary["discharge"]["dielectric_strength"]
+    condition = "63.2 % probability" if strength is None else f"{strength / 1e6:.4g} V/µm"
+    return "; ".join(filter(None, [f", at {condition}", bound_words(summary)]))
+
+
+def _breakdown_error(summary: Summary) -> Any:
+    error = value_at(summary, "discharge.breakdown_field_error")
+    return None if error is None or error <= _SMALL else error
+
+
+def _breakdown_range(summary: Summary) -> Any:
+    found = summary.get("discharge", {})
+    low, high = found.get("breakdown_voltage_low"), found.get("breakdown_voltage_high")
+    return None if low is None or high is None else (f"{low:.4g} to {high:.4g}", "V")
+
+
+def _probability(summary: Summary) -> Any:
+    weibull = value_at(summary, "discharge.strength_law") == "weibull"
+    return summary["discharge"]["probability"] if weibull else None
+
+
+def _breaks_down(summary: Summary) -> bool:
+    margin = value_at(summary, "discharge.margin")
+    return margin is not None and margin < 1.0
+
+
+def _zone_place(summary: Summary) -> str | None:
+    return _place(summary, "discharge.zone_position") if "discharge" in summary else None
+
+
+def _beyond(summary: Summary) -> str:
+    found = summary["discharge"]
+    beyond = 100.0 * found["capacitance_beyond"] / found["capacitance"]
+    return f", a domain twice as large would add {beyond:.2g} % if full of oil"
+
+
+def _by_outlet(summary: Summary) -> Any:
+    """Range of the capacitance between oil in layers and a full outlet."""
+    found = summary.get("discharge")
+    if found is None:
+        return None
+    factor, unit = (1e9, "nF/m") if _geometry(summary) == "line" else (1e12, "pF")
+    ends = (formatted(factor * found[f"capacitance_{name}"], ".4g") for name in ("layers", "full"))
+    return " to ".join(ends), unit
+
+
+def _meter_range(summary: Summary) -> Any:
+    found = summary.get("meter")
+    if found is None:
+        return None
+    return " to ".join(formatted(1e12 * found[f"capacitance_{name}"], ".4g") for name in ("air", "oil")), "pF"
+
+
+def _share(name: str) -> Callable[[Summary], str]:
+    return lambda summary: f", {100.0 * summary['meter'][f'share_of_{name}']:.0f} %"
+
+
+def _limits(summary: Summary) -> str:
+    limits = summary["discharge"]["current_density_limits"] or ()
+    return ", published limits " + ", ".join(f"{limit / 1e6:g}" for limit in limits)
+
+
+def _formula_rows(key: str) -> Callable[[Summary], Iterator[Row]]:
+    """Rows of a film thickness by each formula that gives it, beside the solved one."""
+
+    def rows(summary: Summary) -> Iterator[Row]:
+        about = CONTACT_BOOK[_geometry(summary)][f"film_formulas.*.{key}"]
+        formulas: Mapping[str, Any] = KINDS[_geometry(summary)].formulas
+        for name, film in summary["film_formulas"].items():
+            if film[key] is not None:
+                note = _beside(summary, key, film[key])
+                row = row_of(f"film_formulas.{name}.{key}", about, film[key], note)
+                yield replace(row, name=f"{key.replace('_thickness', ' film')} ({formulas[name].name})")
+
+    return rows
+
+
+def _beside(summary: Summary, key: str, value: float) -> str:
+    """Note with the difference of a film by formula from the solved one, or from that of smooth surfaces.
+
+    Where surfaces touch, the minimum film is the boundary film, and the centre may lie in a spot.
+    """
+    if not summary.get("converged"):
+        return ""
+    if not _touches(summary):
+        return f", {100.0 * (value / summary['film'][key] - 1.0):+.0f} % vs. solved film"
+    smooth = value_at(summary, "roughness.smooth_minimum_thickness")
+    if smooth is None or key != "minimum_thickness":
+        return ""
+    return f", {100.0 * (value / smooth - 1.0):+.0f} % vs. film of smooth surfaces"
+
+
+def _formula_error(summary: Summary) -> Any:
+    return "none: surfaces touch" if _touches(summary) else ("up to 40", "%")
+
+
+_WORDS = Words(
+    notes={
+        "inputs.contact.slide_to_roll_ratio": _speeds,
+        "lubricant.temperature": lambda s: f", {s['lubricant']['name']}" if s["lubricant"]["name"] else "",
+        "lubricant.alpha_star": lambda _: ", reciprocal asymptotic",
+        "film.minimum_thickness": lambda s: f" at {_place(s, 'film.minimum_position')}{_in_spot(s)}",
+        "film.oil_layer": lambda _: ", on both surfaces together",
+        "film.mean_thickness": lambda s: f", in the {_zone(s)}",
+        "film.max_pressure": _pressure_error,
+        "film.discretisation_error": _film_grid,
+        "film.residual": _iterations,
+        "film.isothermal.minimum_thickness": _change("minimum"),
+        "film.isothermal.central_thickness": _change("central"),
+        "film.max_temperature_rise": _temperature_error,
+        "film.rolling_coefficient": lambda _: ", of each surface",
+        "roughness.rq_1": lambda _: ", in the Hertz zone",
+        "roughness.rq_2": lambda _: ", in the Hertz zone",
+        "roughness.lambda_ratio": lambda s: (
+            f", {'boundary' if _touches(s) else 'minimum'} film / combined Rq"
+        ),
+        "roughness.lambda_ratio_smooth": lambda _: ", smooth film / combined Rq",
+        "asperities.behaviour": _behaviour,
+        "asperities.load_share": _coarser_share,
+        "asperities.contact_area_share": _area_error,
+        "asperities.spots": _spots,
+        "asperities.mass_error": lambda _: ", of the mean flow",
+        "asperities.boundary_film": lambda _: ", gap at which the surfaces touch",
+        "asperities.mean_film": lambda _: ", in the Hertz zone",
+        "asperities.rq_deformed": lambda _: ", in the Hertz zone",
+        "asperities.boundary_friction": lambda _: ", of the asperities where they slide",
+        "asperities.resistance": _resistance_note,
+        "asperities.corner_frequency": lambda _: ", above it the film takes more current than the spots",
+        "asperities.breakdown_voltage": lambda _: ", at a probability of 63.2 %",
+        "asperities.breakdown_probability": lambda _: ", at the applied voltage",
+        "field.max_strength": _field_place,
+        "field.max_dimensionless": lambda _: "(parallel plates: V/h_min)",
+        "field.high_field_width": lambda _: ", above 95 % of maximum",
+        "field.high_field_area": lambda _: ", above 95 % of maximum",
+        "discharge.zone_size": lambda _: (
+            f", above 95 %; published pits {MEAN_PIT * 1e6:g}, at most {LARGEST_PIT * 1e6:g}"
+        ),
+        "discharge.capacitance": _beyond,
+        "discharge.capacitance_outlet": lambda s: f", filling: {s['discharge']['outlet']}",
+        "discharge.capacitance_by_outlet": lambda _: ", assumption: layers to full",
+        "discharge.pit_diameter": lambda _: "; assumption: a hemisphere",
+        "discharge.current_density": _limits,
+        "discharge.relaxation_time": lambda _: ", at ambient pressure",
+        "discharge.dielectric_strength": _strength_note,
+        "discharge.breakdown_voltage": _breakdown_note,
+        "discharge.probability": lambda _: "at the applied voltage",
+        "meter.capacitance": lambda s: f", {s['meter']['bodies']}",
+        "meter.capacitance_domain": _share("domain"),
+        "meter.capacitance_hertz": _share("hertz"),
+        "meter.capacitance_outside": _share("outside"),
+        "meter.parallel_capacitance": lambda _: ", from the case",
+        "meter.coating_voltage_share": lambda _: ", at the minimum film",
+        "meter.film_breakdown_voltage": lambda _: ", between the bodies",
+        "meter.coating_breakdown_voltage": lambda _: ", with the film bridged",
+        "meter.breakdown_voltage": lambda _: ", between the bodies",
+        "formula_error": lambda s: ", formulas are of smooth ones" if _touches(s) else "",
+    },
+    values={
+        "hertz.axis_ratio": _axis_ratio,
+        "film.film_ratio": _known("film.film_ratio", only="oil_layer"),
+        "film.flooded.minimum_thickness": _known("film.flooded.minimum_thickness", only="oil_layer"),
+        "film.oil_layer": _known("film.oil_layer", only="oil_layer"),
+        "film.meniscus": _meniscus,
+        "film.discretisation_error": _known("film.discretisation_error", only="residual"),
+        "film.rheology": lambda s: RHEOLOGIES[s["film"]["rheology"]] if "rheology" in s["film"] else None,
+        "film.thermal": _temperature,
+        "film.isothermal.minimum_thickness": _solved_heat("film.isothermal.minimum_thickness"),
+        "film.isothermal.central_thickness": _solved_heat("film.isothermal.central_thickness"),
+        "film.traction_coefficient": _solved_heat("film.traction_coefficient"),
+        "field.max_strength_error": _known("field.max_strength_error", only="residual"),
+        "asperities.load_share": _load_share,
+        "asperities.spots": lambda s: str(s["asperities"]["spots"]) if _touches(s) else None,
+        "asperities.mass_error": _oil_error,
+        "asperities.resistance": _resistance,
+        "field.columns": _rough_columns,
+        "discharge.zone_position": _zone_place,
+        "discharge.capacitance_by_outlet": _by_outlet,
+        "discharge.dielectric_strength": _strength,
+        "discharge.breakdown_field_error": _breakdown_error,
+        "discharge.breakdown_range": _breakdown_range,
+        "discharge.probability": _probability,
+        "meter.capacitance_by_gap": _meter_range,
+        "formula_error": _formula_error,
+        "seconds.both": lambda s: s["seconds"]["film"] + s["seconds"]["field"],
+    },
+    alarms={"discharge.margin": _breaks_down},
+    hidden=_hidden,
+    rows={f"film_formulas.*.{key}": _formula_rows(key) for key in ("minimum_thickness", "central_thickness")},
+)

@@ -1,0 +1,184 @@
+"""Tables of a drive: both bearings side by side, and its remedies."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from ehlectric.bearing.solution import percent
+from ehlectric.cases.defaults import HOW
+from ehlectric.errors import printable
+from ehlectric.quantities.bounds import ideal_bounds
+from ehlectric.quantities.drive_results import DRIVE_BOOK, LIMITS, NAMES_OF_ENDS
+from ehlectric.quantities.formats import number_text
+from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.rows import Row, Sheet, Summary, Words, head_of, sheet_rows
+from ehlectric.quantities.sheets import DRIVE, DRIVE_CHECK, REMEDIES
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+# Rows of a quantity at both ends; None where an end has no value.
+Pair: TypeAlias = tuple[Row | None, ...]
+
+# Letters on a line of a head of the terminal.
+_HEAD = 11
+
+
+def prepared_rows(summary: Summary) -> list[Row]:
+    """Rows of a drive that is not simulated; ``summary`` is that of ``drive.summary.checked_summary``."""
+    return _rows(DRIVE_CHECK, summary)
+
+
+def drive_rows(summary: Summary) -> list[Row]:
+    """Rows of a simulated drive, both bearings below each other."""
+    return [*_status(summary), *_rows(DRIVE, summary)]
+
+
+def _status(summary: Summary) -> Iterator[Row]:
+    """Row that warns of films that are not converged."""
+    if not summary["converged"]:
+        yield Row("NOT CONVERGED", note="the film of a contact: do not use these numbers", alarm=True)
+
+
+def _rows(sheet: Sheet, summary: Summary) -> list[Row]:
+    rows = list(whole_rows(summary, sheet))
+    for end, place in NAMES_OF_ENDS.items():
+        for row in end_rows(summary, end, sheet):
+            own = replace(row, name=f"{row.name}, {place}") if row.heading else row
+            rows.append(replace(own, key=own.key.replace("end.", f"{end}.", 1)))
+    return rows
+
+
+def whole_rows(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[Row]:
+    """Rows of a sheet that are not those of a bearing."""
+    return sheet_rows(_part(sheet, ends=False), DRIVE_BOOK, summary, _WORDS, ideal_bounds(DRIVE_BOOK))
+
+
+def end_rows(summary: Summary, end: str, sheet: Sheet = DRIVE) -> Iterator[Row]:
+    """Rows of the bearing at one end, with keys that begin with "end."."""
+    own = {**summary, "end": summary[end]}
+    return sheet_rows(_part(sheet, ends=True), DRIVE_BOOK, own, _WORDS, ideal_bounds(DRIVE_BOOK))
+
+
+def _part(sheet: Sheet, *, ends: bool) -> Sheet:
+    return tuple(section for section in sheet if section.keys[0].startswith("end.") == ends)
+
+
+def side_by_side(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, list[Pair]]]:
+    """Sections of both bearings: heading, and the rows of each quantity that one of them has."""
+    found = [{row.key: row for row in end_rows(summary, end, sheet)} for end in ENDS]
+    for section in _part(sheet, ends=True):
+        pairs = [tuple(rows.get(key) for rows in found) for key in section.keys]
+        yield section.heading, [pair for pair in pairs if any(pair)]
+
+
+def end_cells(summary: Summary, sheet: Sheet = DRIVE) -> Iterator[tuple[str, list[tuple[str, ...]]]]:
+    """Tables of both bearings: heading, and cells of each quantity: label, value at each end, and unit."""
+    for heading, pairs in side_by_side(summary, sheet):
+        yield heading, [_cells(pair) for pair in pairs]
+
+
+def _cells(pair: Pair) -> tuple[str, ...]:
+    about = next(row for row in pair if row is not None)
+    return about.name, *map(_cell, pair), about.unit
+
+
+def _cell(row: Row | None) -> str:
+    """Bound and value of a row; a dash where there is none."""
+    return "–" if row is None else row.bounded
+
+
+def ends_table(summary: Summary) -> Table:
+    """Table of both bearings of a drive, for the terminal."""
+    rows: list[tuple[str, ...]] = []
+    for heading, cells in end_cells(summary):
+        rows += [(heading,), *((f"  {name}", *rest) for name, *rest in cells)]
+    return _table([printable(summary["title"]), *NAMES_OF_ENDS.values(), ""], rows)
+
+
+def remedies_table(summary: Summary) -> Table:
+    """Table of the drive and its remedies for the terminal; of the worse bearing of each."""
+    heads, *rows = worse_cells(summary)
+    return _table(["\n".join(textwrap.wrap(head, _HEAD)) for head in heads], rows)
+
+
+def worse_cells(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Heads of the table of remedies, then the cells of each drive, of its bearing with more discharges."""
+    keys = [key for key in REMEDIES[0].keys if not key.endswith("_range")]
+    yield "remedy, worse bearing", *remedy_heads(keys)
+    for title, tables in _drives(summary):
+        worse = max(ENDS, key=lambda end: (tables[end]["power"], tables[end]["peak_voltage"]))
+        yield printable(title), *remedy_cells(tables, worse, keys)
+
+
+def remedy_heads(keys: Sequence[str]) -> Iterator[str]:
+    """Heads of columns of remedies, with their units."""
+    return (head_of(DRIVE_BOOK[key]) for key in keys)
+
+
+def remedy_cells(tables: Mapping[str, Any], end: str, keys: Sequence[str]) -> Iterator[str]:
+    """Cells of the bearing at one end of a drive or of a remedy."""
+    found = {row.key: row for row in end_rows(tables, end, REMEDIES)}
+    return (_cell(found.get(key)) for key in keys)
+
+
+def _drives(summary: Summary) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    yield "as it is", summary
+    for one in summary["remedies"]:
+        yield one["title"], one
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
+    """Table for the terminal, in which a row of one cell is a heading."""
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, padding=(0, 1, 0, 0))
+    for k, name in enumerate(head):
+        table.add_column(Text(name), justify="left" if k == 0 or not name else "right", no_wrap=bool(k))
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row), style="bold" if len(row) == 1 else None)
+    return table
+
+
+def _range(summary: Summary) -> tuple[str, str]:
+    """Interval of the rate of discharges; an upper bound where there was none."""
+    end = summary["end"]
+    low, high = (number_text(end[f"events_per_second_{side}"]) for side in ("low", "high"))
+    return f"{low} to {high}" if end["events"] else f"at most {high}", "1/s"
+
+
+def _edges(summary: Summary) -> float | None:
+    rate = summary["source"]["edges_per_second"]
+    return None if rate is None else rate * summary["drive"]["duration"]
+
+
+def _hidden(summary: Summary) -> set[str]:
+    """Voltages above the first one that no bearing reaches, and a current through asperities that is none."""
+    if "time_above" not in summary.get("end", {}):
+        return set()
+    ends = [summary[end] for end in ENDS]
+    names = [f"{limit:g}" for limit in LIMITS]
+    never = [name for name in names if not any(end["time_above"][name] for end in ends)]
+    none = set() if any(end["contact_current"] for end in ends) else {"end.contact_current"}
+    return none | {f"end.time_above.{name}" for name in never[1:]}
+
+
+_WORDS = Words(
+    notes={
+        "source.peak": lambda s: ", measured waveform" if s["source"]["edges_per_second"] is None else "",
+        "end.films": lambda s: f", films may be {percent(s['end']['films_error'])} off",
+        "end.breakdown_voltage": lambda s: (
+            ", at a probability of 63.2 %" if s["end"]["weibull_shape"] is not None else ""
+        ),
+    },
+    values={
+        "source.edges": _edges,
+        "end.films": lambda s: HOW[s["end"]["films"]],
+        "end.events_per_second_range": _range,
+    },
+    hidden=_hidden,
+)

@@ -1,0 +1,164 @@
+"""Tables of results and cases as HTML, which notebooks show."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from html import escape as escaped
+from typing import Any
+
+from ehlectric.bearing.result import BearingResult
+from ehlectric.cases.bearing_case import BearingCase
+from ehlectric.cases.case import Case
+from ehlectric.cases.changes import flattened
+from ehlectric.cases.drive_case import DriveCase, SweptCase
+from ehlectric.cases.film_factors import FilmFactors
+from ehlectric.contact.result import ContactResult
+from ehlectric.drive.result import DriveResult
+from ehlectric.errors import ResultWarning, printable
+from ehlectric.motion.result import MotionResult
+from ehlectric.quantities.formats import CELSIUS, Scale, scale_for, suited
+from ehlectric.quantities.palette import LIGHTS
+from ehlectric.quantities.rows import Row
+from ehlectric.runtime.values import is_number
+from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.points import Range
+from ehlectric.sweep.result import SweepResults
+from ehlectric.sweep.sweep_inputs import Sweep
+from ehlectric.sweep.warnings import sweep_warnings
+from ehlectric.tables.bearing_tables import total_rows
+from ehlectric.tables.contact_tables import result_rows
+from ehlectric.tables.drive_tables import drive_rows
+from ehlectric.tables.measured_tables import factor_rows
+from ehlectric.tables.motion_tables import run_rows
+from ehlectric.tables.sweep_summary import sweep_rows
+
+# Largest number of values of a varied key that are listed.
+_LISTED = 6
+
+
+def html_of(shown: Any) -> str:
+    """Table of a result or a case as HTML.
+
+    Parameters
+    ----------
+    shown : object
+        Result of any kind, film factors of a measurement, or a case, a bearing case or a sweep.
+
+    Returns
+    -------
+    str
+        Title, verdict if there is one, the rows that the command prints, and warnings.
+    """
+    rows_of = next(rows for kind, rows in _ROWS.items() if isinstance(shown, kind))
+    title = getattr(shown, "title", "") or getattr(getattr(shown, "case", None), "title", "")
+    parts = [
+        f"<p><b>{escape(type(shown).__name__)}</b>{f': {escape(title)}' if title else ''}</p>",
+        _verdict(getattr(shown, "verdict", None)),
+        "<table>",
+        *map(_row, rows_of(shown)),
+        "</table>",
+        *(f"<p>{_word(warning)}: {escape(str(warning))}</p>" for warning in _warnings(shown)),
+    ]
+    return "<div>" + "".join(parts) + "</div>"
+
+
+def escape(text: str) -> str:
+    """Text as HTML, with the characters that are not seen as escapes."""
+    return escaped(printable(text))
+
+
+def _verdict(verdict: Any) -> str:
+    """Sentences of a verdict with a dot of its colour; empty without one."""
+    if verdict is None:
+        return ""
+    dot = f'<span style="color:{LIGHTS[verdict.level]}">&#9679;</span>'
+    return f"<p>{dot} {escape(verdict.text)}</p>"
+
+
+def _row(row: Row) -> str:
+    style = f' style="color:{LIGHTS["red"]}"' if row.alarm else ""
+    name = escape(row.name).replace("  ", "&emsp;")
+    value, rest = escape(row.bounded), escape(f"{row.unit}{row.note}")
+    return (
+        f'<tr{style}><td style="text-align:left">{name}</td><td style="text-align:right">{value}</td>'
+        f'<td style="text-align:left">{rest}</td></tr>'
+    )
+
+
+def _word(warning: ResultWarning) -> str:
+    return "note" if warning.severity == "note" else "warning"
+
+
+def _warnings(shown: Any) -> Iterable[ResultWarning]:
+    """Warnings of a result; none of a case."""
+    if isinstance(shown, SweepResults):
+        return sweep_warnings(shown)
+    warnings: Iterable[ResultWarning] = getattr(shown, "warnings", ())
+    return warnings
+
+
+def input_rows(case: Case | BearingCase | DriveCase) -> Iterator[Row]:
+    """Rows of the inputs of a case that are given, without defaults."""
+    given = flattened(case.model_dump(mode="json", exclude_none=True, exclude_unset=True))
+    for key, value in given.items():
+        if key != "title":
+            yield input_row(case, key, value)
+
+
+def input_row(case: Case | BearingCase | DriveCase, key: str, value: Any) -> Row:
+    """Row of an input: its dotted key, and its value in a unit that suits it.
+
+    Parameters
+    ----------
+    case : Case, BearingCase or DriveCase
+        Case with the input.
+    key : str
+        Dotted key of the input.
+    value : object
+        Value in SI units.
+    """
+    if not is_number(value):
+        return Row(key, value if isinstance(value, str) else json.dumps(value))
+    scale = _scale(key, case, [float(value)])
+    return Row(key, f"{scale.of(value):.6g}", scale.unit)
+
+
+def _scale(key: str, case: SweptCase, values: Sequence[float]) -> Scale:
+    """Unit that suits all of some values of an input: °C, rpm, per GPa, or with a prefix that it lacks."""
+    unit, largest = label_of(key, case).unit, max(map(abs, values))
+    if unit == "K":
+        return CELSIUS
+    if unit in ("rad/s", "A/m**2", "m**2/s", "1/Pa", "m**2", "m**3"):
+        return scale_for(largest or 1.0, unit)
+    return Scale(*suited(largest or 1.0, unit))
+
+
+def _sweep_rows(sweep: Sweep) -> Iterator[Row]:
+    """Rows of a sweep: its design, and the values or the range of each varied key."""
+    yield Row("design", sweep.design, note=f"{sweep.size} points")
+    for key, values in sweep.vary.items():
+        ends = (values.start, values.stop) if isinstance(values, Range) else values
+        numbers = [float(value) for value in ends if isinstance(value, int | float)]
+        scale = _scale(key, sweep.case, numbers) if len(numbers) == len(ends) else Scale(1.0, "")
+        texts = [f"{scale.of(value):.6g}" if numbers else str(value) for value in ends]
+        if isinstance(values, Range):
+            yield Row(key, " to ".join(texts), scale.unit, f", {values.spacing}")
+        else:
+            more = f", ... ({len(texts)} values)" if len(texts) > _LISTED else ""
+            yield Row(key, ", ".join(texts[:_LISTED]) + more, scale.unit)
+
+
+# Rows by the class of what is shown.
+_ROWS: Mapping[type, Callable[[Any], Iterable[Row]]] = {
+    ContactResult: result_rows,
+    BearingResult: lambda result: total_rows(result.summary()),
+    DriveResult: lambda result: drive_rows(result.summary()),
+    MotionResult: lambda result: run_rows(result.summary()),
+    SweepResults: sweep_rows,
+    FilmFactors: factor_rows,
+    Case: input_rows,
+    BearingCase: input_rows,
+    DriveCase: input_rows,
+    Sweep: _sweep_rows,
+}

@@ -1,0 +1,144 @@
+"""Tables of the terminal made from rows of data, and those of a measurement beside computed values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from ehlectric.cases.defaults import HOW
+from ehlectric.cases.film_factors import RAISED, SCATTER, FilmFactors, MeanFactor
+from ehlectric.errors import printable
+from ehlectric.quantities.formats import amount
+from ehlectric.quantities.rows import Row
+from ehlectric.quantities.units import rpm
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ehlectric.runtime.progress import RunOutcome
+
+
+def table_of(rows: Iterable[Row], title: str = "") -> Table:
+    """Table of rows for the terminal: names, and beside them values with units and notes.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+        Rows, values in SI units. Headings are bold, with the rows below them indented. Alarms are red.
+    title : str, optional
+        Title above the table.
+
+    Returns
+    -------
+    rich.table.Table
+        Two columns, both aligned to the left; values in their shown units.
+    """
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(
+        title=Text(printable(title)) if title else None, show_header=False, title_justify="left", box=None
+    )
+    table.add_column(no_wrap=True)
+    table.add_column()
+    indent = ""
+    for row in rows:
+        if row.heading:
+            table.add_row(Text(printable(row.name)), "", style="bold")
+            indent = "  "
+        else:
+            # Text keeps rich from reading brackets as a style.
+            cells = Text(indent + printable(row.name)), Text(printable(row.text))
+            table.add_row(*cells, style="red" if row.alarm else None)
+    return table
+
+
+# Largest number of rows that are printed; measured.csv has all of them.
+_PRINTED = 30
+
+
+def measured_tables(outcome: RunOutcome[Any]) -> Iterator[Table]:
+    """Tables of the film factors beside a result; none without a measurement."""
+    for factors in outcome.beside:
+        if isinstance(factors, FilmFactors):
+            yield rows_table(factors)
+            yield table_of(factor_rows(factors), "Measured and computed")
+
+
+def rows_table(factors: FilmFactors) -> Table:
+    """Table of the rows of a measurement with their film factors."""
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=Text("Rows of the measurement"), title_justify="left", box=None, padding=(0, 2, 0, 0))
+    electric = factors.quantity == "capacitance"
+    measured, unit, scale = ("capacitance", "pF", 1e12) if electric else ("film", "nm", 1e9)
+    speed = "speed\n[rpm]" if electric else "u\n[m/s]"
+    for head in ("line", speed, f"measured\n[{unit}]", f"computed\n[{unit}]", "film factor", "+-"):
+        # Text keeps rich from reading brackets as a style.
+        table.add_column(Text(head), justify="right", no_wrap=True)
+    columns = factors.columns
+    for k in range(min(len(factors.reasons), _PRINTED)):
+        at = float(columns[factors.speed_key][k])
+        error = columns["factor_uncertainty"][k] if "factor_uncertainty" in columns else math.nan
+        table.add_row(
+            f"{columns['line'][k]:.0f}",
+            f"{rpm(at) if electric else at:.4g}",
+            _number(scale * columns[measured][k]),
+            _number(scale * columns["computed"][k]),
+            "none" if factors.reasons[k] else f"{columns['film_factor'][k]:.3f}",
+            _number(error, ".2g"),
+        )
+    return table
+
+
+def _number(value: float, digits: str = ".4g") -> str:
+    return "" if math.isnan(value) else format(value, digits)
+
+
+def factor_rows(factors: FilmFactors) -> Iterator[Row]:
+    """Rows of the mean film factor of a measurement, and how it was found."""
+    mean = factors.mean
+    yield Row("measurement", factors.source, note=_counted(factors))
+    if factors.background is not None:
+        yield Row("background taken off", amount(factors.background, "F"))
+    if mean is None:
+        yield Row("mean film factor", "none", alarm=True)
+    else:
+        yield Row("mean film factor", f"{mean.value:.3f}")
+        yield Row("95 % interval", _interval(mean), note=_beside(factors))
+        if mean.statistical is not None:
+            yield Row("standard uncertainty of the rows", mean.statistical, "%", digits=".2g")
+        if mean.systematic:
+            yield Row("and of the ranges of the case", mean.systematic, "%", digits=".2g")
+        elif mean.low is not None:
+            yield Row(
+                "inputs of the case", "taken as exact", note="; [ranges] of a bearing widens the interval"
+            )
+    if factors.slope is not None:
+        slope, error = factors.slope
+        yield Row("film factor over speed", f"speed^({slope:.2g} +- {error:.1g})")
+    how = f"{factors.solves} solved" if factors.contacts == "solved" else HOW[factors.contacts]
+    yield Row("contacts" if factors.quantity == "capacitance" else "films", how)
+
+
+def _beside(factors: FilmFactors) -> str:
+    """Note on the error of films that are not solved, which is not in the interval."""
+    error = factors.formula_error
+    return "" if error is None else f", beside up to {100.0 * error:.2g} % of the {factors.contacts}"
+
+
+def _counted(factors: FilmFactors) -> str:
+    found = int(factors.found.sum())
+    return f", {found} of {len(factors.reasons)} rows with a film factor"
+
+
+def _interval(mean: MeanFactor) -> str:
+    if mean.low is None or mean.high is None:
+        return "none: one row without a stated uncertainty"
+    from_rows = {
+        SCATTER: ", from the scatter of the rows only",
+        RAISED: ", raised to the scatter of the rows",
+    }
+    return f"{mean.low:.3f} to {mean.high:.3f}{from_rows.get(mean.basis, '')}"

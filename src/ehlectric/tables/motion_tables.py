@@ -1,0 +1,123 @@
+"""Rows of the tables of transient contacts: of a schedule before a run, and of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+
+from ehlectric.cases.case import Case
+from ehlectric.contact.contact_kinds import KINDS
+from ehlectric.contact.touching import share_text
+from ehlectric.quantities.bounds import ideal_bounds
+from ehlectric.quantities.motion_results import MOTION_BOOK
+from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, value_at
+from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
+from ehlectric.tables.contact_tables import condition_rows
+
+
+def schedule_rows(summary: Summary) -> Iterator[Row]:
+    """Rows of the time steps and speeds of rough surfaces, from the summary of a case before its run."""
+    book = MOTION_BOOK[summary["inputs"]["contact"]["geometry"]]
+    return sheet_rows(MOTION_CHECK, book, summary, _WORDS)
+
+
+def run_rows(summary: Summary) -> list[Row]:
+    """Rows of the key figures of a transient run, below the operating conditions of its case."""
+    case = Case.from_dict(summary["inputs"])
+    conditions = KINDS[case.contact.geometry].resolve(case)
+    book = MOTION_BOOK[case.contact.geometry]
+    meniscus = partial(_meniscus, conditions.half_width)
+    words = _WORDS | Words(values={"film.meniscus_before": meniscus})
+    rows = sheet_rows(MOTION, book, summary, words, ideal_bounds(book))
+    return [*condition_rows(case, conditions), *rows]
+
+
+def _meniscus(half_width: float, summary: Summary) -> str | None:
+    """Where oil fills the gap before the motion and over time; None without a layer of oil."""
+    film = summary["film"]
+    if "oil_layer" not in film:
+        return None
+    places = [film[f"meniscus_{name}"] for name in ("before", "least", "largest")]
+    if None in places:
+        return "none: flooded"
+    before, least, largest = (f"{place / half_width:.3g}" for place in places)
+    return f"x/b = {before} before the motion, {least} to {largest} over time"
+
+
+def _touches(summary: Summary) -> bool:
+    """Whether the surfaces touch at one time step."""
+    return bool(summary["asperities"]["load_share_largest"] > 0.0)
+
+
+def _hidden(summary: Summary) -> frozenset[str]:
+    """Keys of the asperities, where none touches."""
+    if "asperities" not in summary or _touches(summary):
+        return frozenset()
+    return frozenset(key for section in MOTION for key in section.keys if key.startswith("asperities."))
+
+
+def _time(key: str, *, boundary: bool = False) -> Callable[[Summary], str]:
+    """Note with a time of a summary, and that a value in a spot is that of the boundary film."""
+
+    def note(summary: Summary) -> str:
+        time = value_at(summary, key)
+        at = "" if time is None else f" at {1e3 * time:.4g} ms"
+        return f"{at}, in the boundary film" if boundary and _touches(summary) else at
+
+    return note
+
+
+def _speed(surface: int) -> Callable[[Summary], float | None]:
+    """Speed of a surface [m/s]; None of a smooth one."""
+
+    def value(summary: Summary) -> float | None:
+        inputs = summary["inputs"]
+        if surface not in (table["surface"] for table in inputs["roughness"]):
+            return None
+        ratio = summary["motion"][f"speed_ratio_{surface}"]
+        return float(ratio * inputs["contact"]["entrainment_speed"])
+
+    return value
+
+
+def _load_share(summary: Summary) -> tuple[str, str]:
+    """Mean load share with no more digits than its change from a coarser grid leaves."""
+    found = summary["asperities"]
+    return share_text(found["load_share_mean"], found["load_share_mean_coarser"]), "%"
+
+
+def _coarser_share(summary: Summary) -> str:
+    found = summary["asperities"]
+    coarser = found["load_share_mean_coarser"]
+    if coarser is None:
+        return ", not known on a coarser grid"
+    return f", {share_text(coarser, found['load_share_mean'])} % on half the nodes"
+
+
+def _halvings(summary: Summary) -> Any:
+    return summary["motion"]["halvings"] or None
+
+
+_WORDS = Words(
+    notes={
+        "motion.duration": lambda s: f", {s['motion']['steps']} time steps",
+        "film.minimum_thickness": _time("film.minimum_time", boundary=True),
+        "film.oil_layer": lambda _: ", on both surfaces together",
+        "field.max_strength": _time("field.max_strength_time", boundary=True),
+        "field.share_above_90": lambda _: " of the evaluated time",
+        "field.local_maxima_quantiles.1": lambda s: f", {s['field']['local_maxima']} maxima",
+        "discharge.breakdown_voltage": _time("discharge.breakdown_time", boundary=True),
+        "asperities.load_share_mean": _coarser_share,
+        "asperities.load_share_largest": _time("asperities.load_share_largest_time"),
+        "asperities.contact_area_share_mean": lambda _: ", of the Hertz zone",
+        "asperities.time_share": lambda s: f" of {s['asperities']['steps']} evaluated time steps",
+    },
+    values={
+        "motion.speed_1": _speed(1),
+        "motion.speed_2": _speed(2),
+        "motion.halvings": _halvings,
+        "asperities.load_share_mean": _load_share,
+    },
+    hidden=_hidden,
+)

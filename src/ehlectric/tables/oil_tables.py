@@ -1,0 +1,277 @@
+"""Tables of oils and bearings of the library: lists, and the values, laws and sources of one oil."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from types import MappingProxyType
+from typing import Any, BinaryIO
+
+from rich.table import Table
+from rich.text import Text
+
+from ehlectric.cases.case_oil import known_oil, named_oil
+from ehlectric.cases.library.bearing_catalogue import CatalogueBearing
+from ehlectric.cases.library.library_oils import KINDS, LibraryOil
+from ehlectric.cases.oil_report import OilReport, SurveyLine, celsius, depends_on_temperature, survey
+from ehlectric.runtime.files import column_head, csv_of
+
+CSV_FILE = "oil.csv"
+
+# Letter of each kind of source behind a number.
+LETTERS: Mapping[str, str] = MappingProxyType({kind: kind[0] for kind in KINDS})
+assert len(set(LETTERS.values())) == len(LETTERS)
+
+# Factor and shown unit of each SI unit at ambient pressure, and of the viscosity at pressure.
+_UNITS: Mapping[str, tuple[float, str]] = MappingProxyType(
+    {
+        "": (1.0, ""),
+        "Pa*s": (1e3, "mPa s"),
+        "m**2/s": (1e6, "mm²/s"),
+        "1/Pa": (1e9, "1/GPa"),
+        "kg/m**3": (1.0, "kg/m³"),
+        "S/m": (1.0, "S/m"),
+        "W/m/K": (1.0, "W/(m K)"),
+        "J/m**3/K": (1e-6, "MJ/(m³ K)"),
+    }
+)
+_AT_PRESSURE: Mapping[str, tuple[float, str]] = MappingProxyType({**_UNITS, "Pa*s": (1.0, "Pa s")})
+
+# Temperatures of the list [K], and its numbers: name, property, temperature [K], head.
+_LISTED = (313.15, 373.15)
+_COLUMNS = (
+    ("viscosity_40", "viscosity", _LISTED[0], "viscosity\n40 °C\n[mPa s]"),
+    ("viscosity_100", "viscosity", _LISTED[1], "\n100 °C\n[mPa s]"),
+    ("alpha_star_40", "alpha_star", _LISTED[0], "alpha*\n40 °C\n[1/GPa]"),
+    ("density_40", "density", _LISTED[0], "density\n40 °C\n[kg/m³]"),
+    ("relative_permittivity_40", "relative_permittivity", _LISTED[0], "permit-\ntivity\n40 °C"),
+)
+
+
+def listed_oil(oil: LibraryOil) -> dict[str, Any]:
+    """Numbers of an oil of the library by name, SI units, as ``ehlectric oils --json`` prints them.
+
+    A number is None where its value is missing or the temperature is outside the range of the oil. The
+    numbers of an oil without temperature hold at one that its source does not name.
+    """
+    named = named_oil(oil.name)
+    table = named.table
+    ends = table.temperature_range
+    kelvins: list[float | None] = [None]
+    if depends_on_temperature(table):
+        kelvins = [at for at in _LISTED if ends is None or ends[0] <= at <= ends[1]]
+    lines = {line.of.name: line for line in survey(named, [known_oil(table, at) for at in kelvins], ())}
+    values: dict[str, Any] = {}
+    for key, name, kelvin, _ in _COLUMNS:
+        # An oil without temperature has one value, which stands in the first column.
+        at = kelvin if kelvin in kelvins or kelvin != _LISTED[0] else None
+        line = lines[name]
+        value = line.values[kelvins.index(at)] if at in kelvins else None
+        values[key] = None if value is None else {"value": value, "unit": line.of.unit, "kind": line.kind}
+    return {
+        "name": oil.name,
+        "title": oil.title,
+        "temperature_range": ends,
+        **values,
+        "weakest": oil.weakest,
+        "needs": oil.needs,
+    }
+
+
+def listed_tables(listed: Sequence[Mapping[str, Any]]) -> Iterator[Table]:
+    """Tables of the oils of the library: numbers with the letters of their kinds, and what each oil is."""
+    numbers = _table()
+    numbers.add_column(Text("\n\nname"), no_wrap=True)
+    numbers.add_column(Text("\nrange\n[°C]"), justify="right", no_wrap=True)
+    for *_, head in _COLUMNS:
+        numbers.add_column(Text(head), justify="right", no_wrap=True)
+    for oil in listed:
+        ends = oil["temperature_range"]
+        span = "any" if ends is None else " to ".join(celsius(end).removesuffix(" °C") for end in ends)
+        numbers.add_row(oil["name"], span, *(_lettered(oil[key]) for key, *_ in _COLUMNS))
+    yield numbers
+    about = _table()
+    about.add_column("name", no_wrap=True)
+    about.add_column("oil", overflow="fold")
+    about.add_column("the case must give", no_wrap=True)
+    for oil in listed:
+        about.add_row(oil["name"], Text(oil["title"]), Text("\n".join(oil["needs"])))
+    yield about
+
+
+def _lettered(entry: Mapping[str, Any] | None) -> str:
+    """Number in its shown unit with the letter of its kind; a dash without a number."""
+    if entry is None:
+        return "-  "
+    factor, _ = _UNITS[entry["unit"]]
+    return f"{factor * entry['value']:.4g} {LETTERS.get(entry['kind'], ' ')}"
+
+
+def heading(report: OilReport) -> str:
+    """Name of an oil, what it is, and the range of its temperatures."""
+    named = report.named
+    ends = named.table.temperature_range
+    span = "" if ends is None else f"; {celsius(ends[0])} to {celsius(ends[1])}"
+    return ": ".join(filter(None, (named.name, named.title))) + span
+
+
+def values_table(report: OilReport) -> Table:
+    """Table of the values of an oil: properties and pressures below each other, temperatures beside."""
+    table = _table()
+    table.add_column("", no_wrap=True)
+    for kelvin in report.temperatures:
+        table.add_column(celsius(kelvin) or "as given", justify="right", no_wrap=True)
+    for line in _shown(report):
+        _, unit = _unit(line)
+        name = f"{_name(line)} [{unit}]" if unit else _name(line)
+        table.add_row(Text(name), *_cells(report, line))
+    return table
+
+
+def _shown(report: OilReport) -> Iterator[SurveyLine]:
+    """Lines of a report without those at pressure that are missing at ambient pressure already."""
+    gone = {line.of.name for line in report.lines if line.pressure == 0.0 and line.missing}
+    yield from (line for line in report.lines if line.pressure == 0.0 or line.of.name not in gone)
+
+
+def _name(line: SurveyLine) -> str:
+    """Name of a line; lines at pressure stand indented below that at ambient pressure."""
+    if line.pressure == 0.0:
+        return line.of.title
+    at = f"at {line.pressure / 1e9:g} GPa"
+    return f"{line.of.title} {at}" if line.of.name == "density_ratio" else f"  {at}"
+
+
+def _unit(line: SurveyLine) -> tuple[float, str]:
+    """Factor from the SI unit to the shown unit of a line, and this unit."""
+    return (_AT_PRESSURE if line.pressure > 0.0 else _UNITS)[line.of.unit]
+
+
+def _cells(report: OilReport, line: SurveyLine) -> Iterator[str]:
+    """Values of a line as text: why there is none, and a star beyond the range of the law."""
+    factor, _ = _unit(line)
+    for oil, value in zip(report.oils, line.values, strict=True):
+        if value is None:
+            beyond = line.pressure > 0.0 and all(key in oil.laws for key in line.of.laws)
+            yield "beyond a pole" if beyond else "missing"
+        else:
+            yield f"{factor * value:.4g}{'*' if report.beyond(line, oil) else ''}"
+
+
+def behind_table(report: OilReport) -> Table:
+    """Table of the law, the kind and the numbers of the sources behind each property."""
+    number = {source: k for k, source in enumerate(report.sources, 1)}
+    table = _table()
+    for head in ("property", "law", "weakest source", "sources"):
+        table.add_column(head, no_wrap=True)
+    told = set()
+    for line in _shown(report):
+        compressed = line.pressure > 0.0
+        if line.missing or (line.of.name, compressed) in told:
+            continue
+        told.add((line.of.name, compressed))
+        name = "  compressed" if compressed and line.of.name != "density_ratio" else line.of.title
+        numbers = ", ".join(str(number[source]) for source in line.sources)
+        table.add_row(*map(Text, (name, line.law, line.kind, numbers)))
+    return table
+
+
+def sources_table(report: OilReport) -> Table:
+    """Table of the sources by number: kind, citation with DOI, and remark."""
+    table = _table()
+    table.add_column("", no_wrap=True, justify="right")
+    table.add_column("kind")
+    table.add_column("source")
+    for number, source in enumerate(report.sources, 1):
+        doi = f", doi:{source.doi}" if source.doi else ""
+        table.add_row(str(number), source.kind, Text(f"{source.citation}{doi}\n{source.note}".strip()))
+    return table
+
+
+def csv_content(report: OilReport) -> Callable[[BinaryIO], None]:
+    """Function that writes the values of an oil as CSV: a row for each property, temperature and pressure."""
+    heads = (
+        "property", "unit", column_head("temperature", "K"), column_head("pressure", "Pa"), "value",
+        "beyond_range", "law", "kind", "sources", "remarks",
+    )  # fmt: skip
+    return csv_of(heads, _csv_rows(report))
+
+
+def _csv_rows(report: OilReport) -> Iterator[list[Any]]:
+    for line in report.lines:
+        cited = "; ".join(f"{s.citation}{f' doi:{s.doi}' if s.doi else ''}" for s in line.sources)
+        notes = " ".join(source.note for source in line.sources if source.note)
+        for oil, value in zip(report.oils, line.values, strict=True):
+            number = "missing" if value is None else value
+            yield [
+                line.of.name, line.of.unit or "-", oil.temperature, line.pressure, number,
+                report.beyond(line, oil), line.law, line.kind, cited, notes,
+            ]  # fmt: skip
+
+
+def _table() -> Table:
+    """Empty table without lines."""
+    return Table(box=None, padding=(0, 1, 0, 0))
+
+
+# Heads of the columns after the name.
+_HEADS = ("bore\n[mm]", "outer\n[mm]", "width\n[mm]", "elements\n[mm]", "pitch\n[mm]", "angle\n[deg]")
+_RATINGS = ("C\n[kN]", "C0\n[kN]")
+
+
+def described(bearing: CatalogueBearing) -> dict[str, Any]:
+    """Values of a bearing by name, as ``ehlectric bearings --json`` prints them: SI units, angles in rad."""
+    rating = bearing.rating
+    lengths = ("bore", "outer_diameter", "width", "element_diameter", "roller_length", "pitch_diameter")
+    return {
+        "name": bearing.name,
+        "kind": bearing.kind,
+        "elements": bearing.elements,
+        **{key: getattr(bearing, key) for key in lengths},
+        "contact_angle": bearing.contact_angle,
+        "dynamic_rating": rating and rating.dynamic,
+        "static_rating": rating and rating.static,
+        "rating_of": rating and f"{rating.maker} {rating.designation}",
+        "internal_geometry": bearing.internal_kind,
+    }
+
+
+def catalogue_tables(bearings: Iterable[CatalogueBearing]) -> Iterator[Table]:
+    """Tables of bearings, one for each kind, with dimensions, printed ratings and kind of the sources.
+
+    Parameters
+    ----------
+    bearings : iterable of CatalogueBearing
+        Bearings of the library.
+
+    Yields
+    ------
+    rich.table.Table
+        Table of one kind of bearing, at most 80 characters wide.
+    """
+    ordered = sorted(bearings, key=lambda bearing: bearing.kind)
+    for kind, group in groupby(ordered, key=lambda bearing: bearing.kind):
+        title = Text(f"{kind} bearings")
+        table = Table(title=title, title_justify="left", title_style="bold", box=None, padding=(0, 1, 0, 0))
+        table.add_column("name", no_wrap=True)
+        for head in (*_HEADS, *_RATINGS):
+            table.add_column(Text(head), justify="right", no_wrap=True)
+        table.add_column("elements\nare", no_wrap=True)
+        for bearing in group:
+            table.add_row(bearing.name, *_bearing_cells(bearing), bearing.internal_kind or "")
+        yield table
+
+
+def _bearing_cells(bearing: CatalogueBearing) -> Iterator[str]:
+    yield from (_millimetres(size) for size in (bearing.bore, bearing.outer_diameter, bearing.width))
+    sizes = filter(None, (bearing.element_diameter, bearing.roller_length))
+    yield " x ".join([str(bearing.elements), *map(_millimetres, sizes)])
+    yield _millimetres(bearing.pitch_diameter)
+    yield f"{math.degrees(bearing.contact_angle):.4g}" if bearing.contact_angle else ""
+    rating = bearing.rating
+    yield from ("", "") if rating is None else (f"{1e-3 * f:.4g}" for f in (rating.dynamic, rating.static))
+
+
+def _millimetres(length: float) -> str:
+    return f"{1e3 * length:.5g}"

@@ -1,0 +1,105 @@
+"""Rows of the table of a sweep, of the spread of a value, and the table of its sensitivity indices."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ehlectric.quantities.quantity import Bound
+from ehlectric.quantities.rows import Row
+from ehlectric.sweep.labels import label_of
+from ehlectric.sweep.result import SweepResults
+from ehlectric.sweep.sensitivity import Sensitivity
+from ehlectric.sweep.sweep_inputs import breakdown_of
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+# Maximum number of reasons that are shown; sweep.csv has all of them.
+_REASONS = 5
+
+# Numbers, in which reasons of the same kind differ.
+_NUMBER = re.compile(r"\d[\d.e+-]*")
+
+
+def sweep_rows(results: SweepResults) -> list[Row]:
+    """Rows of the numbers of points of each status, with the reasons of those that are not solved.
+
+    Parameters
+    ----------
+    results : SweepResults
+        Results of a sweep.
+
+    Returns
+    -------
+    list of Row
+        A row for each status, followed by rows for the most frequent reasons of the points with this status.
+    """
+    rows = []
+    for status in ("solved", "not converged", "failed"):
+        reasons = [point.reason for point in results.points if point.status == status]
+        rows.append(Row(f"points {status}", str(len(reasons)), note=f"of {len(results.points)}"))
+        rows += [Row(f"  reason, {_points(count)}", note=reason) for count, reason in _grouped(reasons)]
+    return rows
+
+
+def _points(count: int) -> str:
+    return "1 point" if count == 1 else f"{count} points"
+
+
+def _grouped(reasons: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """Most frequent reasons with the number of their points; reasons that differ in numbers are one."""
+    groups: dict[str, list[str]] = {}
+    for reason in filter(None, reasons):
+        groups.setdefault(_NUMBER.sub("", reason), []).append(reason)
+    ordered = sorted(groups.values(), key=len, reverse=True)
+    for group in ordered[:_REASONS]:
+        yield len(group), group[0] if len(set(group)) == 1 else f"for example {group[0]}"
+    if others := sum(map(len, ordered[_REASONS:])):
+        yield others, "other reasons, see sweep.csv"
+
+
+def spread_rows(results: SweepResults, sensitivity: Sensitivity) -> list[Row]:
+    """Rows of the spread of a value over its samples, all in one unit."""
+    label, spread = label_of(sensitivity.value, results.case), sensitivity.spread
+    scale = label.scaled(np.array([spread.minimum, spread.maximum]))
+    values = {"mean": spread.mean, "standard deviation": spread.standard_deviation}
+    values |= {"minimum": spread.minimum, "maximum": spread.maximum}
+    values |= {f"{100.0 * q:g} % quantile": at for q, at in spread.quantiles.items()}
+    rows = [Row("samples", str(spread.samples))]
+    breakdown = breakdown_of(results.case, sensitivity.value)
+    at_most = sensitivity.value in (breakdown.value, breakdown.margin)
+    for name, value in values.items():
+        # Real films break down at lower voltages; that says nothing about how much the voltages scatter.
+        bound: Bound = "≤" if at_most and name != "standard deviation" else ""
+        rows.append(Row(f"{label.name}, {name}", f"{scale.factor * value:.4g}", scale.unit, bound=bound))
+    share = sensitivity.share_below_voltage
+    if share is not None:
+        voltage = breakdown.voltage_name
+        rows.append(Row(f"samples below the {voltage}", share, "%", digits=".3g"))
+    return rows
+
+
+def indices_table(results: SweepResults, sensitivity: Sensitivity) -> Table:
+    """Table of the sensitivity indices of the varied inputs, sorted by decreasing total index."""
+    from rich.table import Table
+    from rich.text import Text
+
+    title = f"Sobol indices: share of the variance of the {label_of(sensitivity.value, results.case).name}"
+    table = Table(title=Text(title), title_justify="left", box=None, padding=(0, 2, 0, 0))
+    table.add_column("input")
+    for head in ("first order", "95 % interval", "total", "95 % interval"):
+        table.add_column(head, justify="right", no_wrap=True)
+    for index in sorted(sensitivity.indices, key=lambda one: -one.total):
+        table.add_row(
+            label_of(index.key, results.case).name,
+            f"{index.first_order:.3f}",
+            "{:.3f} to {:.3f}".format(*index.first_order_interval),
+            f"{index.total:.3f}",
+            "{:.3f} to {:.3f}".format(*index.total_interval),
+        )
+    return table
