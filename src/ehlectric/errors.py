@@ -39,18 +39,9 @@ def unseen(letter: str) -> bool:
 
 
 def printable(text: str) -> str:
-    r"""Text on one line, with the characters that a terminal obeys or that are not seen as escapes.
-
-    Parameters
-    ----------
-    text : str
-        Text of a user, such as a title or the path of a file.
-
-    Returns
-    -------
-    str
-        Text without control characters, format characters and line separators. A text without them is
-        unchanged, and so is a text that is already printable.
+    r"""Text on one line, with the characters that a terminal obeys or that are not seen as escapes. Returns
+    text without control characters, format characters and line separators; a text without them is unchanged,
+    and so is a text that is already printable.
 
     Examples
     --------

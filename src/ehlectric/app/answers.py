@@ -40,19 +40,12 @@ class Shown:
 
 @dataclass(frozen=True)
 class Line:
-    """Line of the table that the command prints; a line without text is a heading.
+    """Line of the table that the command prints; a line without text is a heading."""
 
-    Attributes
-    ----------
-    name, text : str
-        Name of the quantity; value, unit and note.
-    alarm : bool
-        Whether the line says that the numbers must not be used.
-    """
-
+    # name and text: name of the quantity; value, unit and note.
     name: str
     text: str = ""
-    alarm: bool = False
+    alarm: bool = False  # whether the line says that the numbers must not be used
 
 
 # Largest uploaded files: of a case, and of a surface that a case names [bytes].
@@ -67,46 +60,23 @@ Download = Literal["csv", "netcdf", "summary", "figures", "all"]
 
 @dataclass(frozen=True)
 class Uploaded:
-    """Uploaded case or sweep.
-
-    Attributes
-    ----------
-    name : str
-        Name of its file.
-    kind : str
-        "contact", "motion", "bearing" or "sweep".
-    table : mapping
-        Its tables; names of files are relative to the folder of the session.
-    missing : tuple of str
-        Names of files that the case names and that are still to be uploaded. The tables are checked once
-        none is missing.
-    """
+    """Uploaded case or sweep."""
 
     name: str
-    kind: str
-    table: Mapping[str, Any]
+    kind: str  # "contact", "motion", "bearing" or "sweep"
+    table: Mapping[str, Any]  # its tables; names of files are relative to the folder of the session
+    # Names of files that the case names and that are still to be uploaded. The tables are checked once none
+    # is missing.
     missing: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Written:
-    """Files of a result as the command writes them.
-
-    Attributes
-    ----------
-    folder : str
-        Folder of the files.
-    names : tuple of str
-        Their names.
-    failure : str
-        What was not solved; empty where all was.
-    warnings : tuple of Told
-        Warnings of the result and of its figures.
-    """
+    """Files of a result as the command writes them."""
 
     folder: str
     names: tuple[str, ...]
-    failure: str = ""
+    failure: str = ""  # what was not solved; empty where all was
     warnings: tuple[Told, ...] = ()
 
 
@@ -124,146 +94,70 @@ def file_title(title: object) -> str:
 
 @dataclass(frozen=True)
 class Choice:
-    """Entry of a list to choose from.
+    """Entry of a list to choose from."""
 
-    Attributes
-    ----------
-    name : str
-        Name for a key such as ``bearing.base``.
-    label : str
-        What the list shows.
-    group : str
-        Kind, under which the list shows it.
-    """
-
-    name: str
-    label: str
-    group: str = ""
+    name: str  # name for a key such as ``bearing.base``
+    label: str  # what the list shows
+    group: str = ""  # kind, under which the list shows it
 
 
 @dataclass(frozen=True)
 class MotionAnswer:
-    """Movie of a contact with moving roughness.
-
-    Attributes
-    ----------
-    title : str
-        Title of the case.
-    complete : bool
-        Whether all time steps are solved.
-    failure : str
-        Reason why the run ended early; empty for a complete run and for one that was stopped.
-    of : int
-        Number of recorded instants of the file; the movie has fewer where they are many.
-    movie : mapping
-        Figure as plotly.js takes it, with a frame for every instant of the movie.
-    history : mapping
-        Figure of the minimum film, the maximum field and the breakdown voltage over time. Its first shape is
-        the line of the present time.
-    times : tuple of float
-        Times of the instants, in the unit of the history.
-    texts : tuple of str
-        Sentence with time, minimum film, maximum field and breakdown voltage for every instant.
-    at_least_film, at_largest_field : int
-        Instants of the movie with the thinnest film and with the largest field.
-    rows : tuple of tuple of str
-        Rows of the key figures: name, value and unit; a heading has no value.
-    warnings : tuple of Told
-        Warnings of the run.
-    folder : str
-        Folder of its files.
-    """
+    """Movie of a contact with moving roughness."""
 
     title: str
-    complete: bool
-    failure: str
-    of: int
-    movie: Mapping[str, Any]
+    complete: bool  # whether all time steps are solved
+    failure: str  # reason why the run ended early; empty for a complete run and for one that was stopped
+    of: int  # number of recorded instants of the file; the movie has fewer where they are many
+    movie: Mapping[str, Any]  # figure as plotly.js takes it, with a frame for every instant of the movie
+    # Figure of the minimum film, the maximum field and the breakdown voltage over time. Its first shape is
+    # the line of the present time.
     history: Mapping[str, Any]
-    times: tuple[float, ...]
+    times: tuple[float, ...]  # times of the instants, in the unit of the history
+    # Sentence with time, minimum film, maximum field and breakdown voltage for every instant.
     texts: tuple[str, ...]
+    # at_least_film and at_largest_field: instants of the movie with the thinnest film and with the largest
+    # field.
     at_least_film: int
     at_largest_field: int
-    rows: tuple[tuple[str, str], ...]
+    rows: tuple[tuple[str, str], ...]  # rows of the key figures: name, value and unit; a heading has no value
     warnings: tuple[Told, ...]
     folder: str
 
 
 @dataclass(frozen=True)
 class StepFigure:
-    """Figure of a surface after a processing step.
+    """Figure of a surface after a processing step."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the step, such as "form: parabola".
-    figure : mapping
-        Figure as plotly.js takes it.
-    label : str
-        Sentence about the figure for a screen reader.
-    """
-
-    name: str
-    figure: Mapping[str, Any]
-    label: str
+    name: str  # name of the step, such as "form: parabola"
+    figure: Mapping[str, Any]  # figure as plotly.js takes it
+    label: str  # sentence about the figure for a screen reader
 
 
 @dataclass(frozen=True)
 class SummitsTable:
-    """Spectral moments and summits of a surface, as ``ehlectric surface`` prints them.
+    """Spectral moments and summits of a surface, as ``ehlectric surface`` prints them."""
 
-    Attributes
-    ----------
-    title : str
-        What the numbers belong to.
-    heads : tuple of str
-        Heads of the columns, with units.
-    rows : tuple of tuple of str
-        Row for every sampling interval.
-    note : str
-        What a reader must know to use the numbers.
-    """
-
-    title: str
+    title: str  # what the numbers belong to
     heads: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    note: str
+    rows: tuple[tuple[str, ...], ...]  # row for every sampling interval
+    note: str  # what a reader must know to use the numbers
 
 
 @dataclass(frozen=True)
 class SurfaceAnswer:
-    """Rough surface and its processing steps.
+    """Rough surface and its processing steps."""
 
-    Attributes
-    ----------
-    kind : str
-        "profile", "map" or "shape".
-    described : mapping
-        Numbers of the surface in SI units, as ``ehlectric surface --json`` gives them.
-    size : str
-        Points, spacing and resolution of the surface.
-    heads : tuple of str
-        Heads of the table of statistics, with units.
-    rows : tuple of tuple of str
-        Row of this table for every processing step; empty for an exact shape.
-    figures : tuple of StepFigure
-        Figure after every processing step; a single one of an exact shape.
-    warnings : tuple of Told
-        Warnings about the file, the steps and the grid.
-    lines : mapping of str to int
-        Number of rows and of columns of a map from a file; empty for other surfaces.
-    summits : SummitsTable or None
-        Moments and summits after the last processing step; None for an exact shape.
-    """
-
-    kind: str
+    kind: str  # "profile", "map" or "shape"
+    # Numbers of the surface in SI units, as ``ehlectric surface --json`` gives them.
     described: Mapping[str, Any]
-    size: str
-    heads: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    figures: tuple[StepFigure, ...]
-    warnings: tuple[Told, ...]
-    lines: Mapping[str, int]
+    size: str  # points, spacing and resolution of the surface
+    heads: tuple[str, ...]  # heads of the table of statistics, with units
+    rows: tuple[tuple[str, ...], ...]  # row of this table for every processing step; empty for an exact shape
+    figures: tuple[StepFigure, ...]  # figure after every processing step; a single one of an exact shape
+    warnings: tuple[Told, ...]  # warnings about the file, the steps and the grid
+    lines: Mapping[str, int]  # number of rows and of columns of a map from a file; empty for other surfaces
+    # Moments and summits after the last processing step; None for an exact shape.
     summits: SummitsTable | None = None
 
 
@@ -274,180 +168,87 @@ PointState = Literal["solved", "no value", "do not use", "not converged", "faile
 
 @dataclass(frozen=True)
 class Variable:
-    """Input of a case that may vary, with a range to begin with.
-
-    Attributes
-    ----------
-    key : str
-        Dotted key of the case.
-    label : str
-        Name of the quantity.
-    low, high : str
-        Ends of a range, with units.
-    log : bool
-        Whether values are better spaced by logarithms.
-    """
+    """Input of a case that may vary, with a range to begin with."""
 
     key: str
     label: str
+    # low and high: ends of a range, with units.
     low: str
     high: str
-    log: bool = False
+    log: bool = False  # whether values are better spaced by logarithms
 
 
 @dataclass(frozen=True)
 class SweepChoices:
-    """Inputs of a case that a sweep can vary, and results of its points that a map can show.
+    """Inputs of a case that a sweep can vary, and results of its points that a map can show."""
 
-    Attributes
-    ----------
-    kind : str
-        "bearing", "drive" or "contact".
-    variables : tuple of Variable
-        Inputs that may vary, the common ones first.
-    values : mapping of str to str
-        Names of results by dotted key of the summary, the first to begin with.
-    """
-
-    kind: str
-    variables: tuple[Variable, ...]
-    values: Mapping[str, str]
+    kind: str  # "bearing", "drive" or "contact"
+    variables: tuple[Variable, ...]  # inputs that may vary, the common ones first
+    values: Mapping[str, str]  # names of results by dotted key of the summary, the first to begin with
 
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """Size of a sweep before it runs.
-
-    Attributes
-    ----------
-    points : int
-        Number of points.
-    seconds : float or None
-        Estimated time [s]; None where films are solved, as that time is known only when some are.
-    workers : int
-        Processes that solve points.
-    refused, corners : int
-        Number of corners of the ranges that are no valid case, and number of all corners.
-    reason : str
-        Why the first of these is refused.
-    """
+    """Size of a sweep before it runs."""
 
     points: int
+    # Estimated time [s]; None where films are solved, as that time is known only when some are.
     seconds: float | None
-    workers: int
+    workers: int  # processes that solve points
+    # refused and corners: number of corners of the ranges that are no valid case, and number of all corners.
     refused: int = 0
     corners: int = 0
-    reason: str = ""
+    reason: str = ""  # why the first of these is refused
 
 
 @dataclass(frozen=True)
 class Axis:
-    """Axis of a map or a line.
+    """Axis of a map or a line."""
 
-    Attributes
-    ----------
-    title : str
-        Name with its unit in brackets.
-    values : tuple of float
-        Values in the order of the design, in the shown unit.
-    log : bool
-        Whether the axis is logarithmic.
-    """
-
-    title: str
-    values: tuple[float, ...]
+    title: str  # name with its unit in brackets
+    values: tuple[float, ...]  # values in the order of the design, in the shown unit
     log: bool = False
 
 
 @dataclass(frozen=True)
 class ChartPoint:
-    """Point of a map or a line.
-
-    Attributes
-    ----------
-    number : int
-        Number of the point in the order of the design.
-    state : str
-        What is known of it.
-    texts : tuple of str
-        Lines that say what it is and what it has.
-    value : float or None
-        Shown number, in the unit of the chart; None where it must not be drawn or there is none.
-    margin : float or None
-        Breakdown voltage divided by applied voltage.
-    voltage : float or None
-        Applied voltage in the unit of the chart where a breakdown voltage is shown, 1 where a margin is.
-    """
+    """Point of a map or a line."""
 
     number: int
     state: PointState
-    texts: tuple[str, ...]
+    texts: tuple[str, ...]  # lines that say what it is and what it has
+    # Shown number, in the unit of the chart; None where it must not be drawn or there is none.
     value: float | None = None
-    margin: float | None = None
+    margin: float | None = None  # breakdown voltage divided by applied voltage
+    # Applied voltage in the unit of the chart where a breakdown voltage is shown, 1 where a margin is.
     voltage: float | None = None
 
 
 @dataclass(frozen=True)
 class Chart:
-    """Content of a map or of a line.
+    """Content of a map or of a line."""
 
-    Attributes
-    ----------
-    x : Axis
-        First varied input.
-    y : Axis or None
-        Second varied input, whose values vary fastest.
-    title : str
-        Name of the shown number with its unit.
-    critical : str
-        What a margin of 1 means; empty where no point has a margin.
-    voltage : str
-        Name of what the shown number is compared with: the applied voltage, or a margin of 1.
-    points : tuple of ChartPoint
-        Points in the order of the design.
-    """
-
-    x: Axis
-    y: Axis | None
-    title: str
-    critical: str
-    voltage: str
+    x: Axis  # first varied input
+    y: Axis | None  # second varied input, whose values vary fastest
+    title: str  # name of the shown number with its unit
+    critical: str  # what a margin of 1 means; empty where no point has a margin
+    voltage: str  # name of what the shown number is compared with: the applied voltage, or a margin of 1
     points: tuple[ChartPoint, ...]
 
 
 @dataclass(frozen=True)
 class SweepView:
-    """State of a sweep, finished or not.
+    """State of a sweep, finished or not."""
 
-    Attributes
-    ----------
-    counts : mapping of str to int
-        Number of points by state.
-    chart : Chart
-        What the map shows.
-    figure : mapping
-        The map or the line, for Plotly.
-    columns : tuple of str
-        Heads of the table of points.
-    rows : tuple of tuple of str
-        Cells of each point.
-    values : mapping of str to str
-        Names of all numbers that some point has, by dotted key.
-    accuracy : str
-        Sentence about the error of films where contacts are not solved; empty where they are.
-    level, text : str
-        Verdict; empty where no point has a margin.
-    warnings : tuple of Told
-        Warnings of the points together.
-    """
-
-    counts: Mapping[str, int]
-    chart: Chart
-    figure: Mapping[str, Any]
-    columns: tuple[str, ...]
+    counts: Mapping[str, int]  # number of points by state
+    chart: Chart  # what the map shows
+    figure: Mapping[str, Any]  # the map or the line, for Plotly
+    columns: tuple[str, ...]  # heads of the table of points
     rows: tuple[tuple[str, ...], ...]
-    values: Mapping[str, str]
+    values: Mapping[str, str]  # names of all numbers that some point has, by dotted key
+    # Sentence about the error of films where contacts are not solved; empty where they are.
     accuracy: str = ""
+    # level and text: verdict; empty where no point has a margin.
     level: str = ""
     text: str = ""
     warnings: tuple[Told, ...] = field(default=())
@@ -455,21 +256,11 @@ class SweepView:
 
 @dataclass(frozen=True)
 class SweepPoint:
-    """Point of a sweep with the address of the page that shows its case.
-
-    Attributes
-    ----------
-    number : int
-        Number of the point.
-    path : str
-        "/" for a bearing, "/drive" for a drive, "/contact" for a contact.
-    query : str
-        Query of the address, which holds the inputs of the point with all digits.
-    """
+    """Point of a sweep with the address of the page that shows its case."""
 
     number: int
-    path: str
-    query: str
+    path: str  # "/" for a bearing, "/drive" for a drive, "/contact" for a contact
+    query: str  # query of the address, which holds the inputs of the point with all digits
 
 
 # Change of a result that is shown as none: the results have four digits [%].
@@ -487,38 +278,17 @@ _PREFIXED = ("s", "J", "V", "m", "F", "Hz")
 
 @dataclass(frozen=True)
 class Result:
-    """Result of one case.
+    """Result of one case."""
 
-    Attributes
-    ----------
-    group : str
-        Heading under which it stands.
-    name : str
-        Name of the quantity.
-    value : float or None
-        Number in its SI unit; None for a result in words.
-    text : str
-        Value as shown, without its unit.
-    unit : str
-        Unit of the text.
-    note : str
-        Note that follows.
-    bound : str
-        "≤" where the number is an upper bound only, "≥" where it is a lower one.
-    main : bool
-        Whether it is one of the results that decide.
-    key : str
-        Dotted key of the quantity, by which results are compared; empty for a result that has none.
-    """
-
-    group: str
+    group: str  # heading under which it stands
     name: str
-    value: float | None
-    text: str
+    value: float | None  # number in its SI unit; None for a result in words
+    text: str  # value as shown, without its unit
     unit: str = ""
     note: str = ""
-    bound: str = ""
+    bound: str = ""  # "≤" where the number is an upper bound only, "≥" where it is a lower one
     main: bool = False
+    # Dotted key of the quantity, by which results are compared; empty for a result that has none.
     key: str = ""
 
     @property
@@ -552,51 +322,25 @@ class Film:
 
 @dataclass(frozen=True)
 class Side:
-    """Answer about one of two cases.
-
-    Attributes
-    ----------
-    kind : str
-        "bearing" or "contact".
-    title : str
-        Title of the case.
-    level, text : str
-        Level of the verdict and its sentences, without solving.
-    results : tuple of Result
-        Results in their order.
-    warnings : tuple of Told
-        Warnings of the result.
-    films : tuple of Film
-        Films of a bearing.
-    method : str
-        How the results were obtained, and their error.
-    """
+    """Answer about one of two cases."""
 
     kind: str
     title: str
+    # level and text: level of the verdict and its sentences, without solving.
     level: str
     text: str
     results: tuple[Result, ...]
     warnings: tuple[Told, ...] = ()
     films: tuple[Film, ...] = ()
-    method: str = ""
+    method: str = ""  # how the results were obtained, and their error
 
 
 @dataclass(frozen=True)
 class InputRow:
-    """Input of both cases.
-
-    Attributes
-    ----------
-    key : str
-        Dotted key.
-    first, second : str
-        Values as they are written; empty where a case does not give it.
-    sign : str
-        "=", "≠", "only A" or "only B".
-    """
+    """Input of both cases."""
 
     key: str
+    # first and second: values as they are written; empty where a case does not give it.
     first: str
     second: str
     sign: Literal["=", "≠", "only A", "only B"]
@@ -604,18 +348,12 @@ class InputRow:
 
 @dataclass(frozen=True)
 class Effect:
-    """Result of both cases.
+    """Result of both cases."""
 
-    Attributes
-    ----------
-    first, second : Result or None
-        The result of each case; None where a case has none.
-    change : float or None
-        Change from the first to the second [%]; None where one has no number, or the first is zero.
-    """
-
+    # first and second: the result of each case; None where a case has none.
     first: Result | None
     second: Result | None
+    # Change from the first to the second [%]; None where one has no number, or the first is zero.
     change: float | None
 
     @property
@@ -706,32 +444,15 @@ def in_both(first: Side, second: Side) -> Iterator[Told]:
 
 @dataclass(frozen=True)
 class Number:
-    """Number that an answer shows large.
-
-    Attributes
-    ----------
-    key : str
-        Dotted key of the quantity.
-    label : str
-        Label of the quantity.
-    text, unit : str
-        The number as it is shown, or why there is none, and its unit.
-    note : str
-        What a reader must know beside it.
-    bound : str
-        "≤" where the value is an upper bound only, "≥" where it is a lower one.
-    known : bool
-        Whether there is a value.
-    told : tuple of Told
-        Warnings that concern it.
-    """
+    """Number that an answer shows large."""
 
     key: str
     label: str
+    # text and unit: the number as it is shown, or why there is none, and its unit.
     text: str
     unit: str = ""
-    note: str = ""
-    bound: str = ""
+    note: str = ""  # what a reader must know beside it
+    bound: str = ""  # "≤" where the value is an upper bound only, "≥" where it is a lower one
     known: bool = True
     told: tuple[Told, ...] = ()
 
@@ -745,33 +466,16 @@ RANGE_FOLLOWS = "its range within the stated ranges follows"
 
 @dataclass(frozen=True)
 class Judged:
-    """Verdict on a bearing, taken apart.
+    """Verdict on a bearing, taken apart."""
 
-    Attributes
-    ----------
-    level : str
-        "green", "yellow", "red", or "grey" without a verdict.
-    lead : str
-        Heading, such as "No breakdown expected in an ideal film", for a margin that is an upper bound.
-    meaning : str
-        What this means for the bearing, in plain words.
-    numbers : str
-        Numbers that decide.
-    reasons : tuple of str
-        Further sentences: speeds, what is uncertain, and what follows.
-    assumptions : str
-        Sentence about what is assumed, which names an upper bound; empty without one.
-    bound : str
-        "upper bound" where the verdict is on one; empty otherwise.
-    """
-
-    level: str
+    level: str  # "green", "yellow", "red", or "grey" without a verdict
+    # Heading, such as "No breakdown expected in an ideal film", for a margin that is an upper bound.
     lead: str
-    meaning: str
+    meaning: str  # what this means for the bearing, in plain words
     numbers: str
-    reasons: tuple[str, ...]
-    assumptions: str
-    bound: str = ""
+    reasons: tuple[str, ...]  # further sentences: speeds, what is uncertain, and what follows
+    assumptions: str  # sentence about what is assumed, which names an upper bound; empty without one
+    bound: str = ""  # "upper bound" where the verdict is on one; empty otherwise
 
 
 @dataclass(frozen=True)
@@ -795,27 +499,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """Figure of an answer.
-
-    Attributes
-    ----------
-    title : str
-        Heading of the figure.
-    label : str
-        What it shows, for those who do not see it.
-    plot : mapping
-        Data and layout of Plotly.
-    table : Table
-        Its main numbers.
-    caption : str
-        What a reader must know beside the figure.
-    """
+    """Figure of an answer."""
 
     title: str
-    label: str
-    plot: Mapping[str, Any]
+    label: str  # what it shows, for those who do not see it
+    plot: Mapping[str, Any]  # data and layout of Plotly
     table: Table
-    caption: str = ""
+    caption: str = ""  # what a reader must know beside the figure
 
 
 @dataclass(frozen=True)
@@ -831,67 +521,29 @@ class Difference:
 
 @dataclass(frozen=True)
 class BearingAnswer:
-    """Answer about a bearing, in SI units.
-
-    Attributes
-    ----------
-    title : str
-        Title of the case.
-    contacts : str
-        "atlas", "formula" or "solved".
-    whole : bool
-        Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
-    converged : bool
-        Whether the films of all contacts converged.
-    level : str
-        Level of the verdict; "grey" without one.
-    text : str
-        The verdict in sentences.
-    judged : Judged
-        The verdict taken apart.
-    how : str
-        How the contacts were computed, and how far off they may be.
-    shown : tuple of Number
-        Numbers at the top.
-    numbers : mapping of str to float, str, bool or None
-        Numbers of the table ``bearing`` of summary.json.
-    margin : mapping or None
-        Table ``margin`` of summary.json; None unless ``whole``.
-    contact_rows : tuple of mapping
-        A row for each element and ring, as in ``contacts.csv``.
-    lines : tuple of Line
-        All rows that the command prints.
-    figures : mapping of str to Figure
-        "load" and "film"; with a whole answer "breakdown" and "capacitance" over the speed. Empty where the
-        films are not converged.
-    differences : tuple of Difference
-        Differences of a solved answer from the quick one.
-    effects : Table or None
-        Margins if one input changes; None unless ``whole``, and without a margin.
-    warnings : tuple of Told
-        Warnings, with the numbers that they concern.
-    seconds : float
-        Computing time [s].
-    """
+    """Answer about a bearing, in SI units."""
 
     title: str
-    contacts: Contacts
+    contacts: Contacts  # "atlas", "formula" or "solved"
+    # Whether it has all that takes a moment: speeds, ranges, effects of inputs, and the final verdict.
     whole: bool
-    converged: bool
-    level: str
+    converged: bool  # whether the films of all contacts converged
+    level: str  # level of the verdict; "grey" without one
     text: str
-    judged: Judged
-    how: str
+    judged: Judged  # the verdict taken apart
+    how: str  # how the contacts were computed, and how far off they may be
     shown: tuple[Number, ...]
-    numbers: Mapping[str, Any]
-    margin: Mapping[str, Any] | None
-    contact_rows: tuple[Mapping[str, Any], ...]
-    lines: tuple[Line, ...]
+    numbers: Mapping[str, Any]  # numbers of the table ``bearing`` of summary.json
+    margin: Mapping[str, Any] | None  # table ``margin`` of summary.json; None unless ``whole``
+    contact_rows: tuple[Mapping[str, Any], ...]  # a row for each element and ring, as in ``contacts.csv``
+    lines: tuple[Line, ...]  # all rows that the command prints
+    # "load" and "film"; with a whole answer "breakdown" and "capacitance" over the speed. Empty where the
+    # films are not converged.
     figures: Mapping[str, Figure]
     warnings: tuple[Told, ...]
-    seconds: float
+    seconds: float  # computing time [s]
     differences: tuple[Difference, ...] = field(default=())
-    effects: Table | None = None
+    effects: Table | None = None  # margins if one input changes; None unless ``whole``, and without a margin
 
     def number(self, key: str) -> Number | None:
         """Number of a key; None where the answer has none."""
@@ -900,150 +552,76 @@ class BearingAnswer:
 
 @dataclass(frozen=True)
 class ContactCheck:
-    """Answer about a contact before its film is solved, as of ``ehlectric check``.
+    """Answer about a contact before its film is solved, as of ``ehlectric check``."""
 
-    Attributes
-    ----------
-    title, geometry : str
-        Title of the case; "line" or "point".
-    level, text : str
-        Level of the verdict by formula, "grey" where there is none, and the verdict in sentences.
-    numbers : tuple of Number
-        Main numbers.
-    rows : tuple of Line
-        Table that the command prints.
-    warnings : tuple of Told
-        Warnings that concern no single one of the numbers.
-    summary : mapping
-        Numbers in SI units with the keys of the command.
-    quick : bool
-        Whether the contact is solved so fast that the page need not be asked to.
-    moving : bool
-        Whether the roughness moves, so that a run in time answers.
-    """
-
+    # title and geometry: title of the case; "line" or "point"
     title: str
     geometry: str
+    # level and text: level of the verdict by formula, "grey" where there is none, and the verdict in
+    # sentences.
     level: str
     text: str
     numbers: tuple[Number, ...]
-    rows: tuple[Line, ...]
-    warnings: tuple[Told, ...]
-    summary: Mapping[str, Any] = field(repr=False)
-    quick: bool = False
-    moving: bool = False
+    rows: tuple[Line, ...]  # table that the command prints
+    warnings: tuple[Told, ...]  # warnings that concern no single one of the numbers
+    summary: Mapping[str, Any] = field(repr=False)  # numbers in SI units with the keys of the command
+    quick: bool = False  # whether the contact is solved so fast that the page need not be asked to
+    moving: bool = False  # whether the roughness moves, so that a run in time answers
 
 
 @dataclass(frozen=True)
 class Reach:
-    """Range of the points through which a point contact can be cut, and the first one.
+    """Range of the points through which a point contact can be cut, and the first one."""
 
-    Attributes
-    ----------
-    x, y : tuple of float
-        Ends of the range, in ``unit``.
-    at : tuple of float
-        First point, such as that of the minimum film, in ``unit``.
-    unit : str
-        Unit of the positions, as the figures have it.
-    turned : bool
-        Whether the maps have y along the page.
-    first : str
-        Words for what is at ``at``.
-    """
-
+    # x and y: ends of the range, in ``unit``
     x: tuple[float, float]
     y: tuple[float, float]
-    at: tuple[float, float]
+    at: tuple[float, float]  # first point, such as that of the minimum film, in ``unit``
     unit: str
-    turned: bool = False
+    turned: bool = False  # whether the maps have y along the page
     first: str = "the smallest film"
 
 
 @dataclass(frozen=True)
 class ContactView:
-    """Solved contact.
+    """Solved contact."""
 
-    Attributes
-    ----------
-    title, geometry : str
-        Title of the case; "line" or "point".
-    converged : bool
-        Whether the film converged; if not, no number may be used.
-    level, text : str
-        Level of the verdict and the verdict in sentences.
-    numbers : tuple of Number
-        Main numbers; none where the film is not converged.
-    rows : tuple of Line
-        Table that the command prints.
-    warnings : tuple of Told
-        Warnings that concern no single one of the numbers.
-    figures : tuple of Shown
-        Figures of the whole contact.
-    cuts : tuple of Shown
-        Figures of the cuts through one point of a point contact.
-    reach : Reach or None
-        Range of these points; None for a line contact.
-    spots : tuple of Number
-        Numbers of the spots in which the surfaces touch; none where they do not touch.
-    """
-
+    # title and geometry: title of the case; "line" or "point"
     title: str
     geometry: str
-    converged: bool
+    converged: bool  # whether the film converged; if not, no number may be used
     level: str
     text: str
-    numbers: tuple[Number, ...]
-    rows: tuple[Line, ...]
-    warnings: tuple[Told, ...]
+    numbers: tuple[Number, ...]  # main numbers; none where the film is not converged
+    rows: tuple[Line, ...]  # table that the command prints
+    warnings: tuple[Told, ...]  # warnings that concern no single one of the numbers
     figures: tuple[Shown, ...] = field(repr=False)
+    # Figures of the cuts through one point of a point contact.
     cuts: tuple[Shown, ...] = field(default=(), repr=False)
-    reach: Reach | None = None
+    reach: Reach | None = None  # range of these points; None for a line contact
+    # Numbers of the spots in which the surfaces touch; none where they do not touch.
     spots: tuple[Number, ...] = ()
 
 
 @dataclass(frozen=True)
 class DriveAnswer:
-    """Answer about a drive.
-
-    Attributes
-    ----------
-    title : str
-        Title of the drive.
-    simulated : bool
-        Whether the drive was simulated; otherwise the answer is that of the capacitive divider.
-    judged : Judged
-        Verdict taken apart.
-    how : str
-        How the answer was computed, and what it leaves out.
-    shown : tuple of Number
-        Numbers at the top: before a simulation of its circuit and its films, after it of its discharges, too.
-    ends : Table
-        Numbers of both bearings side by side.
-    lines : tuple of Line
-        All rows that the command prints.
-    warnings : tuple of Told
-        Warnings, with the numbers of ``shown`` that they concern.
-    remedies : Table or None
-        The drive and its remedies side by side; None before a simulation, and without remedies.
-    figures : mapping of str to Figure
-        "voltages", "histogram", "spectrum", "discharge-voltage" and others, and "remedies"; empty before a
-        simulation.
-    seconds : float
-        Computing time of a simulation [s].
-    """
+    """Answer about a drive."""
 
     title: str
-    simulated: bool
-    judged: Judged
-    how: str
+    simulated: bool  # whether the drive was simulated; otherwise the answer is that of the capacitive divider
+    judged: Judged  # verdict taken apart
+    how: str  # how the answer was computed, and what it leaves out
+    # Numbers at the top: before a simulation of its circuit and its films, after it of its discharges, too.
     shown: tuple[Number, ...]
-    ends: Table
-    lines: tuple[Line, ...]
-    warnings: tuple[Told, ...]
+    ends: Table  # numbers of both bearings side by side
+    lines: tuple[Line, ...]  # all rows that the command prints
+    warnings: tuple[Told, ...]  # warnings, with the numbers of ``shown`` that they concern
+    # The drive and its remedies side by side; None before a simulation, and without remedies.
     remedies: Table | None = None
+    # "voltages", "histogram", "spectrum", "discharge-voltage" and others, and "remedies"; empty before a
+    # simulation.
     figures: Mapping[str, Figure] = field(default_factory=dict)
-    seconds: float = 0.0
+    seconds: float = 0.0  # computing time of a simulation [s]
 
     def number(self, key: str) -> Number | None:
         """Number of a key; None where the answer has none."""

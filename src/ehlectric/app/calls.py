@@ -31,18 +31,13 @@ T = TypeVar("T")
 class Call(Generic[T]):
     """Function of a worker process that returns a ``T``.
 
-    Attributes
-    ----------
-    name : str
-        Module in ``ehlectric.app.compute`` and function.
-
     Examples
     --------
     >>> Call("answer_parts.field_help").function().__name__
     'field_help'
     """
 
-    name: str
+    name: str  # module in ``ehlectric.app.compute`` and function
 
     def function(self) -> Callable[..., T]:
         """The function; this loads what it needs."""

@@ -16,21 +16,9 @@ _QUIET = 0.3
 
 
 class Following(Generic[I, T]):
-    """Answers to the latest inputs; those to older inputs that have not begun are never computed.
-
-    Parameters
-    ----------
-    quick, whole : callable
-        Compute the answer at once and the whole one; None where the one at once is whole.
-    show : callable
-        Called with the latest inputs and an answer to them.
-    passing : callable
-        Called with inputs just before the latest and an answer to them, while inputs change faster than
-        answers come.
-    refuse : callable
-        Called with the error where the latest inputs have no answer.
-    behind : asyncio.Semaphore
-        Lock of whole answers, so that they leave room for those at once.
+    """Answers to the latest inputs; those to older inputs that have not begun are never computed. ``quick``
+    and ``whole``, compute the answer at once and the whole one; None where the one at once is whole;
+    ``refuse``, called with the error where the latest inputs have no answer.
     """
 
     def __init__(
@@ -52,12 +40,8 @@ class Following(Generic[I, T]):
         self._later: asyncio.Task[None] | None = None
 
     def ask(self, inputs: I) -> asyncio.Task[None]:
-        """Ask for the answers to new inputs.
-
-        Returns
-        -------
-        asyncio.Task
-            Task that ends when the latest inputs have their answer at once.
+        """Ask for the answers to new inputs. Returns task that ends when the latest inputs have their answer
+        at once.
         """
         self.drop()
         self._wanted = (self._asked, inputs)

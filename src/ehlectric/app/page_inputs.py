@@ -47,11 +47,6 @@ _ESCAPED = re.compile(r'["\\\x00-\x1f\x7f]')
 class Inputs:
     """Inputs of a page, as nested tables of texts and numbers.
 
-    Attributes
-    ----------
-    table : mapping
-        Nested tables, as read from a TOML file.
-
     Examples
     --------
     >>> inputs = Inputs({"bearing": {"base": "6208", "radial_load": "1800 N"}})
@@ -61,7 +56,7 @@ class Inputs:
     True
     """
 
-    table: Mapping[str, Any] = field(default_factory=dict)
+    table: Mapping[str, Any] = field(default_factory=dict)  # nested tables, as read from a TOML file
 
     def value(self, key: str) -> Any:
         """Value of a dotted key; None where it is not given. Tables of a list have numbers, from 1."""
@@ -105,12 +100,8 @@ class Inputs:
 
     @classmethod
     def of_query(cls, pairs: Iterable[tuple[str, str]]) -> Self:
-        """Inputs of the query of an address, as pairs of key and text.
-
-        Raises
-        ------
-        InputError
-            If the query is too long, or its keys contradict each other or are no keys.
+        """Inputs of the query of an address, as pairs of key and text. Raises InputError if the query is too
+        long, or its keys contradict each other or are no keys.
         """
         table: dict[str, Any] = {}
         length = 0
@@ -154,15 +145,6 @@ _SOON = 1.0
 class History:
     """Inputs of a page over time: what was, what is, and what was undone.
 
-    Attributes
-    ----------
-    now : Inputs
-        Present inputs.
-    before, after : list of Inputs
-        Inputs before them, and those that were undone.
-    told : list of callable
-        Called after every change, as by the buttons that undo.
-
     Examples
     --------
     >>> history = History(Inputs({"a": 1}))
@@ -174,6 +156,7 @@ class History:
     now: Inputs
     before: list[Inputs] = field(default_factory=list)
     after: list[Inputs] = field(default_factory=list)
+    # Called after every change, as by the buttons that undo.
     told: list[Callable[[], None]] = field(default_factory=list, compare=False)
     _last: _Step | None = field(default=None, compare=False, repr=False)
 
@@ -190,14 +173,7 @@ class History:
 
     @contextmanager
     def step(self, name: str = "") -> Iterator[None]:
-        """Context in which all new inputs are one step to undo.
-
-        Parameters
-        ----------
-        name : str
-            Name of what changes. It continues the last step of this name within a second of it, as while a
-            slider is dragged.
-        """
+        """Context in which all new inputs are one step to undo."""
         last = self._last
         goes_on = name and last is not None and last.name == name and time.monotonic() - last.ended < _SOON
         step = last if goes_on and last is not None else _Step(name)
@@ -237,11 +213,7 @@ _STEPS = 100
 
 def parts_of(key: str) -> list[str]:
     """Names of the tables and the value to which a dotted key leads; a name with dots stands in quotes.
-
-    Raises
-    ------
-    InputError
-        If it is no key.
+    Raises InputError if it is no key.
 
     Examples
     --------
@@ -398,25 +370,13 @@ def _quoted(text: str) -> str:
 
 @dataclass(frozen=True)
 class Range:
-    """Range of a varied input, as a sweep file has it.
-
-    Attributes
-    ----------
-    key : str
-        Dotted key of the case.
-    start, stop : str
-        Ends with their units.
-    count : int or str
-        Number of values; another text as it was typed.
-    log : bool
-        Whether the values are spaced by logarithms.
-    """
+    """Range of a varied input, as a sweep file has it."""
 
     key: str
     start: str
     stop: str
-    count: int | str = 8
-    log: bool = False
+    count: int | str = 8  # number of values; another text as it was typed
+    log: bool = False  # whether the values are spaced by logarithms
 
     def table(self) -> dict[str, Any]:
         """Table of a sweep file."""

@@ -8,24 +8,16 @@ from dataclasses import dataclass, replace
 
 @dataclass(frozen=True)
 class Told:
-    """Warning of a result.
+    """Warning of a result."""
 
-    Attributes
-    ----------
-    code, severity, text : str
-        As of ``ehlectric.errors.ResultWarning``.
-    beside : tuple of str
-        Keys of the quantities that it concerns, of which a page shows it beside those that it has; empty for
-        a warning that concerns the whole result.
-    meaning : str
-        Meaning of the code in one sentence, without numbers.
-    """
-
+    # code, severity and text: as of ``ehlectric.errors.ResultWarning``
     code: str
     severity: str
     text: str
+    # Keys of the quantities that it concerns, of which a page shows it beside those that it has; empty for a
+    # warning that concerns the whole result.
     beside: tuple[str, ...] = ()
-    meaning: str = ""
+    meaning: str = ""  # meaning of the code in one sentence, without numbers
 
 
 # Order in which warnings are told.

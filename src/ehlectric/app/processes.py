@@ -35,33 +35,17 @@ class Returned:
 
 @dataclass(frozen=True)
 class Raised:
-    """Outcome of a call that failed.
-
-    Attributes
-    ----------
-    error : InputError, ConvergenceError or LostError
-        Error as the user sees it.
-    trace : str
-        Traceback for the log of the server, of an error of the program itself.
-    """
+    """Outcome of a call that failed."""
 
     error: Exception
-    trace: str = ""
+    trace: str = ""  # traceback for the log of the server, of an error of the program itself
 
 
 @dataclass(frozen=True)
 class Bounds:
-    """Bounds of a worker process.
+    """Bounds of a worker process."""
 
-    Attributes
-    ----------
-    memory : float
-        Address space of the process and of each that it starts [bytes].
-    folder : str
-        Folder for its temporary files.
-    """
-
-    memory: float
+    memory: float  # address space of the process and of each that it starts [bytes]
     folder: str
 
 
@@ -70,12 +54,7 @@ class Worker:
 
     The process starts with the first call. Where it has died, the next call starts another.
 
-    Parameters
-    ----------
-    context : multiprocessing context
-        Way in which the process is started.
-    bounds : callable
-        Returns the bounds of the process when it starts.
+    ``bounds``, returns the bounds of the process when it starts.
     """
 
     def __init__(self, context: Any, bounds: Callable[[], Bounds]) -> None:
@@ -110,21 +89,8 @@ class Worker:
     def ask(
         self, function: Callable[..., Any], values: tuple[Any, ...], tell: Progress | None = None
     ) -> Returned | Raised:
-        """Call a function in the process, and wait for its outcome; for a thread.
-
-        Parameters
-        ----------
-        function : callable
-            Function, which pickles.
-        values : tuple
-            Its arguments.
-        tell : callable, optional
-            Called with the progress. The function then gets such a function as its last argument.
-
-        Returns
-        -------
-        Returned or Raised
-            Outcome; a LostError where the process died.
+        """Call a function in the process, and wait for its outcome; for a thread. Returns outcome; a
+        LostError where the process died.
         """
         try:
             self.start()

@@ -9,31 +9,15 @@ from types import MappingProxyType
 
 @dataclass(frozen=True)
 class RoughKey:
-    """Field for a key of a rough surface.
-
-    Attributes
-    ----------
-    key : str
-        Key of the table.
-    label : str
-        Name of the quantity, with what an empty field means.
-    example : str
-        Value that shows how one is written.
-    choices : mapping of str to str
-        Values to choose from, with what they mean; empty for a field to type in. The first one is the
-        default.
-    number : bool
-        Whether the value is a number without a unit.
-    point : bool
-        Whether only point contacts use it.
-    """
+    """Field for a key of a rough surface."""
 
     key: str
-    label: str
-    example: str = ""
+    label: str  # name of the quantity, with what an empty field means
+    example: str = ""  # value that shows how one is written
+    # Values to choose from, with what they mean; empty for a field to type in. The first one is the default.
     choices: Mapping[str, str] = field(default_factory=dict)
-    number: bool = False
-    point: bool = False
+    number: bool = False  # whether the value is a number without a unit
+    point: bool = False  # whether only point contacts use it
 
 
 FILE_KEYS = (

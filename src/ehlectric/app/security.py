@@ -50,13 +50,7 @@ _SCRIPT = re.compile(rb"<script(?=[\s>])")
 
 
 def with_policy(inner: Handler) -> Handler:
-    """Application whose responses say what a browser may load and run.
-
-    Parameters
-    ----------
-    inner : callable
-        Application, whose pages come uncompressed.
-    """
+    """Application whose responses say what a browser may load and run."""
 
     async def marked(scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "http":
@@ -119,14 +113,8 @@ def with_bounded_bodies(inner: Handler, most: int = MOST_BODY, at_once: int = MO
 
     It also refuses a request when those that are being answered have large bodies together.
 
-    Parameters
-    ----------
-    inner : callable
-        Application.
-    most : int
-        Largest size of a body [bytes].
-    at_once : int
-        Largest size of the bodies of all requests that are being answered [bytes].
+    ``most``, largest size of a body [bytes]; ``at_once``, largest size of the bodies of all requests that are
+    being answered [bytes].
     """
     open_bodies = 0
 
@@ -162,17 +150,7 @@ def with_bounded_bodies(inner: Handler, most: int = MOST_BODY, at_once: int = MO
 
 
 def with_bounded_pages(inner: Handler, number: Callable[[], int], most: int = MOST_PAGES) -> Handler:
-    """Application that opens no further page where many are open.
-
-    Parameters
-    ----------
-    inner : callable
-        Application.
-    number : callable
-        Returns the number of open pages.
-    most : int
-        Largest number of open pages.
-    """
+    """Application that opens no further page where many are open."""
 
     async def bounded(scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "http" and not scope["path"].startswith(_PARTS) and number() >= most:
@@ -249,15 +227,6 @@ _OTHERS = "Requests of other sites are refused."
 class Guard:
     """Rules for requests to the server.
 
-    Attributes
-    ----------
-    host : str
-        Address that the server is bound to.
-    port : int
-        Its port.
-    token : str
-        Token that a request must have; empty where the server is bound to this machine.
-
     Examples
     --------
     >>> Guard.of("127.0.0.1", 8080).address
@@ -266,9 +235,9 @@ class Guard:
     'http://localhost:8080/?token=secret'
     """
 
-    host: str
+    host: str  # address that the server is bound to
     port: int
-    token: str = ""
+    token: str = ""  # token that a request must have; empty where the server is bound to this machine
 
     @classmethod
     def of(cls, host: str, port: int) -> Guard:

@@ -50,19 +50,7 @@ _LARGEST_MESSAGE = 4_000_000
 
 
 def serve(guard: Guard, listening: socket.socket, work: Work, *, ready: Callable[[], None]) -> None:
-    """Serve the pages until the process is stopped.
-
-    Parameters
-    ----------
-    guard : Guard
-        Rules for requests.
-    listening : socket
-        Bound socket.
-    work : Work
-        Processes that compute.
-    ready : callable
-        Called when requests are answered.
-    """
+    """Serve the pages until the process is stopped. ``ready``, called when requests are answered."""
     config = uvicorn.Config(
         _application(guard, work),
         log_level="warning",

@@ -82,13 +82,6 @@ def own_file(name: str, folder: Path) -> Path | None:
     """Path of a file of the folder of a session; None where it is not there, or lies elsewhere.
 
     The name is judged before the file system is asked, and again where its links lead.
-
-    Parameters
-    ----------
-    name : str
-        Name as inputs have it, relative to the folder.
-    folder : Path
-        Folder of the session.
     """
     if "\0" in name:
         return None
@@ -108,22 +101,7 @@ def keep_in_memory() -> None:
 
 
 class Session:
-    """Session of one tab.
-
-    Parameters
-    ----------
-    work : Work
-        Work of the server.
-    inputs : Inputs
-        First inputs.
-
-    Attributes
-    ----------
-    work : Share
-        Share of the session in the work.
-    history : History
-        Inputs over time.
-    """
+    """Session of one tab."""
 
     def __init__(self, work: Work, inputs: Inputs) -> None:
         self.work = work.share()
@@ -139,12 +117,8 @@ class Session:
 
     @property
     def folder(self) -> Path:
-        """Temporary folder of the session, which only this user can read; made when first used.
-
-        Raises
-        ------
-        LostError
-            If the session has ended: nobody would remove a folder that is made after that.
+        """Temporary folder of the session, which only this user can read; made when first used. Raises
+        LostError if the session has ended: nobody would remove a folder that is made after that.
         """
         if self._closed:
             raise LostError("the page was closed")

@@ -24,25 +24,9 @@ def start(
     tell: Callable[[str], None],
     limits: Limits | None = None,
 ) -> None:
-    """Serve the app until it is interrupted.
-
-    Parameters
-    ----------
-    host : str
-        Address to bind to.
-    port : int or None
-        Port; 0 for any free one, None for the first free one from 8080 upwards.
-    browser : bool
-        Whether a browser is opened.
-    tell : callable
-        Called with a line that has the address of the app, when it answers requests.
-    limits : Limits, optional
-        Limits of the work.
-
-    Raises
-    ------
-    InputError
-        If the port is taken, or the address is none of this machine.
+    """Serve the app until it is interrupted. ``port``, 0 for any free one, None for the first free one from
+    8080 upwards; ``tell``, called with a line that has the address of the app, when it answers requests.
+    Raises InputError if the port is taken, or the address is none of this machine.
     """
     listening = listen(host, port)
     guard = Guard.of(host, listening.getsockname()[1])
@@ -73,19 +57,8 @@ def start(
 
 
 def listen(host: str, port: int | None) -> socket.socket:
-    """Socket that is bound to an address.
-
-    Parameters
-    ----------
-    host : str
-        Address or name of this machine.
-    port : int or None
-        Port; 0 for any free one, None for the first free one from 8080 upwards.
-
-    Raises
-    ------
-    InputError
-        If it cannot be bound.
+    """Socket that is bound to an address. ``port``, 0 for any free one, None for the first free one from 8080
+    upwards. Raises InputError if it cannot be bound.
     """
     for candidate in _PORTS if port is None else (port,):
         try:

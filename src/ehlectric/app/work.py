@@ -44,11 +44,6 @@ _LONGEST = 70
 class Scratch:
     """Temporary folder of a server, which only this user can read.
 
-    Attributes
-    ----------
-    folder : Path
-        The folder.
-
     Examples
     --------
     >>> scratch = Scratch()
@@ -126,15 +121,6 @@ _SOON = 3.0
 class Remaining:
     """Estimate for the part of a job that is under way.
 
-    Attributes
-    ----------
-    text : str
-        Name of the part.
-    of, done : int
-        Steps of the part, and those done when it was first seen, as of a job that is resumed.
-    since : float
-        Time at which it was first seen [s].
-
     Examples
     --------
     >>> left = Remaining()
@@ -145,9 +131,10 @@ class Remaining:
     """
 
     text: str = ""
+    # of and done: steps of the part, and those done when it was first seen, as of a job that is resumed.
     of: int = 0
     done: int = 0
-    since: float = 0.0
+    since: float = 0.0  # time at which it was first seen [s]
 
     def told(self, text: str, done: int, of: int, *, now: float) -> str:
         """Words about the time that is left; empty where it is not known yet."""
@@ -167,32 +154,17 @@ State = Literal["waiting", "running", "done", "failed", "cancelled"]
 
 @dataclass(eq=False)
 class Job:
-    """Work in a process of its own, as its page sees it.
+    """Work in a process of its own, as its page sees it."""
 
-    Attributes
-    ----------
-    state : str
-        "waiting", "running", "done", "failed" or "cancelled".
-    done, of, text : int, int, str
-        Progress, as ``runtime.progress`` tells it.
-    result : object
-        What the function returned, of a job that is done.
-    error : InputError, ConvergenceError, LostError or None
-        Error of a failed job.
-    call : tuple
-        Function and arguments.
-    owner : object
-        Session of the job; sessions take turns.
-    """
-
-    state: State = "waiting"
+    state: State = "waiting"  # "waiting", "running", "done", "failed" or "cancelled"
+    # done, of and text: progress, as ``runtime.progress`` tells it.
     done: int = 0
     of: int = 0
     text: str = "waiting for a free core"
-    result: Any = None
+    result: Any = None  # what the function returned, of a job that is done
     error: Exception | None = None
     call: tuple[Callable[..., Any], tuple[Any, ...]] | None = None
-    owner: object = None
+    owner: object = None  # session of the job; sessions take turns
     _worker: Worker | None = None
     _ended: asyncio.Event = field(default_factory=asyncio.Event)
 
@@ -239,33 +211,17 @@ _AT_ONCE, _QUEUED = 2, 50
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of the work of all sessions together.
+    """Limits of the work of all sessions together."""
 
-    Attributes
-    ----------
-    jobs : int
-        Jobs that run at once; further ones wait.
-    each : int
-        Jobs of one session that run or wait.
-    waiting : int
-        Jobs of all sessions that may wait.
-    memory : float
-        Address space of a process of a job and of each that it starts [bytes].
-    quick_memory : float
-        Address space of a process of quick answers [bytes].
-    seconds : float
-        Time of a job [s].
-    patience : float
-        Time of a quick answer [s].
-    """
-
+    # Jobs that run at once; further ones wait.
     jobs: int = field(default_factory=lambda: max(1, cores() // 2))
-    each: int = 8
-    waiting: int = 100
+    each: int = 8  # jobs of one session that run or wait
+    waiting: int = 100  # jobs of all sessions that may wait
+    # Address space of a process of a job and of each that it starts [bytes].
     memory: float = field(default_factory=lambda: min(8e9, max(2e9, available_memory() / 2.0)))
-    quick_memory: float = 4e9
-    seconds: float = 3600.0
-    patience: float = 30.0
+    quick_memory: float = 4e9  # address space of a process of quick answers [bytes]
+    seconds: float = 3600.0  # time of a job [s]
+    patience: float = 30.0  # time of a quick answer [s]
 
 
 def limits_of(*, jobs: int | None, gigabytes: float | None, minutes: float) -> Limits:
@@ -285,18 +241,6 @@ class ReplacedError(LostError):
 class Work:
     """Quick answers and jobs of a server, within limits.
 
-    Parameters
-    ----------
-    limits : Limits, optional
-        Limits of the work.
-
-    Attributes
-    ----------
-    behind : asyncio.Semaphore
-        Lock for quick answers that take a second or more: a process is left for those at once.
-
-    Notes
-    -----
     Use it on one event loop. ``close`` ends all processes and removes the temporary folder.
     """
 
@@ -333,14 +277,9 @@ class Work:
         return Share(self)
 
     async def quick(self, function: Call[T], *values: Any) -> T:
-        """Result of a function of a worker process that takes a second at most, for no session.
-
-        Raises
-        ------
-        InputError, ConvergenceError
-            As the function raises them.
-        LostError
-            Where it takes too long, its process dies, or the program has an error.
+        """Result of a function of a worker process that takes a second at most, for no session. Raises
+        InputError, ConvergenceError as the function raises them; LostError where it takes too long, its
+        process dies, or the program has an error.
         """
         return await self._own.quick(function, *values)
 
@@ -384,12 +323,8 @@ class Work:
         return outcome
 
     def add(self, job: Job) -> None:
-        """Take over a job, which runs as soon as its session has its turn.
-
-        Raises
-        ------
-        LostError
-            If too many jobs wait already, of its session or of all.
+        """Take over a job, which runs as soon as its session has its turn. Raises LostError if too many jobs
+        wait already, of its session or of all.
         """
         unfinished = [other for other in [*self._waiting, *self._running] if not other.over]
         if sum(other.owner is job.owner for other in unfinished) >= self.limits.each:
@@ -446,18 +381,7 @@ class Work:
 
 
 class Share:
-    """Share of one session in the work: no session keeps others from their answers.
-
-    Parameters
-    ----------
-    work : Work
-        Work of the server.
-
-    Attributes
-    ----------
-    behind : asyncio.Semaphore
-        That of the work.
-    """
+    """Share of one session in the work: no session keeps others from their answers."""
 
     def __init__(self, work: Work) -> None:
         self._work = work
@@ -469,26 +393,10 @@ class Share:
         self._closed = False
 
     async def quick(self, function: Call[T], *values: Any, lane: str = "") -> T:
-        """Result of a function of a worker process that takes a second at most.
-
-        Parameters
-        ----------
-        function : Call
-            Function.
-        *values
-            Its arguments.
-        lane : str
-            Name of the place on the page that shows the answer. While an answer waits for its turn, a later
-            one of the same lane replaces it.
-
-        Raises
-        ------
-        InputError, ConvergenceError
-            As the function raises them.
-        ReplacedError
-            Where a later answer of the lane was asked for.
-        LostError
-            Where it takes too long, its process dies, the session has ended, or the program has an error.
+        """Result of a function of a worker process that takes a second at most. Raises InputError,
+        ConvergenceError as the function raises them; ReplacedError where a later answer of the lane was asked
+        for; LostError where it takes too long, its process dies, the session has ended, or the program has an
+        error.
         """
         if self._queued >= _QUEUED:
             raise LostError("this page asks for more answers than are computed; wait a moment")
@@ -510,12 +418,8 @@ class Share:
         return cast("T", outcome.result)
 
     def start(self, function: Call[Any], *values: Any) -> Job:
-        """Start a job: ``function(*values, progress)`` in a process of its own.
-
-        Raises
-        ------
-        LostError
-            If too many jobs wait already, or the session has ended.
+        """Start a job: ``function(*values, progress)`` in a process of its own. Raises LostError if too many
+        jobs wait already, or the session has ended.
         """
         if self._closed:
             raise LostError("the page was closed")

@@ -39,17 +39,9 @@ def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second
 
     The capacitive divider gives C_wr/(C_wr + C_rf + C_DE + C_NDE).
 
-    Parameters
-    ----------
-    winding_rotor, rotor_frame : float
-        Capacitance C_wr from winding to rotor, and C_rf from rotor to frame [F].
-    first, second : float
-        Capacitances C_DE and C_NDE from shaft to housing at the drive end and the non-drive end [F].
-
-    Returns
-    -------
-    float
-        Bearing voltage ratio, dimensionless.
+    ``winding_rotor`` and ``rotor_frame``, capacitance C_wr from winding to rotor, and C_rf from rotor to
+    frame [F]; ``first`` and ``second``, capacitances C_DE and C_NDE from shaft to housing at the drive end
+    and the non-drive end [F]. Returns bearing voltage ratio, dimensionless.
 
     Examples
     --------
@@ -101,41 +93,26 @@ class Breakdown:
 
     The bearing voltage is that across the films, from ring to ring. The shaft voltage is that from shaft to
     housing; it is larger where a coating on a ring takes a part of it.
-
-    Attributes
-    ----------
-    first_break, first_break_mean : float
-        Bearing voltage at which the first contact breaks down, minimum and mean over the positions [V].
-    first_break_at : str
-        Name of the contact that breaks down first.
-    through_breakdown, through_breakdown_mean : float
-        Bearing voltage at which the first element breaks down from ring to ring, minimum and mean over the
-        positions [V].
-    shaft_first_break, shaft_through_breakdown : float
-        Shaft voltages of both breakdowns, minimum over the positions [V].
     """
 
+    # first_break and first_break_mean: bearing voltage at which the first contact breaks down, minimum and
+    # mean over the positions [V].
     first_break: float
     first_break_mean: float
-    first_break_at: str
+    first_break_at: str  # name of the contact that breaks down first
+    # through_breakdown and through_breakdown_mean: bearing voltage at which the first element breaks down
+    # from ring to ring, minimum and mean over the positions [V].
     through_breakdown: float
     through_breakdown_mean: float
+    # shaft_first_break and shaft_through_breakdown: shaft voltages of both breakdowns, minimum over the
+    # positions [V].
     shaft_first_break: float
     shaft_through_breakdown: float
 
 
 def breakdown_of(solution: BearingSolution) -> Breakdown | None:
-    """Bearing and shaft voltages at which the films of a solved bearing break down.
-
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    Breakdown or None
-        None for ceramic elements, where surfaces touch, or without a dielectric strength.
+    """Bearing and shaft voltages at which the films of a solved bearing break down. Returns None for ceramic
+    elements, where surfaces touch, or without a dielectric strength.
     """
     circuits, path = solution.circuits(), shaft_path(solution)
     first = np.array([circuit.first_break for circuit in circuits])
@@ -182,64 +159,33 @@ class BearingCosts:
 
     A value is None if the case lacks an input that it needs. Energies and pits are None for ceramic elements,
     and below a lambda ratio of 1, where no voltage is computed.
-
-    Attributes
-    ----------
-    discharged_capacitance : float or None
-        Capacitance that a discharge through the films empties [F]: that of the films, and those between the
-        shaft and everything else, which a coating on a ring puts in series with its own.
-    bearing_energy : float or None
-        Energy C V^2/2 that is stored in the films alone, at the shaft voltage [J].
-    discharge_energy : float or None
-        Energy C V^2/2 of ``discharged_capacitance`` at the shaft voltage, of which V is across the films [J].
-    breakdown_energy : float or None
-        Energy C V^2/2 that is stored in ``discharged_capacitance``, at the first breakdown [J].
-    pit_volume : float or None
-        Volume of one surface that ``discharge_energy`` melts [m^3].
-    pit_diameter : float or None
-        Diameter of a hemisphere of that volume [m].
-    breakdown_pit_diameter : float or None
-        Diameter of the hemisphere that ``breakdown_energy`` melts [m].
-    hertz_area : float
-        Area of the dry contacts through which a current flows [m^2]: the smaller contact of every element
-        that both rings load, with the cage at its first position.
-    current_density : float or None
-        Peak current over ``hertz_area`` [A/m^2].
-    element_current_density : float or None
-        Peak current over the smaller contact of the most loaded element, as if it flowed through this
-        element alone [A/m^2].
-    current_density_limits : tuple of float or None
-        Published limits of ``current_density`` [A/m^2].
     """
 
+    # Capacitance that a discharge through the films empties [F]: that of the films, and those between the
+    # shaft and everything else, which a coating on a ring puts in series with its own.
     discharged_capacitance: float | None
-    bearing_energy: float | None
+    bearing_energy: float | None  # energy C V^2/2 that is stored in the films alone, at the shaft voltage [J]
+    # Energy C V^2/2 of ``discharged_capacitance`` at the shaft voltage, of which V is across the films [J].
     discharge_energy: float | None
+    # Energy C V^2/2 that is stored in ``discharged_capacitance``, at the first breakdown [J].
     breakdown_energy: float | None
-    pit_volume: float | None
-    pit_diameter: float | None
-    breakdown_pit_diameter: float | None
+    pit_volume: float | None  # volume of one surface that ``discharge_energy`` melts [m^3]
+    pit_diameter: float | None  # diameter of a hemisphere of that volume [m]
+    breakdown_pit_diameter: float | None  # diameter of the hemisphere that ``breakdown_energy`` melts [m]
+    # Area of the dry contacts through which a current flows [m^2]: the smaller contact of every element that
+    # both rings load, with the cage at its first position.
     hertz_area: float
-    current_density: float | None
+    current_density: float | None  # peak current over ``hertz_area`` [A/m^2]
+    # Peak current over the smaller contact of the most loaded element, as if it flowed through this element
+    # alone [A/m^2].
     element_current_density: float | None
-    current_density_limits: tuple[float, ...] | None
+    current_density_limits: tuple[float, ...] | None  # published limits of ``current_density`` [A/m^2]
 
 
 def bearing_costs(solution: BearingSolution) -> BearingCosts:
-    """Energy of a discharge through a solved bearing, the pit that it melts, and the current density.
+    """Energy of a discharge through a solved bearing, the pit that it melts, and the current density. Returns
+    values in SI units.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    BearingCosts
-        Values in SI units.
-
-    Notes
-    -----
     One discharge empties all of the charge. Winding and frame have fixed potentials meanwhile, so that their
     capacitances to the rotor and those of both bearings are parallel. If the first breakdown leaves the other
     contact of its element intact, the energy flows only at the ring-to-ring breakdown.
@@ -328,29 +274,19 @@ TYPICAL = 4e3, 20e3
 
 @dataclass(frozen=True)
 class ShaftLeakage:
-    """Decay of the shaft voltage, and of its part across the films, through the oil of both bearings.
+    """Decay of the shaft voltage, and of its part across the films, through the oil of both bearings."""
 
-    Attributes
-    ----------
-    time_constant : float
-        Time constant T of the shaft voltage right after an edge of the inverter [s].
-    film_time_constant : float
-        Time constant of the voltage across the films right after an edge [s]. Without a coating on a ring, it
-        is that of the shaft voltage.
-    after_period : float or None
-        Part of the shaft voltage that is left after a period of the inverter, dimensionless; exp(-1/(f T))
-        without a coating. None without a switching frequency.
-    film_after_period : float or None
-        Part of the voltage across the films that is left after a period, dimensionless; None likewise.
-    after_rise : float or None
-        Shaft voltage at the end of an edge over that of the capacitive divider, dimensionless; None without
-        a rise time.
-    """
-
-    time_constant: float
+    time_constant: float  # time constant T of the shaft voltage right after an edge of the inverter [s]
+    # Time constant of the voltage across the films right after an edge [s]. Without a coating on a ring, it
+    # is that of the shaft voltage.
     film_time_constant: float
+    # Part of the shaft voltage that is left after a period of the inverter, dimensionless; exp(-1/(f T))
+    # without a coating. None without a switching frequency.
     after_period: float | None
+    # Part of the voltage across the films that is left after a period, dimensionless; None likewise.
     film_after_period: float | None
+    # Shaft voltage at the end of an edge over that of the capacitive divider, dimensionless; None without a
+    # rise time.
     after_rise: float | None
 
 
@@ -358,19 +294,6 @@ class ShaftLeakage:
 class Decay:
     """Two voltages in series, across films and coating, that decay through the oil beside a capacitance.
 
-    Attributes
-    ----------
-    films, conductance : float
-        Capacitance C [F] and conductance G [S] of the films.
-    elastance : float
-        Reciprocal capacitance 1/C_c of the coating [1/F]; 0 without a coating.
-    beside : float
-        All other capacitances C_s of the shaft [F].
-    leak : float
-        Conductance G_s parallel to them [S].
-
-    Notes
-    -----
     The current i into films and coating changes their voltages by V' = (i - G V)/C and V_c' = i/C_c. The sum
     of both falls by (i + G_s (V + V_c))/C_s. The coating itself does not leak.
 
@@ -383,11 +306,12 @@ class Decay:
     0.01
     """
 
+    # films and conductance: capacitance C [F] and conductance G [S] of the films.
     films: float
     conductance: float
-    elastance: float
-    beside: float
-    leak: float
+    elastance: float  # reciprocal capacitance 1/C_c of the coating [1/F]; 0 without a coating
+    beside: float  # all other capacitances C_s of the shaft [F]
+    leak: float  # conductance G_s parallel to them [S]
 
     @property
     def start(self) -> Array:
@@ -426,20 +350,9 @@ class Decay:
 
 
 def shaft_leakage(solution: BearingSolution) -> ShaftLeakage | None:
-    """Decay of the shaft voltage of a solved bearing through the oil of both bearings.
+    """Decay of the shaft voltage of a solved bearing through the oil of both bearings. Returns None without a
+    conductivity or a motor, for ceramic elements, and below a lambda ratio of 1.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    ShaftLeakage or None
-        None without a conductivity or a motor, for ceramic elements, and below a lambda ratio of 1.
-
-    Notes
-    -----
     Without a coating, the capacitances from the shaft to winding, frame and both bearings have the sum C, and
     both bearings the conductance G, so that T = C/G. An edge that rises over the time t_r leaves
     V T/t_r (1 - exp(-t_r/T)), where V is the voltage of the capacitive divider. The other bearing has the

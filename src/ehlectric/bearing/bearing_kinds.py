@@ -41,45 +41,22 @@ C = TypeVar("C", BallContact, RollerContact)
 
 @dataclass(frozen=True)
 class Kind(Generic[G, C]):
-    """Functions of a solution that differ between bearings with balls and with rollers.
+    """Functions of a solution that differ between bearings with balls and with rollers."""
 
-    Attributes
-    ----------
-    geometry : callable
-        Table ``[bearing]`` -> internal geometry.
-    equilibrium : callable
-        Geometry, operation, reduced modulus [Pa] and density of the elements [kg/m^3] -> loads of all
-        elements.
-    contact : callable
-        Contacts with a ring and load [N] -> contact.
-    grid : callable
-        Contact -> grid of its film and field.
-    solve : callable
-        Contact and table ``[solver]`` -> contact with its film and field solved.
-    quick : mapping of str to callable
-        Contact -> contact without solving it, by ``contacts`` of a bearing file: "atlas" or "formula". The
-        numbers of all contacts with a ring follow by ``quick_solutions``.
-    fits : callable
-        Contact -> whether the domain holds the length over which the film builds up.
-    rigid_capacitance : callable
-        Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
-    loads : int
-        Number of loads that are solved for each ring, without those of light elements. Rollers, whose films
-        change more between them, are solved ten times as fast as balls.
-    dry_exponents : tuple of float
-        Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling
-        direction.
-    """
-
-    geometry: Callable[[Bearing], G]
+    geometry: Callable[[Bearing], G]  # table ``[bearing]`` -> internal geometry
+    # Geometry, operation, reduced modulus [Pa] and density of the elements [kg/m^3] -> loads of all elements.
     equilibrium: Callable[[G, Operation, float, float], Equilibrium]
-    contact: Callable[[RingContacts[G], float], C]
-    grid: Callable[[C], Grid]
+    contact: Callable[[RingContacts[G], float], C]  # contacts with a ring and load [N] -> contact
+    grid: Callable[[C], Grid]  # contact -> grid of its film and field
+    # Contact and table ``[solver]`` -> contact with its film and field solved.
     solve: Callable[[C, Solver], ContactSolution]
+    # Contact -> contact without solving it, by ``contacts`` of a bearing file: "atlas" or "formula"
     quick: Mapping[str, Callable[[C], QuickContact]]
-    fits: Callable[[C], bool]
+    fits: Callable[[C], bool]  # contact -> whether the domain holds the length over which the film builds up
+    # Contacts with a ring and gap [m] -> capacitance in vacuum [F] of a rigid element and its raceway.
     rigid_capacitance: Callable[[RingContacts[G], float], float]
-    loads: int
+    loads: int  # number of loads that are solved for each ring, without those of light elements
+    # Exponents of the load in the Hertz pressure and in the semi-axes along and across the rolling direction.
     dry_exponents: tuple[float, float, float]
 
 

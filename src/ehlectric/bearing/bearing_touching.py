@@ -71,59 +71,36 @@ _MODELS = {False: "clarke", True: "greenwood_williamson"}
 
 @dataclass(frozen=True, eq=False)
 class RingDuty:
-    """Asperities in the contacts of all elements with one ring at one position of the cage.
+    """Asperities in the contacts of all elements with one ring at one position of the cage."""
 
-    Attributes
-    ----------
-    central_lambda_ratio : ndarray, shape (n,)
-        Central film thickness over composite roughness, dimensionless; infinite without load.
-    asperity_share, asperity_share_low, asperity_share_high : ndarray, shape (n,)
-        Share of the load on asperities by ``DEFAULT_SHARE``, and the least and the largest of all laws.
-    contact_probability : ndarray, shape (n,)
-        Share of time with metallic contact by Clarke's fit over lambda.
-    expected_spots : ndarray, shape (n,), or None
-        Expected number of simultaneous spots in the Hertz area; None without summits.
-    contact_time_share : ndarray, shape (n,)
-        Share of time with metallic contact: from the expected spots, or by Clarke's fit without summits.
-    real_area : ndarray, shape (n,), or None
-        Mean area of the spots together, while there are any [m^2]; None without summits.
-    """
-
+    # Central film thickness over composite roughness, dimensionless; infinite without load, shape (n,).
     central_lambda_ratio: Array
+    # asperity_share, asperity_share_low and asperity_share_high: share of the load on asperities by
+    # ``DEFAULT_SHARE``, and the least and the largest of all laws, shape (n,).
     asperity_share: Array
     asperity_share_low: Array
     asperity_share_high: Array
-    contact_probability: Array
+    contact_probability: Array  # share of time with metallic contact by Clarke's fit over lambda, shape (n,)
+    # Expected number of simultaneous spots in the Hertz area; None without summits, shape (n,).
     expected_spots: Array | None
+    # Share of time with metallic contact: from the expected spots, or by Clarke's fit without summits,
+    # shape (n,).
     contact_time_share: Array
+    # Mean area of the spots together, while there are any [m^2]; None without summits, shape (n,).
     real_area: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class BearingDuty:
-    """Asperities in a whole bearing.
+    """Asperities in a whole bearing."""
 
-    Attributes
-    ----------
-    rings : tuple of (RingDuty, RingDuty)
-        Contacts with the inner and the outer ring at each position of the cage.
-    touching_time_share : float
-        Share of time in which at least one element touches both rings, mean over the positions.
-    clarke_time_share : float
-        The same with Clarke's fit for each contact.
-    insulated : bool
-        Whether ceramic elements or a coating insulate, so that the bearing never conducts.
-    model : str
-        What the share of time of a contact is from: "clarke" or "greenwood_williamson".
-    regime : str
-        Regime in one word, as ``regime_of`` gives it.
-    """
-
+    # Contacts with the inner and the outer ring at each position of the cage.
     rings: tuple[tuple[RingDuty, RingDuty], ...]
+    # Share of time in which at least one element touches both rings, mean over the positions.
     touching_time_share: float
-    clarke_time_share: float
-    insulated: bool
-    model: str
+    clarke_time_share: float  # the same with Clarke's fit for each contact
+    insulated: bool  # whether ceramic elements or a coating insulate, so that the bearing never conducts
+    model: str  # what the share of time of a contact is from: "clarke" or "greenwood_williamson"
     regime: str
 
     @property
@@ -154,22 +131,10 @@ class BearingDuty:
 
 
 def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDuty:
-    """Load shares of asperities and shares of time with contact in a solved bearing.
+    """Load shares of asperities and shares of time with contact in a solved bearing. ``film_scale``, factor
+    on all film thicknesses, dimensionless; for films of a quick way, scaled to solved ones. Returns contacts
+    at each position of the cage, and the whole bearing.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-    film_scale : float
-        Factor on all film thicknesses, dimensionless; for films of a quick way, scaled to solved ones.
-
-    Returns
-    -------
-    BearingDuty
-        Contacts at each position of the cage, and the whole bearing.
-
-    Notes
-    -----
     Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which pressure
     flattens. An element conducts while both its contacts do, and one element shorts the bearing
     (``asperities.intermittency``). All contacts are taken as independent.
@@ -194,15 +159,9 @@ def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDut
 
 
 def regime_of(share: float, *, touching: bool = False) -> str:
-    """Regime of a bearing in one word: "capacitive", "intermittent" or "resistive".
-
-    Parameters
-    ----------
-    share : float
-        Share of time in which the bearing conducts, dimensionless.
-    touching : bool
-        Whether its least lambda ratio is below 1, where no voltage is computed. It is not called capacitive
-        then, whatever the share: laws of the share are least certain there.
+    """Regime of a bearing in one word: "capacitive", "intermittent" or "resistive". ``share``, share of time
+    in which the bearing conducts, dimensionless; ``touching``, whether its least lambda ratio is below 1,
+    where no voltage is computed.
 
     Examples
     --------
@@ -287,22 +246,12 @@ _LEAST = 1e-12
 def capacitive_speed(solution: BearingSolution) -> float | None:
     """Speed of the inner ring from which a bearing is capacitive at its temperature.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
+    Returns speed [rad/s] at which the bearing becomes capacitive: it conducts ``CAPACITIVE`` of the time, or
+    its least lambda ratio is 1 if that speed is higher; of a bearing that is capacitive it is the next lower
+    one, of another the next higher one. None where there is none from a 27th to 27 times the speed of the
+    case; for ceramic elements and coatings, which insulate at any speed; for an oil that no quick way
+    describes; and where a film of the solution is not converged.
 
-    Returns
-    -------
-    float or None
-        Speed [rad/s] at which the bearing becomes capacitive: it conducts ``CAPACITIVE`` of the time, or its
-        least lambda ratio is 1 if that speed is higher. Of a bearing that is capacitive it is the next lower
-        one, of another the next higher one. None where there is none from a 27th to 27 times the speed of the
-        case; for ceramic elements and coatings, which insulate at any speed; for an oil that no quick way
-        describes; and where a film of the solution is not converged.
-
-    Notes
-    -----
     Films at other speeds are from the atlas, or by formula where the contacts of the case are, and are
     scaled to the least lambda ratio of the solution at its own speed. The temperature is that of the case at
     all speeds.

@@ -30,16 +30,6 @@ def series(first: Array, second: Array) -> Array:
 class Circuit:
     """Capacitances of a bearing's contacts and the voltages at which their films break down.
 
-    Attributes
-    ----------
-    inner, outer : ndarray, shape (n,)
-        Capacitance of the contact of each element with the inner and the outer ring [F].
-    inner_breakdown, outer_breakdown : ndarray, shape (n,)
-        Breakdown voltage of each contact by itself [V]; infinite without a dielectric strength.
-    shape : float or None
-        Shape parameter m of Weibull's law. The breakdown voltages are then those at a probability of 63.2 %.
-        None for a strength without scatter.
-
     Examples
     --------
     Two equal contacts have half of the bearing voltage each. The inner one, which withstands 5 V, breaks down
@@ -57,10 +47,16 @@ class Circuit:
     5.0
     """
 
+    # inner and outer: capacitance of the contact of each element with the inner and the outer ring [F],
+    # shape (n,).
     inner: Array
     outer: Array
+    # inner_breakdown and outer_breakdown: breakdown voltage of each contact by itself [V]; infinite without a
+    # dielectric strength, shape (n,).
     inner_breakdown: Array
     outer_breakdown: Array
+    # Shape parameter m of Weibull's law. The breakdown voltages are then those at a probability of 63.2 %.
+    # None for a strength without scatter.
     shape: float | None = None
 
     @cached_property
@@ -142,17 +138,9 @@ def leakage_conductance(
     Both contacts of an element are in series and share the voltage by their capacitances C. With the
     conductances G = C_oil/tau, an element has (G_i C_o^2 + G_o C_i^2)/(C_i + C_o)^2.
 
-    Parameters
-    ----------
-    inner, outer : tuple of ndarray, shape (n,)
-        Capacitance of each element's contact with the ring, and the part of it in oil [F].
-    relaxation_time : float
-        Charge relaxation time tau = eps0 eps_r/sigma of the oil [s].
-
-    Returns
-    -------
-    float
-        Conductance [S].
+    ``inner`` and ``outer``, capacitance of each element's contact with the ring, and the part of it in oil
+    [F], shape (n,); ``relaxation_time``, charge relaxation time tau = eps0 eps_r/sigma of the oil [s].
+    Returns conductance [S].
 
     Examples
     --------
@@ -176,19 +164,9 @@ def leaking_admittance(
     A contact has the admittance i 2 pi f C + C_oil/tau. Both contacts of an element are in series, and the
     elements are in parallel.
 
-    Parameters
-    ----------
-    inner, outer : tuple of ndarray, shape (n,)
-        Capacitance of each element's contact with the ring, and the part of it in oil [F].
-    relaxation_time : float
-        Charge relaxation time tau = eps0 eps_r/sigma of the oil [s].
-    frequency : ndarray, shape (m,)
-        Frequency f [Hz].
-
-    Returns
-    -------
-    ndarray of complex, shape (m,)
-        Admittance [S].
+    ``inner`` and ``outer``, capacitance of each element's contact with the ring, and the part of it in oil
+    [F], shape (n,); ``relaxation_time``, charge relaxation time tau = eps0 eps_r/sigma of the oil [s];
+    ``frequency`` [Hz], shape (m,). Returns admittance [S], shape (m,).
 
     Examples
     --------
@@ -209,17 +187,6 @@ def leaking_admittance(
 class Path:
     """Capacitances between shaft and housing beside those of the films.
 
-    Attributes
-    ----------
-    coating : float
-        Capacitance of the coating on a ring, in series with all films [F]; infinite without a coating.
-    parallel : float
-        Capacitance of cage, shields and wiring, parallel to films and coating [F].
-    resistance : float
-        Insulation resistance of the coating [Ohm]; infinite where it does not leak.
-    coating_breakdown : float or None
-        Breakdown voltage of the coating alone [V]; None without one.
-
     Examples
     --------
     Films of 250 pF behind a coating of 1 nF have four fifths of the shaft voltage. A meter reads the 200 pF
@@ -230,12 +197,15 @@ class Path:
     (0.8, 230.0)
     """
 
+    # Capacitance of the coating on a ring, in series with all films [F]; infinite without a coating.
     coating: float = field(default=math.inf, metadata=stored("", "F", "positive or infinite"))
+    # Capacitance of cage, shields and wiring, parallel to films and coating [F].
     parallel: float = field(default=0.0, metadata=stored("", "F", "not negative"))
+    # Insulation resistance of the coating [Ohm]; infinite where it does not leak.
     resistance: float = field(default=math.inf, metadata=stored("", "ohm", "positive or infinite"))
     coating_breakdown: float | None = field(
         default=None, metadata=stored("", "V", "finite or NaN", unknown=True)
-    )
+    )  # breakdown voltage of the coating alone [V]; None without one
 
     @property
     def coated(self) -> bool:
@@ -264,19 +234,9 @@ class Path:
         return beside / (1.0 + beside / self.coating)
 
     def admittance(self, films: Array, frequency: Array) -> Array:
-        """Admittance from shaft to housing with films of an admittance [S], shape (n,).
-
-        Parameters
-        ----------
-        films : ndarray of complex, shape (n,)
-            Admittance of the films [S].
-        frequency : ndarray, shape (n,)
-            Frequency f [Hz].
-
-        Returns
-        -------
-        ndarray of complex, shape (n,)
-            Admittance Y_c Y/(Y_c + Y) + i 2 pi f C_p [S], with Y_c = i 2 pi f C_c + 1/R_c of the coating.
+        """Admittance from shaft to housing with films of an admittance [S], shape (n,). ``films`` [S],
+        shape (n,); ``frequency`` [Hz], shape (n,). Returns admittance Y_c Y/(Y_c + Y) + i 2 pi f C_p [S],
+        with Y_c = i 2 pi f C_c + 1/R_c of the coating, shape (n,).
         """
         omega = 2.0 * np.pi * frequency
         through = films
@@ -288,17 +248,8 @@ class Path:
 
 
 def path_of(bearing: Bearing) -> Path:
-    """Circuit between shaft and housing of a bearing, beside its films.
-
-    Parameters
-    ----------
-    bearing : Bearing
-        Table ``[bearing]`` of the file.
-
-    Returns
-    -------
-    Path
-        Capacitances in SI units; without the keys there is no coating and no parallel capacitance.
+    """Circuit between shaft and housing of a bearing, beside its films. Returns capacitances in SI units;
+    without the keys there is no coating and no parallel capacitance.
     """
     coating = bearing.coating
     if coating is None:

@@ -24,24 +24,12 @@ G_co = TypeVar("G_co", bound=Geometry, covariant=True)
 
 @dataclass(frozen=True)
 class Solid:
-    """Material of a ring or of the elements.
+    """Material of a ring or of the elements."""
 
-    Attributes
-    ----------
-    youngs_modulus : float
-        Young's modulus [Pa].
-    poissons_ratio : float
-        Poisson's ratio, dimensionless.
-    density : float
-        Density [kg/m^3].
-    conducting : bool
-        Whether the material conducts electricity.
-    """
-
-    youngs_modulus: float
-    poissons_ratio: float
-    density: float
-    conducting: bool
+    youngs_modulus: float  # young's modulus [Pa]
+    poissons_ratio: float  # poisson's ratio, dimensionless
+    density: float  # [kg/m^3]
+    conducting: bool  # whether the material conducts electricity
 
     @classmethod
     def of(cls, name: str) -> Solid:
@@ -62,63 +50,37 @@ class Solid:
 
 @dataclass(frozen=True)
 class ContactFriction:
-    """Friction and temperature of the most loaded contact with a ring, solved with heat in pure rolling.
+    """Friction and temperature of the most loaded contact with a ring, solved with heat in pure rolling."""
 
-    Attributes
-    ----------
-    load : float
-        Load of the contact [N].
-    rolling_coefficient : float
-        Hydrodynamic rolling force on each surface, the integral of h/2 dp/dx, over the load; dimensionless.
-    power_loss : float
-        Power that the rolling takes [W].
-    inlet_temperature_rise : float
-        Largest rise of the mid-film temperature up to the middle of the contact [K].
-    max_temperature_rise : float
-        Largest rise of the mid-film temperature [K]; mostly at the pressure spike, where it grows with the
-        grid.
-    temperature_rise_error : float or None
-        Estimated error of ``max_temperature_rise`` [K]; None if unknown.
-    """
-
-    load: float = field(metadata=stored(rule="positive"))
+    load: float = field(metadata=stored(rule="positive"))  # [N]
+    # Hydrodynamic rolling force on each surface, the integral of h/2 dp/dx, over the load; dimensionless.
     rolling_coefficient: float = field(metadata=stored())
-    power_loss: float = field(metadata=stored())
+    power_loss: float = field(metadata=stored())  # power that the rolling takes [W]
+    # Largest rise of the mid-film temperature up to the middle of the contact [K].
     inlet_temperature_rise: float = field(metadata=stored())
+    # Largest rise of the mid-film temperature [K]; mostly at the pressure spike, where it grows with the
+    # grid.
     max_temperature_rise: float = field(metadata=stored())
+    # Estimated error of ``max_temperature_rise`` [K]; None if unknown.
     temperature_rise_error: float | None = field(metadata=stored(rule="finite or NaN", unknown=True))
 
 
 @dataclass(frozen=True)
 class RingConditions:
-    """Conditions of the contacts with one ring: their films form at the temperature of the surfaces.
+    """Conditions of the contacts with one ring: their films form at the temperature of the surfaces."""
 
-    Attributes
-    ----------
-    temperature : float
-        Temperature of the ring [K].
-    oil : Oil
-        Oil at this temperature, with an ambient pressure of 0: pressures are those above the ambient one.
-    discharge : Discharge
-        Dielectric strength and conductivity at this temperature.
-    film_factor : float
-        Film thickness over that of isothermal, fully flooded oil, dimensionless.
-    heat_factor, supply_factor : float or None
-        Parts of ``film_factor`` by the heat in the inlet and by the supply of oil, dimensionless; None where
-        ``film_factor`` alone is known, which then contains both.
-    inlet_shear_factor : float or None
-        Part by the heat in the inlet as the formula has it; None where no heat is computed.
-    friction : ContactFriction or None
-        Friction of the most loaded contact; None where its heat is not solved.
-    """
-
-    temperature: float
+    temperature: float  # [K]
+    # Oil at this temperature, with an ambient pressure of 0: pressures are those above the ambient one.
     oil: Oil
-    discharge: Discharge
-    film_factor: float
+    discharge: Discharge  # dielectric strength and conductivity at this temperature
+    film_factor: float  # film thickness over that of isothermal, fully flooded oil, dimensionless
+    # heat_factor and supply_factor: parts of ``film_factor`` by the heat in the inlet and by the supply of
+    # oil, dimensionless; None where ``film_factor`` alone is known, which then contains both.
     heat_factor: float | None = None
     supply_factor: float | None = None
+    # Part by the heat in the inlet as the formula has it; None where no heat is computed.
     inlet_shear_factor: float | None = None
+    # Friction of the most loaded contact; None where its heat is not solved.
     friction: ContactFriction | None = None
 
     def heated(self, factor: float, friction: ContactFriction | None = None) -> RingConditions:
@@ -129,38 +91,19 @@ class RingConditions:
 
 @dataclass(frozen=True)
 class BearingConditions(Generic[G_co]):
-    """Conditions that all contacts of a bearing share, SI units.
-
-    Attributes
-    ----------
-    bearing : Bearing
-        Table ``[bearing]`` of the file.
-    geometry : BallBearing or RollerBearing
-        Internal geometry.
-    element, ring : Solid
-        Materials.
-    modulus : float
-        Reduced modulus E' of element and ring [Pa].
-    oil : Oil
-        Oil outside the films, at its temperature. Its ambient pressure is 0: the ambient pressure acts on the
-        bodies from all sides, and pressures in the contacts are those above it.
-    discharge : Discharge
-        Dielectric strength and conductivity of the oil outside the films.
-    inner, outer : RingConditions
-        Oil, strength and film factor in the contacts with the inner and with the outer ring.
-    clearance : MountedClearance or None
-        Clearances before mounting, mounted and in operation; None where that in operation is given.
-    """
+    """Conditions that all contacts of a bearing share, SI units."""
 
     bearing: Bearing
     geometry: G_co
     element: Solid
     ring: Solid
-    modulus: float
-    oil: Oil
-    discharge: Discharge
+    modulus: float  # reduced modulus E' of element and ring [Pa]
+    oil: Oil  # oil outside the films, at its temperature
+    discharge: Discharge  # dielectric strength and conductivity of the oil outside the films
+    # inner and outer: oil, strength and film factor in the contacts with the inner and with the outer ring.
     inner: RingConditions
     outer: RingConditions
+    # Clearances before mounting, mounted and in operation; None where that in operation is given.
     clearance: MountedClearance | None = None
 
     @property

@@ -49,21 +49,10 @@ from ehlectric.runtime.progress import LOGGER
 
 
 def half_time(solution: BearingSolution) -> float | None:
-    """Time [s] after which the film of the most loaded contact of a ring has halved without supply.
+    """Time [s] after which the film of the most loaded contact of a ring has halved without supply. Returns
+    smaller time of both rings; None for a flooded bearing, whose tracks are filled up at every passage, and
+    for rollers, from whose contacts hardly any oil flows to the sides.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    float or None
-        Smaller time of both rings; None for a flooded bearing, whose tracks are filled up at every passage,
-        and for rollers, from whose contacts hardly any oil flows to the sides.
-
-    Notes
-    -----
     All contacts are taken as loaded like the most loaded one, so that real films decay more slowly.
     """
     bearing = solution.case.bearing
@@ -86,17 +75,8 @@ def contact_half_time(
     ring: RingContacts[Any], max_pressure: float, semi_axes: tuple[float, float], thickness: float
 ) -> float:
     """Time in which the film of a contact with a ring halves if no oil returns to its track [s].
-
-    Parameters
-    ----------
-    ring : RingContacts
-        Contacts with the ring, with their oil.
-    max_pressure : float
-        Hertz pressure of the contact [Pa].
-    semi_axes : tuple of float
-        Semi-axes of the contact along and across the track [m].
-    thickness : float
-        Central film thickness at the start [m].
+    ``max_pressure``, Hertz pressure of the contact [Pa]; ``semi_axes``, semi-axes of the contact along and
+    across the track [m]; ``thickness``, central film thickness at the start [m].
     """
     rate = decay_rate(
         max_pressure=max_pressure,
@@ -134,26 +114,13 @@ _GRIDS = 2
 
 @dataclass(frozen=True)
 class _HotContact:
-    """Contact whose film is solved with and without heat; equal ones have the same heat.
+    """Contact whose film is solved with and without heat; equal ones have the same heat."""
 
-    Attributes
-    ----------
-    conditions : Conditions or PointConditions
-        Operating conditions of the isothermal, fully flooded film.
-    temperature : float
-        Temperature of the oil that enters, and of the ring [K].
-    bodies : tuple of Body
-        Ring and element.
-    identity : str
-        Lubricant and solver of the file, as text.
-    lubricant, setup
-        Lubricant, and setup with its grid; both follow from the other attributes.
-    """
-
-    conditions: Conditions | PointConditions
-    temperature: float
+    conditions: Conditions | PointConditions  # operating conditions of the isothermal, fully flooded film
+    temperature: float  # temperature of the oil that enters, and of the ring [K]
     bodies: tuple[Body, Body]
-    identity: str
+    identity: str  # lubricant and solver of the file, as text
+    # lubricant and setup: lubricant, and setup with its grid; both follow from the other attributes.
     lubricant: Lubricant = field(compare=False, repr=False)
     setup: Setup = field(compare=False, repr=False)
 
@@ -161,31 +128,11 @@ class _HotContact:
 def solved_heat(case: BearingCase, ring: RingContacts[Any], load: float) -> tuple[float, ContactFriction]:
     """Film factor of the heat in a contact, and its friction and temperature in pure rolling.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Bearing file, with ``bearing.film_factor`` "solved".
-    ring : RingContacts
-        Contacts with the ring; their film factor is not used.
-    load : float
-        Load of the contact [N].
+    ``load`` [N]. Returns ``factor``, central film thickness with heat over that of the isothermal Newtonian
+    film, dimensionless; ``friction``, rolling friction and temperature of the film with heat; those of the
+    same contact are kept. Raises InputError where the contact is beyond the model, or the oil has no values
+    at its temperatures; ConvergenceError where one of both films does not converge.
 
-    Returns
-    -------
-    factor : float
-        Central film thickness with heat over that of the isothermal Newtonian film, dimensionless.
-    friction : ContactFriction
-        Rolling friction and temperature of the film with heat. Those of the same contact are kept.
-
-    Raises
-    ------
-    InputError
-        Where the contact is beyond the model, or the oil has no values at its temperatures.
-    ConvergenceError
-        Where one of both films does not converge.
-
-    Notes
-    -----
     Both surfaces have the entrainment speed: the slip by spin, of the cage and along the ellipse is left out.
     The oil thins where it is sheared if the lubricant has an Eyring stress, and is Newtonian otherwise.
     """
@@ -303,51 +250,21 @@ _LEAST = 0.01
 
 @dataclass(frozen=True)
 class FilmFactor:
-    """Film thickness over that of isothermal, fully flooded oil, with its parts; dimensionless.
+    """Film thickness over that of isothermal, fully flooded oil, with its parts; dimensionless."""
 
-    Attributes
-    ----------
-    total : float
-        Film thickness over that of isothermal, fully flooded oil.
-    heat : float or None
-        Part of the heat in the inlet; None where a number stands for it and possibly for more.
-    supply : float or None
-        Part of the supply of oil; None where ``total`` contains it, as in a measured film factor.
-    inlet_shear : float or None
-        Part of the heat in the inlet by formula, also where the heat is to be solved; None where no heat is
-        computed.
-    """
-
-    total: float
+    total: float  # film thickness over that of isothermal, fully flooded oil
+    # Part of the heat in the inlet; None where a number stands for it and possibly for more.
     heat: float | None = None
+    # Part of the supply of oil; None where ``total`` contains it, as in a measured film factor.
     supply: float | None = None
+    # Part of the heat in the inlet by formula, also where the heat is to be solved; None where no heat is
+    # computed.
     inlet_shear: float | None = None
 
 
 def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> FilmFactor:
-    """Film factor of the contacts with a ring at its temperature [K], by the bearing file.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Bearing file.
-    geometry : BallBearing or RollerBearing
-        Internal geometry in operation.
-    oil : Oil
-        Oil at the temperature of the ring.
-    temperature : float
-        Temperature of the ring [K].
-
-    Returns
-    -------
-    FilmFactor
-        Factor with its parts. With ``film_factor`` "solved", whose heat is that of a loaded contact, ``heat``
-        and ``total`` are NaN.
-
-    Raises
-    ------
-    InputError
-        Where the rule for a way of supply leaves next to no film.
+    """Film factor of the contacts with a ring at its temperature [K], by the bearing file. ``temperature``
+    [K]. Raises InputError where the rule for a way of supply leaves next to no film.
     """
     factor, supply = case.bearing.film_factor, _supply_factor(case.bearing, oil)
     if isinstance(factor, float):
@@ -410,24 +327,10 @@ _OF_CONTACT = {
 
 
 def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Array) -> Array:
-    """Hydrodynamic rolling force on each surface of the contacts with a ring.
+    """Hydrodynamic rolling force on each surface of the contacts with a ring. ``load``, loads of the contacts
+    [N]; 0 without contact, shape (...). Returns force [N]: that of the solved contact times the ratio of the
+    forces at both loads by formula, shape (...).
 
-    Parameters
-    ----------
-    ring : RingContacts
-        Contacts with the ring, without their loads.
-    friction : ContactFriction
-        Friction of the solved contact.
-    load : ndarray, shape (...)
-        Loads of the contacts [N]; 0 without contact.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Force [N]: that of the solved contact times the ratio of the forces at both loads by formula.
-
-    Notes
-    -----
     The formulas are those of Biboulet and Houpert (2010), doi:10.1243/13506501JET790 and JET791. The force of
     a heavily loaded ball goes with the cube root of the load, that of a roller does not depend on it. Heat
     reduces the force of all contacts as that of the solved one, and lightly loaded ones too much.
@@ -445,17 +348,8 @@ def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Arra
 
 
 def rolling_power_loss(solution: BearingSolution) -> float | None:
-    """Power that the hydrodynamic rolling resistance of all contacts takes, mean over the positions.
-
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    float or None
-        Power [W] with flooded contacts, 2 F u for each of them; None where no heat is solved.
+    """Power that the hydrodynamic rolling resistance of all contacts takes, mean over the positions. Returns
+    power [W] with flooded contacts, 2 F u for each of them; None where no heat is solved.
     """
     power = 0.0
     for ring in (solution.inner, solution.outer):

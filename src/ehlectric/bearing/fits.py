@@ -9,21 +9,6 @@ from dataclasses import dataclass
 class ThickRing:
     """Plain ring, shaft or housing of one material, in plane stress.
 
-    Attributes
-    ----------
-    inner_diameter : float
-        Diameter of the bore [m]; 0 for a solid shaft.
-    outer_diameter : float
-        Outer diameter [m]; infinite for a housing without an end.
-    youngs_modulus : float
-        Young's modulus E [Pa].
-    poissons_ratio : float
-        Poisson's ratio, dimensionless.
-    expansion : float
-        Coefficient of thermal expansion [1/K].
-
-    Notes
-    -----
     With the pressures p_i in the bore d and p_o on the outside D, Lame's solution for a ring whose faces are
     free (plane stress) has the circumferential strain
 
@@ -34,26 +19,16 @@ class ThickRing:
     http://www.roymech.co.uk/Useful_Tables/Mechanics/Cylinders.html, derives the same equations.
     """
 
-    inner_diameter: float
-    outer_diameter: float
-    youngs_modulus: float
-    poissons_ratio: float
-    expansion: float
+    inner_diameter: float  # diameter of the bore [m]; 0 for a solid shaft
+    outer_diameter: float  # outer diameter [m]; infinite for a housing without an end
+    youngs_modulus: float  # young's modulus E [Pa]
+    poissons_ratio: float  # poisson's ratio, dimensionless
+    expansion: float  # coefficient of thermal expansion [1/K]
 
     def growth(self, diameter: float, *, bore_pressure: float = 0.0, outside_pressure: float = 0.0) -> float:
-        """Growth of a diameter of the ring under pressure from inside and from outside.
-
-        Parameters
-        ----------
-        diameter : float
-            Diameter in the ring [m], from the bore to the outer diameter.
-        bore_pressure, outside_pressure : float
-            Pressures in the bore and on the outside [Pa].
-
-        Returns
-        -------
-        float
-            Change of the diameter [m], negative where it shrinks.
+        """Growth of a diameter of the ring under pressure from inside and from outside. ``diameter``,
+        diameter in the ring [m], from the bore to the outer diameter; ``bore_pressure`` and
+        ``outside_pressure`` [Pa]. Returns change of the diameter [m], negative where it shrinks.
 
         Examples
         --------
@@ -77,24 +52,9 @@ class ThickRing:
 
 
 def fit_pressure(within: ThickRing, around: ThickRing, interference: float) -> float:
-    """Pressure in an interference fit of two rings.
+    """Pressure in an interference fit of two rings. ``interference``, diameter of the inner one less the bore
+    of the outer one, both free [m]; negative for a loose fit. Returns pressure [Pa]; 0 for a loose fit.
 
-    Parameters
-    ----------
-    within : ThickRing
-        Inner one of both, such as a shaft.
-    around : ThickRing
-        Outer one of both, such as the inner ring of a bearing.
-    interference : float
-        Diameter of the inner one less the bore of the outer one, both free [m]; negative for a loose fit.
-
-    Returns
-    -------
-    float
-        Pressure [Pa]; 0 for a loose fit.
-
-    Notes
-    -----
     The pressure at which the bore of the outer one grows, and the outside of the inner one shrinks, by the
     interference together.
 
@@ -119,14 +79,9 @@ def fit_pressure(within: ThickRing, around: ThickRing, interference: float) -> f
 
 @dataclass(frozen=True)
 class Temperatures:
-    """Temperatures of the parts of a mounted bearing, absolute.
+    """Temperatures of the parts of a mounted bearing, absolute."""
 
-    Attributes
-    ----------
-    inner_ring, outer_ring, elements, shaft, housing : float
-        Mean temperatures of the parts [K].
-    """
-
+    # inner_ring, outer_ring, elements, shaft and housing: mean temperatures of the parts [K].
     inner_ring: float
     outer_ring: float
     elements: float
@@ -141,34 +96,21 @@ class Temperatures:
 
 @dataclass(frozen=True)
 class Mounting:
-    """Bearing between its shaft and its housing, with all dimensions at the reference temperature.
+    """Bearing between its shaft and its housing, with all dimensions at the reference temperature."""
 
-    Attributes
-    ----------
-    shaft, inner_ring, outer_ring, housing : ThickRing
-        Parts, each of its own diameters when free. A ring ends at its raceway: shoulders and the depth of the
-        groove are left out.
-    element_diameter : float
-        Diameter of the rolling elements [m].
-    element_expansion : float
-        Coefficient of thermal expansion of the rolling elements [1/K].
-    shaft_interference : float
-        Effective interference of inner ring and shaft on the diameter [m]; negative for a loose fit.
-    housing_interference : float
-        Effective interference of outer ring and housing on the diameter [m]; negative for a loose fit.
-    reference_temperature : float
-        Temperature of the dimensions and interferences [K].
-    """
-
+    # shaft, inner_ring, outer_ring and housing: parts, each of its own diameters when free. A ring ends at
+    # its raceway: shoulders and the depth of the groove are left out.
     shaft: ThickRing
     inner_ring: ThickRing
     outer_ring: ThickRing
     housing: ThickRing
-    element_diameter: float
-    element_expansion: float
+    element_diameter: float  # diameter of the rolling elements [m]
+    element_expansion: float  # coefficient of thermal expansion of the rolling elements [1/K]
+    # Effective interference of inner ring and shaft on the diameter [m]; negative for a loose fit.
     shaft_interference: float
+    # Effective interference of outer ring and housing on the diameter [m]; negative for a loose fit.
     housing_interference: float
-    reference_temperature: float
+    reference_temperature: float  # temperature of the dimensions and interferences [K]
 
     @property
     def unmounted_clearance(self) -> float:
@@ -191,42 +133,23 @@ class Mounting:
 
 @dataclass(frozen=True)
 class Clearance:
-    """Radial clearance of a mounted bearing at some temperatures.
+    """Radial clearance of a mounted bearing at some temperatures."""
 
-    Attributes
-    ----------
-    clearance : float
-        Full diametral play [m]; negative with a preload.
-    shaft_interference, housing_interference : float
-        Interferences at the temperatures [m]; negative where the fit is loose.
-    shaft_pressure, housing_pressure : float
-        Pressures between inner ring and shaft, and between outer ring and housing [Pa].
-    """
-
-    clearance: float
+    clearance: float  # full diametral play [m]; negative with a preload
+    # shaft_interference and housing_interference: interferences at the temperatures [m]; negative where the
+    # fit is loose.
     shaft_interference: float
     housing_interference: float
+    # shaft_pressure and housing_pressure: pressures between inner ring and shaft, and between outer ring and
+    # housing [Pa].
     shaft_pressure: float
     housing_pressure: float
 
 
 def clearance_at(mounting: Mounting, temperatures: Temperatures) -> Clearance:
-    """Radial clearance of a mounted bearing at the temperatures of its parts.
+    """Radial clearance of a mounted bearing at the temperatures of its parts. Returns clearance, and
+    interferences and pressures of both fits.
 
-    Parameters
-    ----------
-    mounting : Mounting
-        Bearing, shaft and housing at the reference temperature.
-    temperatures : Temperatures
-        Temperatures of all parts.
-
-    Returns
-    -------
-    Clearance
-        Clearance, and interferences and pressures of both fits.
-
-    Notes
-    -----
     Every part expands freely with its own temperature, which changes both interferences. The pressures of the
     fits widen the inner raceway and narrow the outer one. Stresses and expansions are small, so both add up.
 

@@ -54,27 +54,14 @@ from ehlectric.formulas.hertz import DryContact, line_opening, point_deflection,
 
 @dataclass(frozen=True)
 class Raceway:
-    """Groove of one ring, and the ball in it.
+    """Groove of one ring, and the ball in it."""
 
-    Attributes
-    ----------
-    ball_radius, groove_radius : float
-        Radius r of the ball and r_g of the groove [m].
-    pitch_radius : float
-        Distance R_o from the axis of the bearing to the centre of the ball [m].
-    shoulder_angle : float
-        Angle psi at which the groove ends, on both sides of its bottom [rad].
-    contact_angle : float
-        Angle psi of the contact, alpha [rad].
-    outer : bool
-        Whether the ring is the outer one.
-    """
-
+    # ball_radius and groove_radius: radius r of the ball and r_g of the groove [m].
     ball_radius: float
     groove_radius: float
-    pitch_radius: float
-    shoulder_angle: float
-    contact_angle: float
+    pitch_radius: float  # distance R_o from the axis of the bearing to the centre of the ball [m]
+    shoulder_angle: float  # angle psi at which the groove ends, on both sides of its bottom [rad]
+    contact_angle: float  # angle psi of the contact, alpha [rad]
     outer: bool
 
     @classmethod
@@ -90,24 +77,10 @@ class Raceway:
     ) -> Raceway:
         """Raceway of a bearing from the dimensions that catalogues state.
 
-        Parameters
-        ----------
-        element_diameter, pitch_diameter : float
-            Diameter D of the balls, and diameter of the circle of their centres [m].
-        groove : float
-            Osculation: radius of the groove over the diameter of the ball, above 0.5.
-        shoulder_height : float
-            Height of the shoulders above the bottom of the groove over the diameter of the ball.
-        outer : bool
-            Whether the ring is the outer one.
-        contact_angle : float
-            Contact angle from the radial direction [rad].
-
-        Raises
-        ------
-        InputError
-            Where the groove radius is too small, the shoulder height is out of range, or the groove ends
-            before the contact.
+        ``element_diameter`` and ``pitch_diameter``, diameter D of the balls, and diameter of the circle of
+        their centres [m]; ``contact_angle``, contact angle from the radial direction [rad]. Raises InputError
+        where the groove radius is too small, the shoulder height is out of range, or the groove ends before
+        the contact.
 
         Examples
         --------
@@ -141,19 +114,9 @@ class Raceway:
 def groove_gap(race: Raceway, gap: float | Array, x: Array, y: Array) -> Array:
     """Gap between a rigid ball and points on its raceway, along the radius of the ball.
 
-    Parameters
-    ----------
-    race : Raceway
-        Groove and ball.
-    gap : float or ndarray, shape that broadcasts to (...)
-        Gap h0 of the rigid bodies at the contact [m]. It is the smallest gap if it is below r_g - r.
-    x, y : ndarray, shapes that broadcast to (...)
-        Distance from the contact along the arcs of the raceway: along rolling and across the groove [m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Gap [m]; close to the contact it is h0 + x^2/(2 Rx) + y^2/(2 Ry).
+    ``gap``, gap h0 of the rigid bodies at the contact [m]; ``x`` and ``y``, distance from the contact along
+    the arcs of the raceway: along rolling and across the groove [m]. Returns gap [m]; close to the contact it
+    is h0 + x^2/(2 Rx) + y^2/(2 Ry), shape (...).
 
     Examples
     --------
@@ -239,23 +202,14 @@ class LoadedContact:
     """Bodies around a solved film, deflected by the Hertz pressure and otherwise rigid.
 
     Contacts of several loads are held together: all values but the modulus are arrays of shape (...) then.
-
-    Attributes
-    ----------
-    dry : DryContact
-        Dry contact under the same load.
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    offset : float or ndarray
-        Gap that the undeflected bodies would have at the contact [m]. It is about the film thickness less the
-        elastic approach, and mostly negative.
-    mismatch : float or ndarray
-        Largest relative difference from the solved film thickness along the edge of the film's domain.
     """
 
-    dry: DryContact
-    modulus: float
+    dry: DryContact  # dry contact under the same load
+    modulus: float  # reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
+    # Gap that the undeflected bodies would have at the contact [m]. It is about the film thickness less the
+    # elastic approach, and mostly negative.
     offset: float | Array
+    # Largest relative difference from the solved film thickness along the edge of the film's domain.
     mismatch: float | Array
 
     def opening(self, x: Array, y: Array) -> Array:
@@ -268,22 +222,9 @@ def groove_capacitance(
 ) -> float:
     """Capacitance between an unloaded, rigid ball and its raceway.
 
-    Parameters
-    ----------
-    race : Raceway
-        Groove and ball.
-    gap : float
-        Gap h0 at the contact angle [m], positive.
-    relative_permittivity : float
-        Relative permittivity of the medium in the gap, dimensionless.
-    obliquity : float
-        End of the integral along rolling: where the normal of the raceway meets the ball at this angle from
-        the normal of the ball [rad]. At 90 degrees it is tangent to the ball.
-
-    Returns
-    -------
-    float
-        Capacitance [F].
+    ``gap``, gap h0 at the contact angle [m], positive; ``relative_permittivity``, relative permittivity of
+    the medium in the gap, dimensionless; ``obliquity``, end of the integral along rolling: where the normal
+    of the raceway meets the ball at this angle from the normal of the ball [rad]. Returns capacitance [F].
 
     Examples
     --------
@@ -321,24 +262,10 @@ def outside_capacitance(
     the edge of the domain. In ``examples/ball_bearing.toml`` the capacitance of the whole contact changes by
     0.1 % when the domain is cut from 1.75 to 1.4 semi-axes across. This moves 5 pF of 76 pF to the outside.
 
-    Parameters
-    ----------
-    race : Raceway
-        Groove and ball.
-    contact : LoadedContact
-        Bodies around the film, from ``match_film``.
-    domain : tuple of float or ndarray, shape (...)
-        Inlet, outlet and side of the film's domain, inlet <= x <= outlet and abs(y) <= side [m]. The inlet
-        is negative, and the domain contains the Hertz ellipse.
-    relative_permittivity : float
-        Relative permittivity of the medium in the gap, dimensionless.
-    obliquity : float
-        End of the integral along rolling, as in ``groove_capacitance`` [rad].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Capacitance [F].
+    ``domain``, inlet, outlet and side of the film's domain, inlet <= x <= outlet and abs(y) <= side [m],
+    shape (...); ``relative_permittivity``, relative permittivity of the medium in the gap, dimensionless;
+    ``obliquity``, end of the integral along rolling, as in ``groove_capacitance`` [rad]. Returns capacitance
+    [F], shape (...).
     """
     inlet, outlet, side = domain
     edge = side / race.groove_radius
@@ -376,23 +303,10 @@ def match_film(
     at every point, because the film has parabolas instead of circles, and another pressure than Hertz's. The
     largest difference is ``mismatch``.
 
-    Parameters
-    ----------
-    race : Raceway
-        Groove and ball.
-    dry : DryContact
-        Dry contact under the same load; arrays of shape (...) for several loads.
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    x, y, thickness : ndarray, shape (..., n)
-        Points on the edge of the film's domain, with x along entrainment, and the film thickness there [m].
-    opened : ndarray, shape (..., n), optional
-        Deflection at the points, where it is known [m].
-
-    Returns
-    -------
-    LoadedContact
-        Bodies around the film, with offset and mismatch.
+    ``dry``, dry contact under the same load; arrays of shape (...) for several loads; ``modulus``, reduced
+    modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; ``x``, ``y`` and ``thickness``, points on
+    the edge of the film's domain, with x along entrainment, and the film thickness there [m], shape (..., n);
+    ``opened``, deflection at the points, where it is known [m], shape (..., n).
     """
     if opened is None:
         opened = point_deflection(x, y, _spread(dry, 1), modulus)
@@ -463,16 +377,9 @@ _NODES = 48
 
 @dataclass(frozen=True)
 class RollerRaceway:
-    """Raceway of one ring, and the roller on it.
+    """Raceway of one ring, and the roller on it."""
 
-    Attributes
-    ----------
-    roller_radius, race_radius : float
-        Radius r of the roller and R of the raceway [m].
-    outer : bool
-        Whether the ring is the outer one.
-    """
-
+    # roller_radius and race_radius: radius r of the roller and R of the raceway [m].
     roller_radius: float
     race_radius: float
     outer: bool
@@ -492,22 +399,9 @@ def roller_capacitance(
 ) -> float:
     """Capacitance per length between an unloaded, rigid roller and its raceway.
 
-    Parameters
-    ----------
-    race : RollerRaceway
-        Raceway and roller.
-    gap : float
-        Smallest gap h0 [m], positive.
-    relative_permittivity : float
-        Relative permittivity of the medium in the gap, dimensionless.
-    obliquity : float
-        End of the integral: where the normal of the raceway meets the roller at this angle from the normal of
-        the roller [rad]. At 90 degrees it is tangent to the roller.
-
-    Returns
-    -------
-    float
-        Capacitance per length [F/m].
+    ``gap``, smallest gap h0 [m], positive; ``relative_permittivity``, relative permittivity of the medium in
+    the gap, dimensionless; ``obliquity``, end of the integral: where the normal of the raceway meets the
+    roller at this angle from the normal of the roller [rad]. Returns capacitance per length [F/m].
 
     Examples
     --------
@@ -541,27 +435,12 @@ def roller_tails(
     The gap is that of touching circles, widened by the deflection under the Hertz pressure. At each end a
     constant is added, with which the gap continues the film.
 
-    Parameters
-    ----------
-    race : RollerRaceway
-        Raceway and roller.
-    half_width : float
-        Half-width b of the dry contact [m].
-    domain : tuple of float
-        Inlet and outlet of the film's domain, along the arc of the raceway from the contact [m]. The inlet is
-        negative, and both lie outside the half-width.
-    thickness : tuple of float
-        Film thickness at inlet and outlet [m].
-    relative_permittivity : float
-        Relative permittivity of the medium in the gap, dimensionless.
-    obliquity : float
-        End of the integral, as in ``roller_capacitance`` [rad].
-
-    Returns
-    -------
-    inlet, outlet : float
-        Capacitance per length [F/m], each about 2 eps0 eps R/abs(x) with the reduced radius R. It is zero
-        where the domain reaches beyond the end of the integral.
+    ``half_width``, half-width b of the dry contact [m]; ``domain``, inlet and outlet of the film's domain,
+    along the arc of the raceway from the contact [m]; ``thickness``, film thickness at inlet and outlet [m];
+    ``relative_permittivity``, relative permittivity of the medium in the gap, dimensionless; ``obliquity``,
+    end of the integral, as in ``roller_capacitance`` [rad]. Returns capacitance per length [F/m], each about
+    2 eps0 eps R/abs(x) with the reduced radius R; it is zero where the domain reaches beyond the end of the
+    integral.
 
     Examples
     --------

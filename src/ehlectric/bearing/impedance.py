@@ -44,20 +44,10 @@ def shaft_capacitance(solution: BearingSolution) -> float:
 def rough_capacitance(solution: BearingSolution) -> float | None:
     """Capacitance of the films with the roughness in their Hertz areas, mean over the positions of the cage.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
+    Returns capacitance [F]; None for ceramic elements; for results that do not have the capacitance of the
+    Hertz areas; and where a loaded contact has a central film of less than twice ``composite_rq``, at which
+    asperities touch.
 
-    Returns
-    -------
-    float or None
-        Capacitance [F]. None for ceramic elements; for results that do not have the capacitance of the Hertz
-        areas; and where a loaded contact has a central film of less than twice ``composite_rq``, at which
-        asperities touch.
-
-    Notes
-    -----
     The capacitance of each Hertz area is multiplied by ``roughness_factor`` of central film thickness over
     ``composite_rq``. Around the Hertz areas the gap grows within a fraction of their size, and is taken as
     smooth.
@@ -81,18 +71,9 @@ def rough_capacitance(solution: BearingSolution) -> float | None:
 
 
 def meter_capacitance(solution: BearingSolution) -> float | None:
-    """Capacitance that a meter reads from shaft to housing, with rough films.
-
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    float or None
-        Capacitance [F]; None as ``rough_capacitance``. For ceramic elements it follows from
-        ``element_capacitance``, and is None without this key.
+    """Capacitance that a meter reads from shaft to housing, with rough films. Returns capacitance [F]; None
+    as ``rough_capacitance``; for ceramic elements it follows from ``element_capacitance``, and is None
+    without this key.
     """
     return meter_reading(solution, rough_capacitance(solution))
 
@@ -108,25 +89,10 @@ def mean_admittance(
     solution: BearingSolution, relaxation_time: float, frequency: Array, resistance: float
 ) -> Array:
     """Admittance from shaft to housing, mean over the time in which contacts are open and closed.
+    ``relaxation_time``, charge relaxation time tau of the oil [s]; ``frequency`` [Hz], shape (m,);
+    ``resistance``, resistance R of one closed contact [Ohm]. Returns admittance [S], mean over the positions
+    of the cage, shape (m,).
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing with conducting elements.
-    relaxation_time : float
-        Charge relaxation time tau of the oil [s].
-    frequency : ndarray, shape (m,)
-        Frequency f [Hz].
-    resistance : float
-        Resistance R of one closed contact [Ohm].
-
-    Returns
-    -------
-    ndarray of complex, shape (m,)
-        Admittance [S], mean over the positions of the cage.
-
-    Notes
-    -----
     At each position it is (1 - s) Y_open + s Y_shorted with the share s of time in which an element touches
     both rings. A closed contact has 1/R beside its film. Open, each element has the mean admittance of its
     states in which not both of its contacts are closed. Shorted, the elements have on average what makes the
@@ -186,26 +152,15 @@ _HIGHEST, _BELOW_CORNER, _COUNT = 1e7, 1e-2, 400
 
 @dataclass(frozen=True)
 class Impedance:
-    """Impedance of a bearing over frequency.
+    """Impedance of a bearing over frequency."""
 
-    Attributes
-    ----------
-    frequency : ndarray, shape (n,)
-        Frequencies [Hz].
-    values : ndarray of complex, shape (n,)
-        Impedance from shaft to housing, from the mean admittance of the films over the positions of the cage,
-        a coating in series, and a parallel capacitance [Ohm].
-    corner : float
-        Corner frequency 1/(2 pi tau) of the oil alone [Hz]. A bearing filled with oil has the same corner
-        frequency; air around the films, which does not conduct, and a parallel capacitance make it lower.
-    mean : Impedance or None
-        Reciprocal of the mean admittance over the time in which contacts are open and closed; None without
-        ``bearing.contact_resistance``.
-    """
-
-    frequency: Array
+    frequency: Array  # frequencies [Hz], shape (n,)
+    # Impedance from shaft to housing, from the mean admittance of the films over the positions of the cage, a
+    # coating in series, and a parallel capacitance [Ohm], shape (n,).
     values: Array
-    corner: float
+    corner: float  # corner frequency 1/(2 pi tau) of the oil alone [Hz]
+    # Reciprocal of the mean admittance over the time in which contacts are open and closed; None without
+    # ``bearing.contact_resistance``
     mean: Impedance | None = None
 
     @property
@@ -226,17 +181,8 @@ def oil_relaxation_time(solution: BearingSolution) -> float | None:
 
 def impedance_of(solution: BearingSolution) -> Impedance | None:
     """Impedance of a solved bearing, with ``fill`` around its films, a coating and a parallel capacitance.
-
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    Impedance or None
-        None without a conductivity, for ceramic elements, and where surfaces touch unless the case has the
-        resistance of a closed contact. ``values`` are those of the smooth films, as if none touched.
+    Returns None without a conductivity, for ceramic elements, and where surfaces touch unless the case has
+    the resistance of a closed contact; ``values`` are those of the smooth films, as if none touched.
     """
     tau, resistance = oil_relaxation_time(solution), solution.case.bearing.contact_resistance
     if tau is None or solution.conditions.ceramic:

@@ -85,55 +85,32 @@ _NOT_QUICK = ("discharge.weibull.shape", "discharge.weibull.reference_area")
 
 @dataclass(frozen=True)
 class MarginPoint:
-    """Margin and lambda ratio of a bearing.
+    """Margin and lambda ratio of a bearing."""
 
-    Attributes
-    ----------
-    margin : float
-        First breakdown / shaft voltage, dimensionless; 0 where the surfaces touch and conduct.
-    lambda_ratio : float
-        Minimum film thickness / composite roughness, dimensionless.
-    """
-
-    margin: float
-    lambda_ratio: float
+    margin: float  # first breakdown / shaft voltage, dimensionless; 0 where the surfaces touch and conduct
+    lambda_ratio: float  # minimum film thickness / composite roughness, dimensionless
 
 
 @dataclass(frozen=True)
 class QuickMargins:
     """Margins of one bearing at changed inputs.
 
-    Attributes
-    ----------
-    case : BearingCase
-        Case of the bearing.
-    own : MarginPoint
-        Margin and lambda ratio of the solution.
-    margin_factor, lambda_factor : float
-        Margin and lambda ratio of the solution divided by those of quick contacts, dimensionless.
-    quick : BearingSolution
-        Solution with quick contacts at the inputs of the case.
-
-    Notes
-    -----
     A Weibull law and a strength table over pressure need the field in the whole film, which formulas do not
     have. A constant strength replaces them here: it cancels in the ratio of two margins of the same strength.
     """
 
     case: BearingCase
-    own: MarginPoint
+    own: MarginPoint  # margin and lambda ratio of the solution
+    # margin_factor and lambda_factor: margin and lambda ratio of the solution divided by those of quick
+    # contacts, dimensionless.
     margin_factor: float
     lambda_factor: float
-    quick: BearingSolution = field(repr=False)
+    quick: BearingSolution = field(repr=False)  # solution with quick contacts at the inputs of the case
 
     @classmethod
     def of(cls, solution: BearingSolution) -> QuickMargins:
-        """Margins by quick contacts, scaled to those of a solution.
-
-        Raises
-        ------
-        InputError
-            Where the solution has no margin, or the formulas have none for the same inputs.
+        """Margins by quick contacts, scaled to those of a solution. Raises InputError where the solution has
+        no margin, or the formulas have none for the same inputs.
         """
         breakdown = breakdown_of(solution)
         solved = None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
@@ -148,22 +125,9 @@ class QuickMargins:
         return cls(solution.case, own, *ratios, quick)
 
     def at(self, changes: Mapping[str, Any]) -> MarginPoint:
-        """Margin and lambda ratio with changed inputs, scaled to the solution.
-
-        Parameters
-        ----------
-        changes : mapping
-            New values by dotted key of the case, SI units.
-
-        Returns
-        -------
-        MarginPoint
-            Scaled values; the margin is 0 where the surfaces touch.
-
-        Raises
-        ------
-        InputError
-            Where the changed inputs make no valid case, or one that needs solved contacts.
+        """Margin and lambda ratio with changed inputs, scaled to the solution. Returns scaled values; the
+        margin is 0 where the surfaces touch. Raises InputError where the changed inputs make no valid case,
+        or one that needs solved contacts.
         """
         for key in changes:
             if key in _NOT_QUICK:
@@ -212,33 +176,19 @@ Intervals = tuple[tuple[float | None, float | None], ...]
 
 @dataclass(frozen=True)
 class SpeedRange:
-    """Margin of a bearing over its shaft speed, at one temperature.
+    """Margin of a bearing over its shaft speed, at one temperature."""
 
-    Attributes
-    ----------
-    lowest, highest : float
-        Ends of the range of speeds that have a result [rad/s].
-    crossings : tuple of float
-        Speeds at which the margin crosses 1 [rad/s], in increasing order.
-    touching : float or None
-        Speed below which the surfaces touch [rad/s]; None where they do not touch in the range.
-    partial : tuple of (float or None, float or None)
-        Intervals of speed in which surfaces may touch, because their lambda ratio is below 3 [rad/s]; None
-        in place of an end of the range.
-    above : bool
-        Whether the margin at the highest speed is at least 1.
-    minimum : float or None
-        Smallest margin that was computed, dimensionless, where surfaces do not touch; None where all touch.
-    left_out : tuple of str
-        Speeds that have no result, and why.
-    """
-
+    # lowest and highest: ends of the range of speeds that have a result [rad/s].
     lowest: float
     highest: float
-    crossings: tuple[float, ...]
+    crossings: tuple[float, ...]  # speeds at which the margin crosses 1 [rad/s], in increasing order
+    # Speed below which the surfaces touch [rad/s]; None where they do not touch in the range.
     touching: float | None
+    # Intervals of speed in which surfaces may touch, because their lambda ratio is below 3 [rad/s]; None in
+    # place of an end of the range.
     partial: Intervals
-    above: bool
+    above: bool  # whether the margin at the highest speed is at least 1
+    # Smallest margin that was computed, dimensionless, where surfaces do not touch; None where all touch.
     minimum: float | None
     left_out: tuple[str, ...] = ()
 
@@ -267,20 +217,9 @@ class SpeedRange:
 
 
 def speed_range(margins: QuickMargins) -> SpeedRange:
-    """Find the speeds at which the margin of a bearing crosses 1.
+    """Find the speeds at which the margin of a bearing crosses 1. Returns speeds from a tenth of the case's
+    speed to four times this speed.
 
-    Parameters
-    ----------
-    margins : QuickMargins
-        Margins of the bearing at changed inputs.
-
-    Returns
-    -------
-    SpeedRange
-        Speeds from a tenth of the case's speed to four times this speed.
-
-    Notes
-    -----
     The temperature is that of the case at all speeds. The margin rises with the speed. Only with inlet
     shear heating or a supply by rule it falls again at high speed; more speeds are computed then.
     """
@@ -367,24 +306,14 @@ OF_TABLE = "discharge.strength_table.strength"
 
 @dataclass(frozen=True)
 class Effect:
-    """Effect of one input on the margin, all others as in the case.
+    """Effect of one input on the margin, all others as in the case."""
 
-    Attributes
-    ----------
-    key : str
-        Dotted key of the input; for the load that of the larger component, where both change together.
-    label : str
-        Name of the input.
-    low_input, high_input : float
-        Smaller and larger value of the input, SI units.
-    low_margin, high_margin : float
-        Margin at these values, dimensionless; 0 where the surfaces touch.
-    """
-
-    key: str
+    key: str  # dotted key of the input; for the load that of the larger component, where both change together
     label: str
+    # low_input and high_input: smaller and larger value of the input, SI units.
     low_input: float
     high_input: float
+    # low_margin and high_margin: margin at these values, dimensionless; 0 where the surfaces touch.
     low_margin: float
     high_margin: float
 
@@ -422,20 +351,9 @@ class _Change:
 
 def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     """Effects of strength, temperature, clearance, load and motor, and of all inputs that have a range.
-
-    Parameters
-    ----------
-    margins : QuickMargins
-        Margins of the bearing at changed inputs.
-    margin : float
-        Margin of the bearing, dimensionless.
-
-    Returns
-    -------
-    effects : tuple of Effect
-        The largest effect first. A range of the file replaces the change that is made without it.
-    left_out : tuple of str
-        Inputs whose effect has no result, and why.
+    ``margin``, margin of the bearing, dimensionless. Returns ``effects``, the largest effect first; a range
+    of the file replaces the change that is made without it; ``left_out``, inputs whose effect has no result,
+    and why.
     """
     case, effects, left_out = margins.case, [], []
     ranges = {one.key: (one.low, one.high) for one in case.ranges or ()}
@@ -561,28 +479,10 @@ def margin_range(
 ) -> tuple[float, float] | None:
     """Margin with all inputs of ``ranges`` at their unfavourable ends, and at their favourable ends.
 
-    Parameters
-    ----------
-    margins : QuickMargins
-        Margins of the bearing at changed inputs.
-    margin : float
-        Margin of the bearing, dimensionless.
-    effects : iterable of Effect
-        Effects of single inputs; those of the inputs with a range decide which end is unfavourable.
+    ``margin``, margin of the bearing, dimensionless. Returns smallest and largest margin, dimensionless; the
+    smallest is 0 where the surfaces touch; None without ranges. Raises InputError where a range has no effect
+    on contacts from the atlas, or one of the two cases cannot be computed.
 
-    Returns
-    -------
-    tuple of float or None
-        Smallest and largest margin, dimensionless; the smallest is 0 where the surfaces touch. None without
-        ranges.
-
-    Raises
-    ------
-    InputError
-        Where a range has no effect on contacts from the atlas, or one of the two cases cannot be computed.
-
-    Notes
-    -----
     The ends are found one input at a time, and then taken together: 2n + 2 bearings with contacts from
     the atlas for n ranges. This is the range of the margin where every input acts in one direction over
     its range. It is wider than an interval of confidence, because all inputs are seldom at their worst at
@@ -617,29 +517,18 @@ def _chosen(
 
 @dataclass(frozen=True)
 class MarginAnalysis:
-    """Analysis of the margin (first breakdown / shaft voltage) of a bearing.
+    """Analysis of the margin (first breakdown / shaft voltage) of a bearing."""
 
-    Attributes
-    ----------
-    margin : float or None
-        Margin of the bearing, dimensionless; None where it has no breakdown voltage or no shaft voltage.
-    speeds : SpeedRange or None
-        Critical speed and the range of speeds that was looked at; None where it could not be computed.
-    low, high : float or None
-        Margin with all inputs of ``ranges`` at their unfavourable and at their favourable ends; None without
-        ranges. ``low`` is 0 where the surfaces touch.
-    effects : tuple of Effect
-        Effects of single inputs on the margin, the largest first.
-    left_out : tuple of str
-        What could not be computed, and why.
-    """
-
+    # Margin of the bearing, dimensionless; None where it has no breakdown voltage or no shaft voltage.
     margin: float | None = None
+    # Critical speed and the range of speeds that was looked at; None where it could not be computed.
     speeds: SpeedRange | None = None
+    # low and high: margin with all inputs of ``ranges`` at their unfavourable and at their favourable ends;
+    # None without ranges. ``low`` is 0 where the surfaces touch.
     low: float | None = None
     high: float | None = None
-    effects: tuple[Effect, ...] = ()
-    left_out: tuple[str, ...] = ()
+    effects: tuple[Effect, ...] = ()  # effects of single inputs on the margin, the largest first
+    left_out: tuple[str, ...] = ()  # what could not be computed, and why
 
     @property
     def critical_speed(self) -> float | None:
@@ -667,15 +556,7 @@ def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
 
     The analysis solves some twenty bearings with contacts from the atlas, which takes a few seconds at most.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    MarginAnalysis
-        Without values where the bearing has no margin, or where its films must not be used.
+    Returns without values where the bearing has no margin, or where its films must not be used.
     """
     breakdown = breakdown_of(solution)
     margin = None if breakdown is None else margin_of(breakdown.shaft_first_break, shaft_voltage(solution))
@@ -701,25 +582,9 @@ _OPENING = "Contacts discharge at a low voltage as they open"
 
 
 def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verdict:
-    """Verdict on a solved bearing.
+    """Verdict on a solved bearing. Returns grey where the numbers must not be used, for ceramic elements, and
+    without a strength or a shaft voltage.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-    analysis : MarginAnalysis
-        Analysis of its margin.
-
-    Returns
-    -------
-    Verdict
-        Grey where the numbers must not be used, for ceramic elements, and without a strength or a shaft
-        voltage. Red where surfaces touch and the case has a common-mode voltage, yellow where they touch
-        without one. At most yellow where they may touch, and yellow where the margin may lie on either side
-        of 1.
-
-    Notes
-    -----
     The margin may lie anywhere between its values at the ends of the stated ranges. Estimated errors of
     films widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its
     lower end is that at a probability of 5 %. Without a stated range of the strength, a margin that a change

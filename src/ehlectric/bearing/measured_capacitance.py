@@ -59,25 +59,10 @@ class NoFactorError(ValueError):
 def film_factor_of(capacitance: Callable[[float], float], target: float, guess: float = 1.0) -> float:
     """Film factor at which a capacitance has a value.
 
-    Parameters
-    ----------
-    capacitance : callable
-        Film factor -> capacitance [F], falling.
-    target : float
-        Capacitance that is looked for [F].
-    guess : float
-        Film factor to start from.
-
-    Returns
-    -------
-    float
-        Film factor between 0.01 and 3, dimensionless.
-
-    Raises
-    ------
-    NoFactorError
-        Where the capacitance is above that of a film of a hundredth, or below that of a film three times as
-        thick as the isothermal, fully flooded one; where the films cannot be computed.
+    ``capacitance``, film factor -> capacitance [F], falling; ``target``, capacitance that is looked for [F].
+    Returns film factor between 0.01 and 3, dimensionless. Raises NoFactorError where the capacitance is above
+    that of a film of a hundredth, or below that of a film three times as thick as the isothermal, fully
+    flooded one; where the films cannot be computed.
 
     Examples
     --------
@@ -86,7 +71,7 @@ def film_factor_of(capacitance: Callable[[float], float], target: float, guess: 
     >>> film_factor_of(lambda factor: 2e-10 * factor**-0.6, 1e-11)
     Traceback (most recent call last):
     ehlectric.bearing.measured_capacitance.NoFactorError: below 103.5 pF, that of a film 3 times as thick as \
-computed for isothermal, fully flooded oil
+    computed for isothermal, fully flooded oil
     """
     least, most = math.log(LEAST), math.log(MOST)
 
@@ -157,27 +142,16 @@ def _out_of_reach(end: float, x: float) -> str:
 
 @dataclass(frozen=True)
 class FilmState:
-    """Bearing at one film factor.
+    """Bearing at one film factor."""
 
-    Attributes
-    ----------
-    capacitance : float
-        Capacitance that a meter reads, with rough films and a coating, but without what is in parallel [F].
-    lambda_ratio : float
-        Smallest film thickness over the composite roughness, dimensionless.
-    """
-
+    # Capacitance that a meter reads, with rough films and a coating, but without what is in parallel [F].
     capacitance: float
-    lambda_ratio: float
+    lambda_ratio: float  # smallest film thickness over the composite roughness, dimensionless
 
     @classmethod
     def of(cls, solution: BearingSolution) -> FilmState:
-        """State of a solved bearing.
-
-        Raises
-        ------
-        InputError
-            Where its films are so thin that the roughness leaves their capacitance open.
+        """State of a solved bearing. Raises InputError where its films are so thin that the roughness leaves
+        their capacitance open.
         """
         capacitance, ratio = meter_capacitance(solution), lambda_ratio(solution)
         if capacitance is None:
@@ -194,27 +168,17 @@ class OperatingPoint:
     """Bearing at one speed and temperature, whose film factor is free.
 
     Loads and speeds of the elements do not depend on the film factor, so they are computed once.
-
-    Attributes
-    ----------
-    case : BearingCase
-        Case at this speed and temperature, with contacts from the atlas or by formula.
-    prepared : PreparedBearing
-        Equilibria and contacts, with the film factor of the case.
     """
 
-    case: BearingCase
-    prepared: PreparedBearing
+    case: BearingCase  # case at this speed and temperature, with contacts from the atlas or by formula
+    prepared: PreparedBearing  # equilibria and contacts, with the film factor of the case
     _known: dict[float, FilmState] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, case: BearingCase, changes: Mapping[str, Any]) -> OperatingPoint:
-        """Operating point of a case with changed inputs, such as ``bearing.inner_speed`` [rad/s].
-
-        Raises
-        ------
-        InputError
-            Where the changed case is not valid, or its oil is neither in the atlas nor described by formulas.
+        """Operating point of a case with changed inputs, such as ``bearing.inner_speed`` [rad/s]. Raises
+        InputError where the changed case is not valid, or its oil is neither in the atlas nor described by
+        formulas.
         """
         # What is in parallel is taken off the measured values, and the measured factor contains the supply.
         alone: dict[str, Any] = {}
@@ -229,12 +193,8 @@ class OperatingPoint:
         return cls(changed, prepare_bearing(changed, POSITIONS))
 
     def at(self, factor: float) -> FilmState:
-        """Bearing at a film factor.
-
-        Raises
-        ------
-        InputError
-            Where the films are too thick for the bearing, or too thin to be computed.
+        """Bearing at a film factor. Raises InputError where the films are too thick for the bearing, or too
+        thin to be computed.
         """
         if factor not in self._known:
             self._known[factor] = FilmState.of(self._solution(factor))
@@ -249,12 +209,8 @@ class OperatingPoint:
 
 
 def check_films_measured(case: BearingCase) -> None:
-    """Refuse a bearing whose capacitance does not depend on its films.
-
-    Raises
-    ------
-    InputError
-        For ceramic elements: they have nearly all of the voltage.
+    """Refuse a bearing whose capacitance does not depend on its films. Raises InputError for ceramic
+    elements: they have nearly all of the voltage.
     """
     material = case.bearing.element_material
     if not library.solid(material)["conducting"]:
@@ -274,21 +230,12 @@ _SAME = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Correction:
-    """Ratio of solved numbers to quick ones, from the atlas or by formula, over the quick capacitance.
+    """Ratio of solved numbers to quick ones, from the atlas or by formula, over the quick capacitance."""
 
-    Attributes
-    ----------
-    logs : ndarray, shape (k,)
-        Logarithm of the quick capacitance [F], increasing; empty for quick contacts alone.
-    ratios : ndarray, shape (k, 2)
-        Logarithm of the ratio solved/quick of capacitance and of lambda ratio.
-    solves : int
-        Number of contacts that were solved.
-    """
-
+    # Logarithm of the quick capacitance [F], increasing; empty for quick contacts alone, shape (k,).
     logs: Array
-    ratios: Array
-    solves: int = 0
+    ratios: Array  # logarithm of the ratio solved/quick of capacitance and of lambda ratio, shape (k, 2)
+    solves: int = 0  # number of contacts that were solved
 
     @classmethod
     def none(cls) -> Correction:
@@ -327,33 +274,11 @@ def solved_correction(
 ) -> Correction:
     """Solve a bearing at a few measured rows, and compare it with quick contacts.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing.
-    rows : sequence of mapping, length n
-        Changes of the case that make each row, its speed [rad/s] and temperature [K].
-    targets : ndarray, shape (n,)
-        Measured capacitances without background [F]; those that are not positive do not count.
-    progress : callable
-        Called with the number of solved contacts, of all contacts of a bearing, and a text.
-    workers : int, optional
-        Number of processes.
+    ``rows``, changes of the case that make each row, its speed [rad/s] and temperature [K]; ``targets``,
+    measured capacitances without background [F]; those that are not positive do not count, shape (n,).
+    Returns table of two to six solved bearings. Raises InputError where the bearing cannot be solved, or
+    quick contacts reach none of the capacitances; ConvergenceError where a contact does not converge.
 
-    Returns
-    -------
-    Correction
-        Table of two to six solved bearings.
-
-    Raises
-    ------
-    InputError
-        Where the bearing cannot be solved, or quick contacts reach none of the capacitances.
-    ConvergenceError
-        Where a contact does not converge.
-
-    Notes
-    -----
     Each bearing is solved at the speed of a row, with the film factor that explains it by quick contacts
     and the table so far. Between these rows the ratio solved/quick depends on the film, of which the
     capacitance is the measure, and hardly on the speed.
@@ -427,24 +352,10 @@ def shared_effects(
 ) -> tuple[dict[str, Array], tuple[str, ...]]:
     """Change of ln(film factor) by one standard uncertainty of each input that has a range.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing with its ``ranges``.
-    rows : sequence of mapping, length n
-        Changes of the case that make each row, its speed [rad/s] and temperature [K].
-    factors, slopes : ndarray, shape (n,)
-        Film factor of each row, and its d ln(capacitance)/d ln(factor).
-    corrected : callable
-        Correction of a quick state, see ``Correction.of``.
-
-    Returns
-    -------
-    effects : dict of str to ndarray, shape (n,)
-        Effect of each range on every row. A range is taken as a rectangular distribution: its standard
-        uncertainty is its half-width over the square root of three.
-    left_out : tuple of str
-        Ranges that were left out, and why.
+    ``rows``, changes of the case that make each row, its speed [rad/s] and temperature [K]; ``factors`` and
+    ``slopes``, film factor of each row, and its d ln(capacitance)/d ln(factor), shape (n,). Returns
+    ``effects``, effect of each range on every row, shape (n,); ``left_out``, ranges that were left out, and
+    why.
     """
     effects: dict[str, Array] = {}
     left_out: list[str] = []
@@ -468,18 +379,9 @@ def shared_effects(
 
 def background_effect(case: BearingCase, targets: Array, slopes: Array) -> dict[str, Array]:
     """Change of ln(film factor) by one standard uncertainty of the parallel capacitance of a case.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing with its ``ranges``.
-    targets, slopes : ndarray, shape (n,)
-        Capacitance without background of each row [F], and its d ln(capacitance)/d ln(factor).
-
-    Returns
-    -------
-    dict of str to ndarray, shape (n,)
-        Effect by the key; empty without a range of ``bearing.parallel_capacitance``.
+    ``targets`` and ``slopes``, capacitance without background of each row [F], and its d ln(capacitance)/d
+    ln(factor), shape (n,). Returns effect by the key; empty without a range of
+    ``bearing.parallel_capacitance``, shape (n,).
     """
     ranges = [one for one in case.ranges or () if one.key == PARALLEL]
     return {one.key: 0.5 * (one.high - one.low) / math.sqrt(3.0) / targets / -slopes for one in ranges}
@@ -598,35 +500,12 @@ def bearing_factors(
 ) -> FilmFactors:
     """Film factors of a bearing that explain its measured capacitance, row by row, and their mean.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing. Its speed and temperature stand for those that the measurement does not have;
-        its film factor is not used.
-    measured : Measurement
-        Rows with a capacitance, or with magnitude, phase and frequency of an impedance.
-    background : float, optional
-        Capacitance [F] of leads, cage and fixture in parallel, which is taken off every row; by default
-        ``bearing.parallel_capacitance`` of the case, where it has one.
-    uncertainty : float, optional
-        Relative standard uncertainty of the capacitance, where the measurement states none.
-    progress : callable, optional
-        Called with the number of parts done, the number of all parts, and a text.
-    workers : int, optional
-        Number of processes for solved contacts.
-
-    Returns
-    -------
-    FilmFactors
-        Rows, mean with its interval, and warnings.
-
-    Raises
-    ------
-    InputError
-        Where the measurement has no capacitance, or too many different speeds; where the bearing has ceramic
-        elements, cannot be computed, or no row can be used.
-    ConvergenceError
-        Where a solved contact does not converge.
+    ``background``, capacitance [F] of leads, cage and fixture in parallel, which is taken off every row; by
+    default ``bearing.parallel_capacitance`` of the case, where it has one; ``uncertainty``, relative standard
+    uncertainty of the capacitance, where the measurement states none. Returns rows, mean with its interval,
+    and warnings. Raises InputError where the measurement has no capacitance, or too many different speeds;
+    where the bearing has ceramic elements, cannot be computed, or no row can be used; ConvergenceError where
+    a solved contact does not converge.
     """
     check_films_measured(case)
     meter = capacitance_of(measured, uncertainty)

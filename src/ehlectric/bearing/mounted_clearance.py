@@ -16,36 +16,17 @@ from ehlectric.quantities.units import to_si
 
 @dataclass(frozen=True)
 class MountedClearance:
-    """Radial clearance of a bearing before mounting, mounted, and in operation.
+    """Radial clearance of a bearing before mounting, mounted, and in operation."""
 
-    Attributes
-    ----------
-    unmounted : float
-        Clearance before mounting [m].
-    mounted : Clearance
-        Clearance with its fits at the reference temperature.
-    running : Clearance
-        Clearance at the temperatures of operation.
-    """
-
-    unmounted: float
-    mounted: Clearance
+    unmounted: float  # clearance before mounting [m]
+    mounted: Clearance  # clearance with its fits at the reference temperature
     running: Clearance
 
 
 def mounted_clearance(bearing: Bearing) -> MountedClearance | None:
-    """Clearances of a bearing with fits; None for a bearing whose clearance in operation is given.
-
-    Parameters
-    ----------
-    bearing : Bearing
-        Table ``[bearing]``.
-
-    Raises
-    ------
-    InputError
-        Where a housing that presses on the outer ring has no diameter, or the clearance in operation is
-        beyond the model.
+    """Clearances of a bearing with fits; None for a bearing whose clearance in operation is given. Raises
+    InputError where a housing that presses on the outer ring has no diameter, or the clearance in operation
+    is beyond the model.
     """
     fits, unmounted = bearing.fits, bearing.unmounted_clearance
     if fits is None or unmounted is None:
@@ -108,13 +89,7 @@ def _temperatures(bearing: Bearing, fits: Fits) -> Temperatures:
 
 
 def class_warnings(bearing: Bearing) -> Iterator[ResultWarning]:
-    """Warning of a clearance that is the middle of a class.
-
-    Parameters
-    ----------
-    bearing : Bearing
-        Table ``[bearing]``.
-    """
+    """Warning of a clearance that is the middle of a class."""
     if bearing.clearance_class is None or bearing.bore is None:
         return
     allowed = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
@@ -130,12 +105,8 @@ def class_warnings(bearing: Bearing) -> Iterator[ResultWarning]:
 
 
 def fit_warnings(clearance: MountedClearance | None) -> Iterator[ResultWarning]:
-    """Warnings of fits and temperatures that preload a bearing, or loosen one of its rings.
-
-    Parameters
-    ----------
-    clearance : MountedClearance or None
-        Clearances of the bearing; None without fits.
+    """Warnings of fits and temperatures that preload a bearing, or loosen one of its rings. ``clearance``,
+    clearances of the bearing; None without fits.
     """
     if clearance is None:
         return

@@ -36,12 +36,8 @@ TAKEN = 1.0 / 3.0
 
 
 def check_load(conditions: BearingConditions[Geometry]) -> None:
-    """Refuse loads below the weight of one element, because the equilibrium neglects weights.
-
-    Raises
-    ------
-    InputError
-        Where the load is too small; the message states the weight.
+    """Refuse loads below the weight of one element, because the equilibrium neglects weights. Raises
+    InputError where the load is too small; the message states the weight.
     """
     bearing = conditions.bearing
     weight = conditions.geometry.element_mass(conditions.element.density) * gravity
@@ -84,13 +80,8 @@ def groove_ratio(bearing: Bearing, *, inner: bool) -> float:
 
 
 def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
-    """Refuse ball contacts outside the groove.
-
-    Raises
-    ------
-    InputError
-        Where the centre of a contact is beyond the shoulder. Contacts with less than 2 % of the largest load
-        do not count.
+    """Refuse ball contacts outside the groove. Raises InputError where the centre of a contact is beyond the
+    shoulder.
     """
     for name, inner in (("inner", True), ("outer", False)):
         ring = at.ring(inner=inner)
@@ -107,19 +98,9 @@ def check_shoulders(bearing: Bearing, at: Equilibrium) -> None:
 
 
 def check_film(contact: Contact) -> None:
-    """Refuse films that are too thick for the space between element and raceway.
-
-    Parameters
-    ----------
-    contact : BallContact or RollerContact
-        Most loaded contact with one ring.
-
-    Raises
-    ------
-    InputError
-        Where the film of a ball is thicker than a tenth of (f - 1/2) D, or the film of a roller builds up
-        over more than a tenth of its radius. The film is that of a formula that holds for light contacts,
-        too.
+    """Refuse films that are too thick for the space between element and raceway. Raises InputError where the
+    film of a ball is thicker than a tenth of (f - 1/2) D, or the film of a roller builds up over more than a
+    tenth of its radius.
     """
     film, most, ring = contact.film, contact.thickest_film, contact.ring
     if film > most:
@@ -155,19 +136,10 @@ _ALIKE = 1.001
 
 @dataclass(frozen=True)
 class PreparedBearing:
-    """Bearing with its equilibria, whose contacts are not solved yet.
+    """Bearing with its equilibria, whose contacts are not solved yet."""
 
-    Attributes
-    ----------
-    conditions : BearingConditions
-        Geometry, materials, oil and strength.
-    equilibria : tuple of BallEquilibrium or RollerEquilibrium
-        Equilibrium at each position of the cage; at the first, an element is on the load line.
-    inner, outer : RingContacts
-        Contacts with the inner and with the outer ring.
-    """
-
-    conditions: BearingConditions[Any]
+    conditions: BearingConditions[Any]  # geometry, materials, oil and strength
+    # Equilibrium at each position of the cage; at the first, an element is on the load line.
     equilibria: tuple[Equilibrium, ...]
     inner: RingContacts[Any]
     outer: RingContacts[Any]
@@ -179,12 +151,8 @@ class PreparedBearing:
 
 
 def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
-    """Conditions of a bearing file: geometry and materials, oil and strength at its temperatures.
-
-    Raises
-    ------
-    InputError
-        Where the elements do not fit, or the oil or its strength has no value at the temperature.
+    """Conditions of a bearing file: geometry and materials, oil and strength at its temperatures. Raises
+    InputError where the elements do not fit, or the oil or its strength has no value at the temperature.
     """
     bearing, kind = case.bearing, KINDS[case.bearing.kind]
     element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
@@ -264,24 +232,9 @@ def equilibria_of(conditions: BearingConditions[Any], positions: int) -> tuple[E
 def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     """Conditions of a bearing, its equilibria at positions of the cage, and the contacts with both rings.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Bearing file.
-    positions : int
-        Number of positions of the cage over one pitch of the elements.
-
-    Returns
-    -------
-    PreparedBearing
-        Bearing whose contacts can be solved.
-
-    Raises
-    ------
-    InputError
-        Where the bearing cannot carry its load, or is beyond the limits of the model.
-    ConvergenceError
-        Where the film that ``film_factor`` "solved" needs does not converge.
+    Returns bearing whose contacts can be solved. Raises InputError where the bearing cannot carry its load,
+    or is beyond the limits of the model; ConvergenceError where the film that ``film_factor`` "solved" needs
+    does not converge.
     """
     conditions = resolve_bearing(case)
     if is_quick(case):
@@ -303,23 +256,9 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
 def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearing:
     """Bearing whose films are thinner or thicker by a factor; loads and speeds do not depend on it.
 
-    Parameters
-    ----------
-    prepared : PreparedBearing
-        Bearing with any film factor.
-    factor : float
-        Film thickness over that of isothermal, fully flooded oil, dimensionless, > 0, which contains heat and
-        supply. Other than in a file it may be above 1.
-
-    Returns
-    -------
-    PreparedBearing
-        Bearing with the same equilibria.
-
-    Raises
-    ------
-    InputError
-        Where the films leave no room between the bodies.
+    ``factor``, film thickness over that of isothermal, fully flooded oil, dimensionless, > 0, which contains
+    heat and supply. Returns bearing with the same equilibria. Raises InputError where the films leave no room
+    between the bodies.
     """
     at = prepared.conditions
     rings = (RingConditions(own.temperature, own.oil, own.discharge, factor) for own in (at.inner, at.outer))

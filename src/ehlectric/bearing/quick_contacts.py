@@ -72,22 +72,9 @@ def is_quick(case: object) -> bool:
 
 
 def check_quick(contacts: str, discharge: Discharge, oil: Oil) -> None:
-    """Refuse an oil or a dielectric strength for which contacts that are not solved have no result.
-
-    Parameters
-    ----------
-    contacts : str
-        "atlas" or "formula".
-    discharge : Discharge
-        Dielectric strength at the temperature of the bearing.
-    oil : Oil
-        Oil at this temperature.
-
-    Raises
-    ------
-    InputError
-        For a Weibull law and for a strength over pressure, which need the field in the whole film; for a
-        viscosity that does not grow with pressure.
+    """Refuse an oil or a dielectric strength for which contacts that are not solved have no result. Raises
+    InputError for a Weibull law and for a strength over pressure, which need the field in the whole film; for
+    a viscosity that does not grow with pressure.
     """
     name = OF_CONTACTS[contacts]
     if oil.alpha == 0.0:
@@ -115,22 +102,9 @@ def heat_by_formula(case: BearingCase) -> BearingCase:
 def quick_case(case: BearingCase, *, constant: bool = False) -> tuple[BearingCase | None, InputError | None]:
     """Case of a bearing with contacts that are not solved, and what cannot be computed without that.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing. With contacts by formula it keeps them; others are from the atlas.
-    constant : bool
-        Whether a constant strength takes the place of one that needs the field: the scale of a Weibull law,
-        or the first strength of a table over pressure. It cancels in ratios of voltages.
-
-    Returns
-    -------
-    case : BearingCase or None
-        Case with contacts from the atlas or by formula, and with the heat of its films by formula where it
-        is solved; without a dielectric strength where it needs the field, unless ``constant``. None for an
-        oil that neither describes.
-    refused : InputError or None
-        Key that cannot be used, and why.
+    Returns ``case``, case with contacts from the atlas or by formula, and with the heat of its films by
+    formula where it is solved; without a dielectric strength where it needs the field, unless ``constant``;
+    None for an oil that neither describes; ``refused``, key that cannot be used, and why.
     """
     contacts = quick_way(case.contacts)
     changed = heat_by_formula(case).replace({"contacts": contacts})
@@ -171,21 +145,8 @@ _STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
 
 
 def ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, Array], Array]:
-    """Gap of a ball's dry contact, widened by its central film.
-
-    Parameters
-    ----------
-    contact : BallContact
-        Contact and load.
-    central : float
-        Central film thickness [m].
-
-    Returns
-    -------
-    nodes : tuple of ndarray, shapes (nx,), (ny,)
-        Nodes along and across entrainment [m].
-    gap : ndarray, shape (nx, ny)
-        Gap [m].
+    """Gap of a ball's dry contact, widened by its central film. ``central``, central film thickness [m].
+    Returns ``nodes``, nodes along and across entrainment [m], shapes (nx,); ``gap``, gap [m], shape (nx, ny).
     """
     conditions, dry = contact.conditions, contact.dry
     b, side = dry.semi_axis_x, dry.semi_axis_y * conditions.side
@@ -197,12 +158,8 @@ def ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, Array],
 
 
 def roller_gap(contact: RollerContact, central: float) -> tuple[Array, Array]:
-    """Gap of a roller's dry contact, widened by its central film [m].
-
-    Returns
-    -------
-    x, gap : ndarray, shape (n,)
-        Nodes along entrainment, and the gap [m].
+    """Gap of a roller's dry contact, widened by its central film [m]. Returns nodes along entrainment, and
+    the gap [m], shape (n,).
     """
     conditions = contact.conditions
     x, b = np.linspace(*LINE, _LINE_NODES), conditions.half_width
@@ -248,33 +205,16 @@ def _axes(contact: Contact) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class QuickContact:
-    """Contact without a solved film, before the capacitance around its domain is computed.
-
-    Attributes
-    ----------
-    contact : BallContact or RollerContact
-        Contact and load.
-    films : tuple of float
-        Minimum and central film thickness [m].
-    inside, hertz : float
-        Integral of eps_r dA/h over the domain, and over the Hertz area [m].
-    grid : Grid
-        Grid on which the contact would be solved.
-    domain : tuple of float
-        Ends along entrainment and side of the domain in semi-axes.
-    error : float or None
-        Relative error of the films; None where it is unknown.
-    warnings : tuple of ResultWarning
-        Warnings on the way to the films.
-    """
+    """Contact without a solved film, before the capacitance around its domain is computed."""
 
     contact: Contact
-    films: tuple[float, float]
+    films: tuple[float, float]  # minimum and central film thickness [m]
+    # inside and hertz: integral of eps_r dA/h over the domain, and over the Hertz area [m].
     inside: float
     hertz: float
     grid: Grid
-    domain: tuple[float, float, float]
-    error: float | None = None
+    domain: tuple[float, float, float]  # ends along entrainment and side of the domain in semi-axes
+    error: float | None = None  # relative error of the films; None where it is unknown
     warnings: tuple[ResultWarning, ...] = ()
 
     @property
@@ -292,26 +232,9 @@ def quick_contact(
     error: float | None = None,
     wide: bool = False,
 ) -> QuickContact:
-    """Contact without a solved film.
-
-    Parameters
-    ----------
-    contact : BallContact or RollerContact
-        Contact and load.
-    films : tuple of float
-        Minimum and central film thickness [m].
-    inside, hertz : float
-        Integral of eps_r dA/h over the default domain of solved contacts, and over the Hertz area [m].
-    error : float or None
-        Relative error of the films; None where it is unknown.
-    wide : bool
-        Whether the domain is that on which the contact would be solved, which is wider for light loads. The
-        dry gap is integrated in the part that is added.
-
-    Returns
-    -------
-    QuickContact
-        Contact with its domain.
+    """Contact without a solved film. ``films``, minimum and central film thickness [m]; ``inside`` and
+    ``hertz``, integral of eps_r dA/h over the default domain of solved contacts, and over the Hertz area [m];
+    ``error``, relative error of the films; None where it is unknown.
     """
     grid = ball_grid(contact) if isinstance(contact, BallContact) else roller_grid(contact)
     domain = _domain(contact, grid if wide else None)
@@ -321,17 +244,8 @@ def quick_contact(
 
 
 def quick_solutions(contacts: Sequence[QuickContact]) -> list[ContactSolution]:
-    """Numbers of contacts with one ring without solved films.
-
-    Parameters
-    ----------
-    contacts : sequence of QuickContact
-        Contacts with the same ring. The capacitance around their domains is computed for all at once.
-
-    Returns
-    -------
-    list of ContactSolution
-        Their largest field strength is the voltage over the minimum film thickness.
+    """Numbers of contacts with one ring without solved films. Returns their largest field strength is the
+    voltage over the minimum film thickness.
     """
     around = _around(contacts)
     return [_solution(contact, *found) for contact, found in zip(contacts, around, strict=True)]
@@ -487,29 +401,10 @@ def _unit_beyond(
 def ball_by_formula(
     contact: BallContact, films: tuple[float, float] | None = None, *, wide: bool = False
 ) -> QuickContact:
-    """Film, capacitances and voltages of a ball's contact by film formulas.
+    """Film, capacitances and voltages of a ball's contact by film formulas. ``films``, minimum and central
+    film thickness [m] in place of those of the formula. Returns numbers without an error estimate: the
+    formulas may be 30 % off, and more for light loads. Raises InputError as ``check_contact`` does.
 
-    Parameters
-    ----------
-    contact : BallContact
-        Contact and load.
-    films : tuple of float, optional
-        Minimum and central film thickness [m] in place of those of the formula.
-    wide : bool
-        Whether the domain is that on which the contact would be solved, instead of the default one.
-
-    Returns
-    -------
-    QuickContact
-        Numbers without an error estimate: the formulas may be 30 % off, and more for light loads.
-
-    Raises
-    ------
-    InputError
-        As ``check_contact`` does.
-
-    Notes
-    -----
     Film thickness by Chittenden, Dowson, Dunn and Taylor (1985), doi:10.1098/rspa.1985.0014. The gap is
     the gap of the dry contact plus the central film thickness. The capacitance is computed with the
     permittivity under the Hertz pressure; the maximum field strength is the voltage divided by the
@@ -534,29 +429,10 @@ def ball_by_formula(
 def roller_by_formula(
     contact: RollerContact, films: tuple[float, float] | None = None, *, wide: bool = False
 ) -> QuickContact:
-    """Film, capacitances and voltages of a roller's contact by film formulas.
+    """Film, capacitances and voltages of a roller's contact by film formulas. ``films``, minimum and central
+    film thickness [m] in place of those of the formula. Returns numbers without an error estimate: the
+    formulas may be 40 % off, and more for light loads. Raises InputError as ``check_contact`` does.
 
-    Parameters
-    ----------
-    contact : RollerContact
-        Contact and load.
-    films : tuple of float, optional
-        Minimum and central film thickness [m] in place of those of the formula.
-    wide : bool
-        Whether the domain is that on which the contact would be solved, instead of the default one.
-
-    Returns
-    -------
-    QuickContact
-        Numbers without an error estimate: the formulas may be 40 % off, and more for light loads.
-
-    Raises
-    ------
-    InputError
-        As ``check_contact`` does.
-
-    Notes
-    -----
     Film thickness by Pan and Hamrock (1989), doi:10.1115/1.3261900. The gap is the gap of the dry contact
     plus the central film thickness. The capacitance is computed with the permittivity under the Hertz
     pressure; the largest field strength is the voltage over the minimum film thickness.
@@ -603,28 +479,9 @@ _Part = tuple[Array, Array]
 
 
 def ball_by_atlas(contact: BallContact) -> QuickContact:
-    """Film, capacitances and voltages of a ball's contact from the atlas of films.
+    """Film, capacitances and voltages of a ball's contact from the atlas of films. Returns numbers with the
+    error that the atlas states for the films. Raises InputError as ``check_contact`` does.
 
-    Parameters
-    ----------
-    contact : BallContact
-        Contact and load.
-
-    Returns
-    -------
-    QuickContact
-        Numbers with the error that the atlas states for the films. Outside the atlas the films at the nearest
-        load that it has change with the load as in the formula of Nijenbanning, Venner and Moes (rollers: of
-        Moes). Without such a load they are those of ``ball_by_formula``. Both have the error of a formula,
-        and a warning.
-
-    Raises
-    ------
-    InputError
-        As ``check_contact`` does.
-
-    Notes
-    -----
     Over the Hertz area the capacitance is that of the film of the atlas with the permittivity under the Hertz
     pressure, which is lowered to the central pressure of the atlas in light contacts. Around it, inside the
     domain of the atlas, it is that of the dry gap plus the central film, times the ratio that the atlas has
@@ -671,17 +528,7 @@ def _film(contact: Contact) -> ContactFilm | None:
 
 
 def _left(contact: C, ways: tuple[Way[C], FormulaWay], error: float) -> QuickContact:
-    """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has.
-
-    Parameters
-    ----------
-    contact : BallContact or RollerContact
-        Contact that the atlas does not have.
-    ways : tuple of callable
-        Contact from the atlas, and by formula or with the gap of given films.
-    error : float
-        Relative error of the formula.
-    """
+    """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has."""
     by_atlas, by_formula = ways[0], partial(ways[1], wide=True)
     text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
     edge = _edge(contact)

@@ -273,18 +273,8 @@ def solve_bearing(
 
 
 def check_bearing(case: BearingCase) -> None:
-    """Refuse a bearing that cannot be solved, before a folder is made for its results.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Bearing file.
-
-    Raises
-    ------
-    InputError
-        As ``solve_bearing`` does, for the most loaded contacts at the first position of the cage. Heat that
-        is to be solved is that of a formula here.
+    """Refuse a bearing that cannot be solved, before a folder is made for its results. Raises InputError as
+    ``solve_bearing`` does, for the most loaded contacts at the first position of the cage.
     """
     prepared = prepare_bearing(heat_by_formula(case), 1)
     for ring in prepared.rings:

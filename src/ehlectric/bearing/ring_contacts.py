@@ -63,17 +63,8 @@ _LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, FARTHEST["line"][0]
 
 
 def roller_grid(contact: RollerContact) -> Grid:
-    """Grid of a roller's contact, on a domain long enough for the thick film of a light load.
-
-    Parameters
-    ----------
-    contact : RollerContact
-        Contact and load.
-
-    Returns
-    -------
-    Grid
-        Lengths in half-widths of the dry contact.
+    """Grid of a roller's contact, on a domain long enough for the thick film of a light load. Returns lengths
+    in half-widths of the dry contact.
     """
     length, most = _line_length(contact), _line_most(contact)
     inlet = max(4.0, min(_line_inlet(length), most))
@@ -113,17 +104,8 @@ def roller_fits(contact: RollerContact) -> bool:
 
 
 def ball_grid(contact: BallContact) -> Grid:
-    """Grid of a ball's contact, on a domain wide enough for the thick film of a light load.
-
-    Parameters
-    ----------
-    contact : BallContact
-        Contact and load.
-
-    Returns
-    -------
-    Grid
-        Lengths in semi-axes of the dry contact; heavy loads have the default domain of point contacts.
+    """Grid of a ball's contact, on a domain wide enough for the thick film of a light load. Returns lengths
+    in semi-axes of the dry contact; heavy loads have the default domain of point contacts.
     """
     along, across = _point_lengths(contact)
     inlet, outlet = max(4.5, min(_ALONG * along, _MOST[0])), max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
@@ -167,24 +149,12 @@ _LEAST_SPEED = 1e-9
 
 @dataclass(frozen=True)
 class RingContacts(Generic[G_co]):
-    """Contacts of all elements with one ring, without their loads.
-
-    Attributes
-    ----------
-    conditions : BearingConditions
-        Conditions that all contacts of the bearing share.
-    inner : bool
-        True for the inner ring, False for the outer ring.
-    angle : float
-        Contact angle at which the radii are taken [rad].
-    speed : float
-        Entrainment speed (u1 + u2)/2 [m/s].
-    """
+    """Contacts of all elements with one ring, without their loads."""
 
     conditions: BearingConditions[G_co]
-    inner: bool
-    angle: float
-    speed: float
+    inner: bool  # True for the inner ring, False for the outer ring
+    angle: float  # contact angle at which the radii are taken [rad]
+    speed: float  # entrainment speed (u1 + u2)/2 [m/s]
 
     @property
     def name(self) -> str:
@@ -218,18 +188,10 @@ class RingContacts(Generic[G_co]):
 
 @dataclass(frozen=True)
 class BallContact:
-    """Contact of a ball with a ring under a load.
-
-    Attributes
-    ----------
-    ring : RingContacts
-        Contacts with the ring.
-    load : float
-        Load of the contact [N].
-    """
+    """Contact of a ball with a ring under a load."""
 
     ring: RingContacts[BallBearing]
-    load: float
+    load: float  # [N]
 
     @cached_property
     def dry(self) -> DryContact:
@@ -282,18 +244,10 @@ class BallContact:
 
 @dataclass(frozen=True)
 class RollerContact:
-    """Contact of a roller with a ring under a load.
-
-    Attributes
-    ----------
-    ring : RingContacts
-        Contacts with the ring.
-    load : float
-        Load of the contact [N].
-    """
+    """Contact of a roller with a ring under a load."""
 
     ring: RingContacts[RollerBearing]
-    load: float
+    load: float  # [N]
 
     @property
     def length(self) -> float:
@@ -344,20 +298,10 @@ Contact: TypeAlias = BallContact | RollerContact
 def check_contact(contact: Contact, grid: Grid | None = None) -> None:
     """Refuse a contact that is beyond the model, or whose grid does not fit into the memory.
 
-    Parameters
-    ----------
-    contact : BallContact or RollerContact
-        Contact and load.
-    grid : Grid, optional
-        Grid of film and field, where these are to be solved.
-
-    Raises
-    ------
-    InputError
-        Where the contact is too slow for a film, too wide for its bodies, or its Hertz pressure too low, with
-        ring and load; where the permittivity of the oil has no value at the Hertz pressure.
-    MemoryLimitError
-        Where the machine cannot hold film and field on the grid.
+    ``grid``, grid of film and field, where these are to be solved. Raises InputError where the contact is too
+    slow for a film, too wide for its bodies, or its Hertz pressure too low, with ring and load; where the
+    permittivity of the oil has no value at the Hertz pressure; MemoryLimitError where the machine cannot hold
+    film and field on the grid.
     """
     conditions = contact.conditions
     try:
@@ -417,22 +361,9 @@ def _roller_raceway(ring: RingContacts[RollerBearing]) -> RollerRaceway:
 def around_ball(contact: BallContact, nodes: tuple[Array, Array], thickness: Array) -> tuple[float, float]:
     """Capacitance between ball and groove outside the domain of the film, in vacuum.
 
-    Parameters
-    ----------
-    contact : BallContact
-        Contact of the ball.
-    nodes : tuple of ndarray, shapes (nx,), (ny,)
-        Nodes of the film along and across entrainment [m].
-    thickness : ndarray, shape (nx, ny)
-        Film thickness [m].
-
-    Returns
-    -------
-    capacitance : float
-        Capacitance in vacuum [F].
-    mismatch : float
-        Largest relative difference, at the edge of the domain, between the film thickness and the gap
-        outside.
+    ``nodes``, nodes of the film along and across entrainment [m], shapes (nx,); ``thickness`` [m],
+    shape (nx, ny). Returns ``capacitance``, capacitance in vacuum [F]; ``mismatch``, largest relative
+    difference, at the edge of the domain, between the film thickness and the gap outside.
     """
     x, y = np.meshgrid(*nodes, indexing="ij")
     rim = np.ones_like(thickness, dtype=bool)
@@ -452,25 +383,10 @@ def around_balls(
 ) -> tuple[Array, Array]:
     """Capacitances as of ``around_ball``, for balls under several loads at once.
 
-    Parameters
-    ----------
-    ring : RingContacts
-        Contacts of the balls with one ring.
-    dry : DryContact
-        Dry contacts, values of shape (...).
-    domain : tuple of float or ndarray, shape (...)
-        Inlet, outlet and side of the domains [m].
-    rim : tuple of ndarray, shape (..., n)
-        Points on the edges of the domains, along and across entrainment [m].
-    thickness : ndarray, shape (..., n)
-        Film thickness at the points [m].
-    opened : ndarray, shape (..., n), optional
-        Deflection at the points, where it is known [m].
-
-    Returns
-    -------
-    capacitance, mismatch : ndarray, shape (...)
-        Values as of ``around_ball``.
+    ``dry``, dry contacts, values of shape (...); ``domain``, inlet, outlet and side of the domains [m],
+    shape (...); ``rim``, points on the edges of the domains, along and across entrainment [m],
+    shape (..., n); ``thickness``, film thickness at the points [m], shape (..., n); ``opened``, deflection at
+    the points, where it is known [m], shape (..., n). Returns values as of ``around_ball``, shape (...).
     """
     raceway, (x, y) = raceway_of(ring), rim
     modulus = ring.conditions.modulus
@@ -479,21 +395,9 @@ def around_balls(
 
 
 def around_roller(ring: RingContacts[RollerBearing], half_width: float, x: Array, thickness: Array) -> float:
-    """Capacitance between roller and raceway outside the domain of the film, in vacuum.
-
-    Parameters
-    ----------
-    ring : RingContacts
-        Contacts of the rollers with one ring.
-    half_width : float
-        Half-width of the dry contact [m].
-    x, thickness : ndarray, shape (nx,)
-        Nodes of the film and its thickness [m].
-
-    Returns
-    -------
-    float
-        Capacitance in vacuum over the length of the roller [F].
+    """Capacitance between roller and raceway outside the domain of the film, in vacuum. ``half_width``,
+    half-width of the dry contact [m]; ``x`` and ``thickness``, nodes of the film and its thickness [m],
+    shape (nx,). Returns capacitance in vacuum over the length of the roller [F].
     """
     ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
     tails = roller_tails(_roller_raceway(ring), half_width, *ends)
@@ -516,41 +420,31 @@ N = TypeVar("N", float, Array)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactValues(Values, Generic[N]):
-    """Quantities that change with the load, SI units: numbers of one contact or arrays of many.
+    """Quantities that change with the load, SI units: numbers of one contact or arrays of many."""
 
-    Attributes
-    ----------
-    max_pressure : float or ndarray, shape (n,)
-        Hertz pressure of the dry contact [Pa].
-    semi_axis_x, semi_axis_y : float or ndarray, shape (n,)
-        Semi-axes of the dry contact along and across entrainment [m]; half of a roller's length across.
-    minimum_thickness, central_thickness : float or ndarray, shape (n,)
-        Film thickness, or the gap between bodies that do not touch [m].
-    inside : float or ndarray, shape (n,)
-        Capacitance over the domain of the film [F].
-    outside_oil, outside_air : float or ndarray, shape (n,)
-        Capacitance outside the domain of the film, with oil and with air in the gap [F].
-    plate : float or ndarray, shape (n,)
-        Capacitance eps0 eps_r A/h(0) of the Hertz area A as a plate [F].
-    strength_per_volt : float or ndarray, shape (n,)
-        Maximum field strength per volt on the contact [1/m].
-    breakdown_voltage : float or ndarray, shape (n,)
-        Voltage on the contact at which its film breaks down [V]; infinite without a strength.
-    hertz : float or ndarray, shape (n,)
-        Part of ``inside`` over the Hertz area [F]; NaN of a result that does not have it.
-    """
-
+    # Hertz pressure of the dry contact [Pa], shape (n,).
     max_pressure: N = field(metadata=stored("", "Pa", "not negative"))
+    # semi_axis_x and semi_axis_y: semi-axes of the dry contact along and across entrainment [m]; half of a
+    # roller's length across, shape (n,).
     semi_axis_x: N = field(metadata=stored("", "m", "not negative"))
     semi_axis_y: N = field(metadata=stored("", "m", "not negative"))
+    # minimum_thickness and central_thickness: film thickness, or the gap between bodies that do not touch
+    # [m], shape (n,).
     minimum_thickness: N = field(metadata=stored("", "m", "not negative"))
     central_thickness: N = field(metadata=stored("", "m", "not negative"))
+    # Capacitance over the domain of the film [F], shape (n,).
     inside: N = field(metadata=stored("", "F", "not negative"))
+    # outside_oil and outside_air: capacitance outside the domain of the film, with oil and with air in the
+    # gap [F], shape (n,).
     outside_oil: N = field(metadata=stored("", "F", "not negative"))
     outside_air: N = field(metadata=stored("", "F", "not negative"))
+    # Capacitance eps0 eps_r A/h(0) of the Hertz area A as a plate [F], shape (n,).
     plate: N = field(metadata=stored("", "F", "not negative"))
+    # Maximum field strength per volt on the contact [1/m], shape (n,).
     strength_per_volt: N = field(metadata=stored("", "1/m", "not negative"))
+    # Voltage on the contact at which its film breaks down [V]; infinite without a strength, shape (n,).
     breakdown_voltage: N = field(metadata=stored("", "V", "positive or infinite"))
+    # Part of ``inside`` over the Hertz area [F]; NaN of a result that does not have it, shape (n,).
     hertz: N = field(metadata=stored("", "F", "not negative or NaN"))
 
     def columns(self) -> tuple[N, ...]:
@@ -560,57 +454,25 @@ class ContactValues(Values, Generic[N]):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactSolution(Values):
-    """Film, capacitances and voltages of one loaded contact, SI units.
+    """Film, capacitances and voltages of one loaded contact, SI units."""
 
-    Attributes
-    ----------
-    load : float
-        Load of the contact [N].
-    values : ContactValues
-        Film, capacitances and voltages.
-    error : float or None
-        Estimated error of the film, relative: of the discretisation, or as the atlas or a formula states it.
-        None where it is unknown.
-    moes_m, moes_l : float
-        Load parameter M and lubricant parameter L of Moes, dimensionless.
-    mismatch : float
-        Largest relative difference, at the edge of the domain, between the film thickness and the gap
-        outside.
-    converged : bool
-        Whether the film is converged.
-    warnings : tuple of ResultWarning
-        Warnings about the film and the field.
-    """
-
-    load: float = field(metadata=stored("", "N", "increasing"))
-    values: ContactValues[float]
+    load: float = field(metadata=stored("", "N", "increasing"))  # [N]
+    values: ContactValues[float]  # film, capacitances and voltages
+    # Estimated error of the film, relative: of the discretisation, or as the atlas or a formula states it.
+    # None where it is unknown.
     error: float | None = field(metadata=stored("", "", "not negative or NaN", unknown=True))
+    # moes_m and moes_l: load parameter M and lubricant parameter L of Moes, dimensionless.
     moes_m: float = field(metadata=stored("", "", "not negative"))
     moes_l: float = field(metadata=stored("", "", "not negative"))
+    # Largest relative difference, at the edge of the domain, between the film thickness and the gap outside.
     mismatch: float = field(metadata=stored("", "", "finite or NaN"))
     converged: bool = field(metadata=stored("", "", "0 or 1"))
-    warnings: tuple[ResultWarning, ...]
+    warnings: tuple[ResultWarning, ...]  # warnings about the film and the field
 
 
 def solve_ball(contact: BallContact, solver: Solver) -> ContactSolution:
-    """Film and field of a ball's contact, and the capacitance outside its film.
-
-    Parameters
-    ----------
-    contact : BallContact
-        Contact and load.
-    solver : Solver
-        Table ``[solver]`` of the bearing file.
-
-    Returns
-    -------
-    ContactSolution
-        Numbers of the solved contact.
-
-    Raises
-    ------
-    InputError
-        As ``check_contact`` does.
+    """Film and field of a ball's contact, and the capacitance outside its film. Returns numbers of the solved
+    contact. Raises InputError as ``check_contact`` does.
     """
     grid, ring = ball_grid(contact), contact.ring
     check_contact(contact, grid)
@@ -625,24 +487,8 @@ def solve_ball(contact: BallContact, solver: Solver) -> ContactSolution:
 
 
 def solve_roller(contact: RollerContact, solver: Solver) -> ContactSolution:
-    """Film and field of a roller's contact, and the capacitance outside its film.
-
-    Parameters
-    ----------
-    contact : RollerContact
-        Contact and load.
-    solver : Solver
-        Table ``[solver]`` of the bearing file.
-
-    Returns
-    -------
-    ContactSolution
-        Numbers of the solved contact.
-
-    Raises
-    ------
-    InputError
-        As ``check_contact`` does.
+    """Film and field of a roller's contact, and the capacitance outside its film. Returns numbers of the
+    solved contact. Raises InputError as ``check_contact`` does.
     """
     grid, ring, length = roller_grid(contact), contact.ring, contact.length
     check_contact(contact, grid)
@@ -713,15 +559,9 @@ _LIGHT = 0.02
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactCurve(Values):
-    """Quantities of a contact over its load, interpolated between solved loads.
+    """Quantities of a contact over its load, interpolated between solved loads."""
 
-    Attributes
-    ----------
-    solutions : tuple of ContactSolution
-        Solved contacts by increasing load.
-    """
-
-    solutions: tuple[ContactSolution, ...]
+    solutions: tuple[ContactSolution, ...]  # solved contacts by increasing load
 
     @property
     def loads(self) -> Array:
@@ -769,20 +609,11 @@ class ContactCurve(Values):
 
 @dataclass(frozen=True)
 class _Interpolation:
-    """Monotone interpolation of n columns of values over the load in the logarithms of both.
+    """Monotone interpolation of n columns of values over the load in the logarithms of both."""
 
-    Attributes
-    ----------
-    loads : ndarray, shape (m,)
-        Loads [N].
-    first : ndarray, shape (n,)
-        Values at the smallest load; infinite for a column with any infinite value.
-    between : PchipInterpolator or None
-        Logarithm of the columns that are finite over that of the load; None for a single load.
-    """
-
-    loads: Array
-    first: Array
+    loads: Array  # [N], shape (m,)
+    first: Array  # values at the smallest load; infinite for a column with any infinite value, shape (n,)
+    # Logarithm of the columns that are finite over that of the load; None for a single load.
     between: PchipInterpolator | None
 
     @classmethod

@@ -30,22 +30,16 @@ _PARTS = {"oil": 1.0, "air": 0.0}
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RingState(Values):
-    """Contacts of all elements with one ring at one position of the cage.
+    """Contacts of all elements with one ring at one position of the cage."""
 
-    Attributes
-    ----------
-    load, gap : ndarray, shape (n,)
-        Load of each contact [N], and distance between element and ring [m]; it is 0 where they touch.
-    solved : ndarray of bool, shape (n,)
-        Whether the contact is loaded and has a solved film and field. The others are gaps between rigid
-        bodies.
-    values : ContactValues
-        Films, capacitances and voltages, shape (n,). Pressure, semi-axes and plate are 0 without load.
-    """
-
+    # load and gap: load of each contact [N], and distance between element and ring [m]; it is 0 where they
+    # touch, shape (n,).
     load: Array = field(metadata=stored("", "N", "not negative"))
     gap: Array = field(metadata=stored("", "m", "not negative"))
+    # Whether the contact is loaded and has a solved film and field. The others are gaps between rigid bodies,
+    # shape (n,).
     solved: Mask = field(metadata=stored("", "", "0 or 1"))
+    # Films, capacitances and voltages, shape (n,). Pressure, semi-axes and plate are 0 without load.
     values: ContactValues[Array]
 
     def capacitance(self, fill: float | str) -> Array:
@@ -73,21 +67,9 @@ def oil_part(fill: float | str) -> float:
 
 
 def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array) -> RingState:
-    """State of the contacts of all elements with one ring, from their loads and gaps.
-
-    Parameters
-    ----------
-    ring : RingContacts
-        Contacts with the ring, without their loads.
-    curve : ContactCurve
-        Solved contacts over the load.
-    load, gap : ndarray, shape (n,)
-        Load of each contact [N], and distance of elements that do not touch the ring [m].
-
-    Returns
-    -------
-    RingState
-        Unloaded contacts are gaps between rigid bodies.
+    """State of the contacts of all elements with one ring, from their loads and gaps. ``load`` and ``gap``,
+    load of each contact [N], and distance of elements that do not touch the ring [m], shape (n,). Returns
+    unloaded contacts are gaps between rigid bodies.
     """
     solved = load > 0.0
     pairs = zip(
@@ -143,22 +125,12 @@ def _unloaded(ring: RingContacts[Any], curve: ContactCurve, gap: Array) -> Conta
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Position(Values):
-    """Bearing at one position of its cage.
-
-    Attributes
-    ----------
-    equilibrium : BallEquilibrium or RollerEquilibrium
-        Loads and displacements.
-    inner, outer : RingState
-        Contacts with the inner and the outer ring.
-    shape : float or None
-        Shape parameter of a Weibull strength; None for a strength without scatter.
-    """
+    """Bearing at one position of its cage."""
 
     equilibrium: Equilibrium
     inner: RingState
     outer: RingState
-    shape: float | None = None
+    shape: float | None = None  # shape parameter of a Weibull strength; None for a strength without scatter
 
     @property
     def rings(self) -> tuple[RingState, RingState]:
@@ -178,34 +150,17 @@ class Position(Values):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BearingSolution(Values):
-    """Solved bearing at several positions of its cage within one pitch of the elements.
-
-    Attributes
-    ----------
-    case : BearingCase
-        Case of the bearing.
-    conditions : BearingConditions
-        Geometry, materials, oil and dielectric strength.
-    inner, outer : RingContacts
-        Contacts with the inner and the outer ring, without their loads.
-    inner_curve, outer_curve : ContactCurve
-        Solved contacts with both rings over the load.
-    positions : tuple of Position
-        Bearing at each position of the cage. At the first one, an element is on the load line.
-    seconds : float
-        Computing time [s].
-    version : str
-        Version of ehlectric that solved the bearing.
-    """
+    """Solved bearing at several positions of its cage within one pitch of the elements."""
 
     case: BearingCase
-    conditions: BearingConditions[Any]
+    conditions: BearingConditions[Any]  # geometry, materials, oil and dielectric strength
     inner: RingContacts[Any]
     outer: RingContacts[Any]
+    # inner_curve and outer_curve: solved contacts with both rings over the load.
     inner_curve: ContactCurve
     outer_curve: ContactCurve
     positions: tuple[Position, ...]
-    seconds: float = field(compare=False)
+    seconds: float = field(compare=False)  # computing time [s]
     version: str = __version__
 
     @property
@@ -292,17 +247,7 @@ def capacitance(solution: BearingSolution, fill: float | str | None = None) -> f
 
     For ceramic elements it follows from ``element_capacitance``, or is an upper bound without this key.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-    fill : str or float, optional
-        "oil" or "air" around the films, or the part filled with oil; by default ``fill`` of the case.
-
-    Returns
-    -------
-    float
-        Capacitance [F].
+    Returns capacitance [F].
     """
     bearing = solution.case.bearing
     if bearing.element_capacitance is not None:
@@ -333,17 +278,9 @@ def plate_capacitance(solution: BearingSolution) -> float | None:
 def film_error(solution: BearingSolution) -> float:
     """Estimated error of the films of a bearing, relative, at most 1.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    float
-        For solved contacts, the largest estimated error of the films and of their interpolation over the
-        load. For contacts from the atlas, the same with the errors that the atlas states, of contacts with
-        at least 2 % of the largest load. For contacts by formula, the error of the formula.
+    Returns for solved contacts, the largest estimated error of the films and of their interpolation over the
+    load; for contacts from the atlas, the same with the errors that the atlas states, of contacts with at
+    least 2 % of the largest load. For contacts by formula, the error of the formula.
     """
     if solution.case.contacts == "formula":
         return formula_factor(solution.case.bearing.kind) - 1.0

@@ -35,28 +35,10 @@ def solution_of(
 ) -> BearingSolution:
     """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Bearing file.
-    positions : int
-        Number of positions of the cage over one pitch of the elements.
-    progress : callable, optional
-        Called with the number of solved contacts, the number of all contacts, and a text.
-    workers : int, optional
-        Number of processes; the number of cores if not given.
-
-    Returns
-    -------
-    BearingSolution
-        Solution from which results, warnings and summaries are made.
-
-    Raises
-    ------
-    InputError
-        Where the bearing cannot carry its load, or a contact cannot be solved.
-    LostError
-        Where the process of a contact was killed four times, as by a system out of memory.
+    ``workers``, number of processes; the number of cores if not given. Returns solution from which results,
+    warnings and summaries are made. Raises InputError where the bearing cannot carry its load, or a contact
+    cannot be solved; LostError where the process of a contact was killed four times, as by a system out of
+    memory.
     """
     started = time.perf_counter()
     prepared = prepare_bearing(case, positions)
@@ -72,26 +54,8 @@ def solution_of_prepared(
     progress: Progress | None = None,
     workers: int | None = None,
 ) -> BearingSolution:
-    """Solve the contacts of a prepared bearing, and join them to its circuit.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Bearing file; its ``contacts`` says how they are solved.
-    prepared : PreparedBearing
-        Conditions, equilibria and contacts of the case.
-    progress, workers : optional
-        As for ``solution_of``.
-
-    Returns
-    -------
-    BearingSolution
-        Solution at the positions of the prepared bearing.
-
-    Raises
-    ------
-    InputError, LostError
-        As ``solution_of`` raises them.
+    """Solve the contacts of a prepared bearing, and join them to its circuit. Returns solution at the
+    positions of the prepared bearing. Raises InputError, LostError as ``solution_of`` raises them.
     """
     started = time.perf_counter()
     tasks = [_tasks(case, prepared, ring) for ring in prepared.rings]
@@ -169,25 +133,8 @@ class _Key:
 
 
 def quick_solution(case: BearingCase, *, beside: tuple[str, ...] = ()) -> BearingSolution:
-    """Solution of a bearing with contacts that are not solved, at two positions of the cage.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing, with ``contacts`` "atlas" or "formula".
-    beside : tuple of str
-        Beginnings of the dotted keys on which no contact depends. Cases that differ in them alone share their
-        contacts; the conditions of the solution may have other values of these keys.
-
-    Returns
-    -------
-    BearingSolution
-        Solution of the case, whose contacts are computed once for equal cases.
-
-    Raises
-    ------
-    InputError
-        As ``solution_of`` does.
+    """Solution of a bearing with contacts that are not solved, at two positions of the cage. Returns solution
+    of the case, whose contacts are computed once for equal cases. Raises InputError as ``solution_of`` does.
     """
     inputs = flattened(case.to_dict())
     text = repr({key: value for key, value in inputs.items() if not key.startswith(beside)})

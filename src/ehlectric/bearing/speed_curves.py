@@ -32,21 +32,9 @@ _ABOVE, _TRIES = 1e-3, 4
 def over_speed(case: BearingCase, count: int = COUNT) -> tuple[list[Speed], list[ResultWarning]]:
     """Summaries of a bearing at speeds around that of its case, with contacts from the atlas.
 
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing, whose contacts stay by formula where they are. The temperature is the same at
-        all speeds.
-    count : int
-        Number of speeds, from a tenth of the case's speed to four times this speed.
-
-    Returns
-    -------
-    points : list of (float, dict)
-        Speeds of the inner ring [rad/s] with their summaries, in increasing order. Where the lambda ratio
-        rises through 1 between two of them, one more lies there: the lowest speed that has voltages.
-    left_out : list of ResultWarning
-        Warnings of what could not be computed, and why: single speeds, breakdown voltages, or everything.
+    ``case``, case of the bearing, whose contacts stay by formula where they are. Returns ``points``, speeds
+    of the inner ring [rad/s] with their summaries, in increasing order; ``left_out``, warnings of what could
+    not be computed, and why: single speeds, breakdown voltages, or everything.
 
     Examples
     --------
@@ -138,28 +126,17 @@ _KEYS = (
 
 @dataclass(frozen=True)
 class Curves:
-    """Values of a bearing over its speed.
+    """Values of a bearing over its speed."""
 
-    Attributes
-    ----------
-    speed : ndarray, shape (n,)
-        Speeds of the inner ring in ascending order [rad/s].
-    values : mapping of str to ndarray
-        Values at the speeds by their keys of the table "bearing", SI units, shape (n,); NaN where there is
-        none.
-    scaled : mapping of str to float
-        Factors by which the values were multiplied to agree with the bearing itself; 1 where none is known.
-    critical : float, optional
-        Speed of the summary of the bearing itself below which breakdown is expected [rad/s].
-    touching : float, optional
-        Speed of this summary below which the surfaces touch [rad/s].
-    """
-
-    speed: Array
+    speed: Array  # speeds of the inner ring in ascending order [rad/s], shape (n,)
+    # Values at the speeds by their keys of the table "bearing", SI units, shape (n,); NaN where there is
+    # none.
     values: Mapping[str, Array]
+    # Factors by which the values were multiplied to agree with the bearing itself; 1 where none is known.
     scaled: Mapping[str, float]
+    # Speed of the summary of the bearing itself below which breakdown is expected [rad/s].
     critical: float | None = None
-    touching: float | None = None
+    touching: float | None = None  # speed of this summary below which the surfaces touch [rad/s]
 
     def __getitem__(self, key: str) -> Array:
         return self.values[key]
@@ -184,17 +161,8 @@ def curves_of(points: Speeds, own: Speed | None = None) -> Curves:
     Films that are not solved may be some per cent off. Their change with speed is more accurate, so each
     curve is multiplied by the ratio of the value of the bearing itself to the curve at its speed.
 
-    Parameters
-    ----------
-    points : sequence of (float, dict)
-        Speeds of the inner ring [rad/s] with their summaries.
-    own : (float, dict), optional
-        Speed and summary of the bearing itself.
-
-    Returns
-    -------
-    Curves
-        Curves of capacitances and voltages.
+    ``points``, speeds of the inner ring [rad/s] with their summaries. Returns curves of capacitances and
+    voltages.
     """
     ordered = sorted(points, key=lambda point: point[0])
     speed = np.array([at for at, _ in ordered])
@@ -238,15 +206,7 @@ def critical_speed_of(curves: Curves) -> float | None:
     It is that of the summary of the bearing itself or, where this has none, the highest speed at which the
     curves cross, by interpolation of their logarithms over the logarithm of the speed.
 
-    Parameters
-    ----------
-    curves : Curves
-        Curves of a bearing over its speed.
-
-    Returns
-    -------
-    float or None
-        None where the first breakdown is on one side of the shaft voltage at all speeds.
+    Returns None where the first breakdown is on one side of the shaft voltage at all speeds.
 
     Examples
     --------

@@ -126,14 +126,8 @@ def _equilibrium_names(kind: type[Equilibrium]) -> Iterator[str]:
 
 
 def solution_of(dataset: xr.Dataset) -> BearingSolution:
-    """Solution of a dataset that ``dataset_of`` made.
-
-    Raises
-    ------
-    UnfitError
-        Where a variable or an attribute is missing, or is not as it was written.
-    InputError
-        Where its case cannot be resolved.
+    """Solution of a dataset that ``dataset_of`` made. Raises UnfitError where a variable or an attribute is
+    missing, or is not as it was written; InputError where its case cannot be resolved.
     """
     attributes = dataset.attrs
     case = case_of(attributes, BearingCase.from_dict)

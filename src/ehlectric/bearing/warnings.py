@@ -133,13 +133,7 @@ def library_viscosity(oil: Lubricant) -> float | None:
 
 def input_warnings(case: BearingCase, viscosity: float) -> Iterator[ResultWarning]:
     """Warnings of inputs that a machine hardly has, and of inputs that stand for a range of values.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing.
-    viscosity : float
-        Dynamic viscosity of the oil at the temperature of the bearing [Pa s].
+    ``viscosity``, dynamic viscosity of the oil at the temperature of the bearing [Pa s].
     """
     bearing = case.bearing
     turns, celsius = rpm(bearing.inner_speed), bearing.oil_temperature - 273.15
@@ -293,13 +287,6 @@ def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[R
     """Warnings of contact ellipses that reach over the shoulder of a groove, at most one per ring.
 
     Of the contacts that reach over, the warning names the one with the largest load.
-
-    Parameters
-    ----------
-    bearing : Bearing
-        Dimensions of the bearing, with its grooves.
-    positions : sequence of Position
-        Contacts at each position of the cage.
     """
     for k, name in enumerate(("inner", "outer")):
         shoulder = shoulder_angle(bearing, inner=k == 0)
@@ -324,13 +311,7 @@ def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[R
 
 def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultWarning]:
     """Warnings of films that take up much of the clearance, an effect that the equilibrium neglects.
-
-    Parameters
-    ----------
-    clearance : float
-        Radial internal clearance, the full diametral play [m]; negative with a preload.
-    position : Position
-        Loads and films at one position of the cage.
+    ``clearance``, radial internal clearance, the full diametral play [m]; negative with a preload.
     """
     at, room = position.equilibrium, clearance
     most = int(np.argmax(at.inner_load))
@@ -349,19 +330,7 @@ def clearance_warnings(clearance: float, position: Position) -> Iterator[ResultW
 
 
 def contact_warnings(rings: Mapping[str, Sequence[ContactSolution]]) -> list[ResultWarning]:
-    """Warnings of the contacts of a bearing; equal warnings of several contacts become one.
-
-    Parameters
-    ----------
-    rings : mapping of str to sequence of ContactSolution
-        Solved contacts by the name of their ring.
-
-    Returns
-    -------
-    list of ResultWarning
-        Warnings in the order of the contacts. The text of a warning names ring and load, unless all contacts
-        have the same warning, for example about their oil.
-    """
+    """Warnings of the contacts of a bearing; equal warnings of several contacts become one."""
     loads_by_ring: dict[ResultWarning, dict[str, list[float]]] = {}
     for ring, contacts in rings.items():
         for contact in contacts:

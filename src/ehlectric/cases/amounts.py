@@ -46,31 +46,18 @@ def _with_context(parse: Callable[..., Any]) -> Callable[[Any, ValidationInfo], 
 
 @dataclass(frozen=True)
 class Amount:
-    """Pydantic annotation of a physical quantity: number in SI units or string with its unit, within bounds.
+    """Pydantic annotation of a physical quantity: SI number or string with its unit, within bounds."""
 
-    Attributes
-    ----------
-    unit : str
-        SI unit as pint writes it; empty for a dimensionless quantity.
-    above, below : float
-        Bounds in ``unit`` that are not allowed themselves.
-    least, most : float
-        Smallest and largest value allowed, in ``unit``.
-    reason : str
-        Reason for the bounds, or a description of the quantity, for messages.
-    fraction : bool
-        Whether the value may be a string in percent.
-    difference : bool
-        Whether the value is a difference of temperatures, which has no zero of a scale.
-    """
-
-    unit: str
+    unit: str  # SI unit as pint writes it; empty for a dimensionless quantity
+    # above and below: bounds in ``unit`` that are not allowed themselves.
     above: float = -math.inf
     below: float = math.inf
+    # least and most: smallest and largest value allowed, in ``unit``
     least: float = -math.inf
     most: float = math.inf
-    reason: str = ""
-    fraction: bool = False
+    reason: str = ""  # reason for the bounds, or a description of the quantity, for messages
+    fraction: bool = False  # whether the value may be a string in percent
+    # Whether the value is a difference of temperatures, which has no zero of a scale.
     difference: bool = False
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
@@ -93,24 +80,8 @@ class Amount:
         return {"anyOf": [number, {"type": "string"}], "description": self.takes}
 
     def parse(self, entry: object, *, written: bool = False) -> float:
-        """Convert an entry of a case to a value in SI units.
-
-        Parameters
-        ----------
-        entry : object
-            Number in SI units, string with its unit, quantity of pint, or array without dimensions.
-        written : bool
-            Whether a person wrote the entry into a file or a command. A rotational speed then needs its unit.
-
-        Returns
-        -------
-        float
-            Value in ``unit``.
-
-        Raises
-        ------
-        InputError
-            If the entry is not a number, has a wrong unit, or is out of bounds.
+        """Convert an entry of a case to a value in SI units. Raises InputError if the entry is not a number,
+        has a wrong unit, or is out of bounds.
         """
         item = scalar(entry)
         self._check_bare(item, written=written)
@@ -194,15 +165,7 @@ class Amount:
 
 @dataclass(frozen=True)
 class Amounts:
-    """Pydantic annotation of a list of quantities of one kind, parsed to a tuple of floats in SI units.
-
-    Attributes
-    ----------
-    each : Amount
-        Unit and bounds of each value.
-    least : int
-        Smallest number of values.
-    """
+    """Pydantic annotation of a list of quantities of one kind, parsed to a tuple of floats in SI units."""
 
     each: Amount
     least: int = 1
@@ -220,24 +183,8 @@ class Amounts:
         return f"a list of {self.least} or more, each {self.each.takes}"
 
     def parse(self, entry: object, *, written: bool = False) -> tuple[float, ...]:
-        """Convert an entry of a case to values in SI units.
-
-        Parameters
-        ----------
-        entry : object
-            List, tuple or one-dimensional array of values as ``Quantity.parse`` accepts them.
-        written : bool
-            Whether a person wrote the entry into a file or a command.
-
-        Returns
-        -------
-        tuple of float
-            Values in the unit of ``each``.
-
-        Raises
-        ------
-        InputError
-            If the entry is not a list, is too short, or a value is not valid.
+        """Convert an entry of a case to values in SI units. Raises InputError if the entry is not a list, is
+        too short, or a value is not valid.
         """
         row = getattr(entry, "ndim", None) == 1
         if not (row or isinstance(entry, list | tuple)) or len(entry) < self.least:  # type: ignore[arg-type]
@@ -247,19 +194,12 @@ class Amounts:
 
 @dataclass(frozen=True)
 class Count:
-    """Pydantic annotation of a whole number within bounds.
+    """Pydantic annotation of a whole number within bounds."""
 
-    Attributes
-    ----------
-    least, most : int
-        Smallest and largest value allowed.
-    reason : str
-        Reason for the bounds, or a description of the number, for messages.
-    """
-
+    # least and most: smallest and largest value allowed.
     least: int
     most: int
-    reason: str
+    reason: str  # reason for the bounds, or a description of the number, for messages
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.parse)
@@ -278,12 +218,8 @@ class Count:
         return f"a whole number from {self.least} to {self.most}: {self.reason}"
 
     def parse(self, entry: object) -> int:
-        """Check an entry of a case and return it as a whole number.
-
-        Raises
-        ------
-        InputError
-            If the entry is not a whole number or is out of bounds.
+        """Check an entry of a case and return it as a whole number. Raises InputError if the entry is not a
+        whole number or is out of bounds.
         """
         item = scalar(entry)
         whole = isinstance(item, numbers.Integral) and not isinstance(item, bool)

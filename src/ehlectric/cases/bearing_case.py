@@ -44,11 +44,6 @@ _TABLES = ("motor", "contacts", "ranges")
 def bearing_key(table: Mapping[str, Any]) -> str | None:
     """Key at the top of a file that only a bearing file has, or only its table ``bearing``; None without one.
 
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a file that has no table ``bearing``.
-
     Examples
     --------
     >>> bearing_key({"lubricant": {}, "motor": {}}), bearing_key({"radial_load": "1 kN"})
@@ -63,40 +58,18 @@ def bearing_key(table: Mapping[str, Any]) -> str | None:
 
 @dataclass(frozen=True)
 class InputRange:
-    """Range of an input, within which its true value is taken to lie.
-
-    Attributes
-    ----------
-    key : str
-        Dotted key of the case.
-    low, high : float
-        Ends of the range, in SI units; ``low`` is below ``high``.
-    """
+    """Range of an input, within which its true value is taken to lie."""
 
     key: str
+    # low and high: ends of the range, in SI units; ``low`` is below ``high``
     low: float
     high: float
 
 
 def ranges_of(tables: Any, model: type[Table]) -> tuple[InputRange, ...]:
-    """Ranges of inputs, from dotted keys or nested tables with lists of two values.
-
-    Parameters
-    ----------
-    tables : mapping
-        Two values by key of the case: numbers in SI units, or texts with a unit.
-    model : type of Table
-        Class of the case that has the keys.
-
-    Returns
-    -------
-    tuple of InputRange
-        Ranges in the order of the tables, SI units.
-
-    Raises
-    ------
-    InputError
-        Where a key is unknown or is not a number, or its values are not two that increase.
+    """Ranges of inputs, from dotted keys or nested tables with lists of two values. Returns ranges in the
+    order of the tables, SI units. Raises InputError where a key is unknown or is not a number, or its values
+    are not two that increase.
 
     Examples
     --------

@@ -354,12 +354,8 @@ class Bearing(Table):
         return self
 
     def coating_capacitance(self) -> float:
-        """Capacitance of the coating [F]; infinite without a coating.
-
-        Raises
-        ------
-        InputError
-            Where a coating is given, and neither its area nor the dimensions of its ring.
+        """Capacitance of the coating [F]; infinite without a coating. Raises InputError where a coating is
+        given, and neither its area nor the dimensions of its ring.
         """
         if self.coating is None:
             return math.inf
@@ -478,19 +474,8 @@ class BearingKeys(TypedDict, total=False):
 
 
 def check_heat(bearing: Bearing, oil: Lubricant) -> None:
-    """Check that a bearing file has all that its film factor needs.
-
-    Parameters
-    ----------
-    bearing : Bearing
-        Table of the bearing.
-    oil : Lubricant
-        Table of its oil.
-
-    Raises
-    ------
-    InputError
-        Where a property of the oil or of a material is missing.
+    """Check that a bearing file has all that its film factor needs. Raises InputError where a property of the
+    oil or of a material is missing.
     """
     if bearing.film_factor == "inlet-shear":
         _check_inlet(oil)
@@ -500,16 +485,7 @@ def check_heat(bearing: Bearing, oil: Lubricant) -> None:
 
 def missing_conductivity(tables: Any) -> InputError | None:
     """Error of a thermal conductivity that is missing in a bearing file whose oil lacks other values, too.
-
-    Parameters
-    ----------
-    tables : mapping
-        Tables of the file.
-
-    Returns
-    -------
-    InputError or None
-        Error with its key in the table of the oil; None if nothing is missing for the film factor.
+    Returns error with its key in the table of the oil; None if nothing is missing for the film factor.
     """
     if not isinstance(tables, Mapping):
         return None

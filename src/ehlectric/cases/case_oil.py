@@ -102,25 +102,9 @@ def law_names(oil: Properties) -> dict[str, str]:
 def bound(
     oil: Properties, key: str, temperature: float | None, viscosity: float, known: Mapping[str, float]
 ) -> BoundLaw:
-    """Law of an oil for a key of ``LAWS``, with its parameters at a temperature [K].
-
-    Parameters
-    ----------
-    oil : Properties
-        Table of the oil, with all parameters of this law.
-    key : str
-        Key of ``LAWS`` for which the oil has a law.
-    temperature : float or None
-        Temperature [K]; None if there is none.
-    viscosity : float
-        Viscosity of the oil at zero pressure and this temperature [Pa s].
-    known : mapping
-        Parameters that are known at the temperature, SI units, which replace those of the table.
-
-    Raises
-    ------
-    InputError
-        If the law needs a temperature and gets none.
+    """Law of an oil for a key of ``LAWS``, with its parameters at a temperature [K]. ``temperature``,
+    temperature [K]; None if there is none; ``viscosity``, viscosity of the oil at zero pressure and this
+    temperature [Pa s]. Raises InputError if the law needs a temperature and gets none.
     """
     name = oil.law(key)
     assert name is not None
@@ -168,13 +152,7 @@ def _held(temperature: Array, *, temperatures: Sequence[float], conductivities: 
 
 
 def _needs(temperature: float | None, what: str) -> float:
-    """Temperature, which is needed for something.
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
+    """Temperature, which is needed for something. Raises InputError if there is none."""
     if temperature is None:
         raise InputError.worded("temperature", f"missing; {what} needs it", takes="a temperature")
     return temperature
@@ -196,12 +174,8 @@ def check_range(oil: Properties, temperature: float | None) -> None:
 
 
 def viscosity_at(oil: Properties, temperature: float | None) -> float:
-    """Viscosity of an oil at zero pressure and a temperature [K], in Pa s.
-
-    Raises
-    ------
-    InputError
-        If the viscosity depends on a temperature that is not given, or has no value at it.
+    """Viscosity of an oil at zero pressure and a temperature [K], in Pa s. Raises InputError if the viscosity
+    depends on a temperature that is not given, or has no value at it.
     """
     law = viscosity_over_temperature(oil)
     if law is None:
@@ -365,25 +339,9 @@ class Lubricant(Properties):
         return self
 
     def at(self, temperature: float | None, key: str = "contact.temperature") -> Oil:
-        """Return the oil at a temperature.
-
-        Parameters
-        ----------
-        temperature : float or None
-            Absolute temperature [K]. Without one, the values of the table are those at the temperature of
-            the contact.
-        key : str, optional
-            Key of the temperature, for messages.
-
-        Returns
-        -------
-        Oil
-            Numbers and laws of the oil at this temperature.
-
-        Raises
-        ------
-        InputError
-            If the oil needs a temperature and gets none, or has no value at this temperature.
+        """Return the oil at a temperature. ``temperature`` [K]. Returns numbers and laws of the oil at this
+        temperature. Raises InputError if the oil needs a temperature and gets none, or has no value at this
+        temperature.
 
         Examples
         --------
@@ -418,22 +376,6 @@ class KnownOil:
     An oil of which a value is missing cannot be solved with. Its other properties are computed here all the
     same, and no value takes the place of the missing one.
 
-    Attributes
-    ----------
-    table : Properties
-        Table of the oil.
-    temperature : float or None
-        Temperature [K]; None for an oil without temperature.
-    viscosity, density, relative_permittivity, conductivity : float or None
-        Viscosity [Pa s], density [kg/m^3], relative permittivity and electrical conductivity [S/m] at zero
-        pressure; None where they are not known.
-    laws : mapping of str to BoundLaw
-        Laws of which all parameters are known, by key of ``LAWS``.
-    checks : mapping of str to RangeCheck
-        Checks of the ranges of these laws, by key of ``LAWS``.
-    missing : mapping of str to InputError
-        Errors of the values that are missing, by dotted key.
-
     Examples
     --------
     >>> oil = known_oil(Properties.from_dict({"base": "n100"}), 313.15)
@@ -444,7 +386,9 @@ class KnownOil:
     """
 
     table: Properties
-    temperature: float | None
+    temperature: float | None  # temperature [K]; None for an oil without temperature
+    # viscosity, density, relative_permittivity and conductivity: viscosity [Pa s], density [kg/m^3], relative
+    # permittivity and electrical conductivity [S/m] at zero pressure; None where they are not known.
     viscosity: float | None
     density: float | None
     relative_permittivity: float | None
@@ -497,25 +441,10 @@ def _beyond(check: RangeCheck, pressure: float) -> bool:
 def known_oil(table: Properties, temperature: float | None, key: str = "temperature") -> KnownOil:
     """Oil at a temperature as far as its table goes.
 
-    Parameters
-    ----------
-    table : Properties
-        Table of the oil. Values may be missing.
-    temperature : float or None
-        Absolute temperature [K]; None for an oil whose values hold at the temperature of its contact.
-    key : str, optional
-        Key of the temperature, for messages.
-
-    Returns
-    -------
-    KnownOil
-        Properties that are known, and errors of the values that are missing.
-
-    Raises
-    ------
-    InputError
-        If a temperature is needed and missing, or outside the range of the oil or of a law, or if the table
-        contradicts itself.
+    ``temperature``, absolute temperature [K]; None for an oil whose values hold at the temperature of its
+    contact. Returns properties that are known, and errors of the values that are missing. Raises InputError
+    if a temperature is needed and missing, or outside the range of the oil or of a law, or if the table
+    contradicts itself.
     """
     with of_table(key):
         check_range(table, temperature)
@@ -612,21 +541,6 @@ _CONDUCTION = ("conductivity", "conductivity_law", "conductivity_table")
 class NamedOil:
     """Oil of the library or of a user, before a temperature is chosen.
 
-    Attributes
-    ----------
-    name : str
-        Name in the library, or of the file.
-    title : str
-        What the oil is, in one line; empty if nothing says it.
-    given : mapping
-        Table ``[lubricant]`` as it is written.
-    table : Properties
-        Parsed table, in which values may be missing.
-    base : LibraryOil or None
-        Oil of the library that the table names as its base; None without one.
-    temperatures : tuple of float
-        Temperatures of the contact, or of the bearing and its rings, in the file [K].
-
     Examples
     --------
     >>> oil = named_oil("n100")
@@ -635,10 +549,11 @@ class NamedOil:
     """
 
     name: str
-    title: str
-    given: Mapping[str, Any]
-    table: Properties
-    base: LibraryOil | None = None
+    title: str  # what the oil is, in one line; empty if nothing says it
+    given: Mapping[str, Any]  # table ``[lubricant]`` as it is written
+    table: Properties  # parsed table, in which values may be missing
+    base: LibraryOil | None = None  # oil of the library that the table names as its base; None without one
+    # Temperatures of the contact, or of the bearing and its rings, in the file [K].
     temperatures: tuple[float, ...] = ()
 
     @property
@@ -662,24 +577,9 @@ class NamedOil:
 
 
 def named_oil(source: str | Path | Mapping[str, Any]) -> NamedOil:
-    """Oil of the library by its name, or of a file or table of a user.
-
-    Parameters
-    ----------
-    source : str, Path or mapping
-        Name of the library; path of a case or bearing file, as a ``Path`` or as a string that ends in
-        ``.toml``; or table ``[lubricant]`` of a case.
-
-    Returns
-    -------
-    NamedOil
-        Oil with its table, in which values may be missing.
-
-    Raises
-    ------
-    InputError
-        If there is no oil of this name, the file cannot be read or has no table ``lubricant``, or a value of
-        the table is wrong.
+    """Oil of the library by its name, or of a file or table of a user. Returns oil with its table, in which
+    values may be missing. Raises InputError if there is no oil of this name, the file cannot be read or has
+    no table ``lubricant``, or a value of the table is wrong.
     """
     if isinstance(source, Mapping):
         return _of_table("", "", source)
@@ -791,12 +691,8 @@ def oil(source: str | Path | Mapping[str, Any], temperature: str | float | None 
 
 
 def kelvin_of(temperature: str | float, key: str = "temperature") -> float:
-    """Temperature [K] from a string with its unit, or a number in kelvin.
-
-    Raises
-    ------
-    InputError
-        If it is no temperature of an oil.
+    """Temperature [K] from a string with its unit, or a number in kelvin. Raises InputError if it is no
+    temperature of an oil.
 
     Examples
     --------

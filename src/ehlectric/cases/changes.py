@@ -13,19 +13,8 @@ from ehlectric.quantities.alternatives import ALTERNATIVES, CONTACT_ALTERNATIVES
 
 
 def set_keys(table: dict[str, Any], flat: Mapping[str, Any]) -> None:
-    """Set values of nested tables by dotted key; a table in a list is named by its number, from 1.
-
-    Parameters
-    ----------
-    table : dict
-        Nested tables, changed in place.
-    flat : mapping
-        New values by dotted key.
-
-    Raises
-    ------
-    InputError
-        If a part of a key is not the name of a table, or not the number of a table in a list.
+    """Set values of nested tables by dotted key; a table in a list is named by its number, from 1. Raises
+    InputError if a part of a key is not the name of a table, or not the number of a table in a list.
 
     Examples
     --------
@@ -82,15 +71,6 @@ def displace(
     table: dict[str, Any], changes: Mapping[str, Any], alternatives: Mapping[str, tuple[Rows, ...]]
 ) -> None:
     """Remove from nested tables the keys that are alternatives to changed keys.
-
-    Parameters
-    ----------
-    table : dict
-        Nested tables, changed in place.
-    changes : mapping
-        New values by dotted key.
-    alternatives : mapping of str to tuple of Rows
-        Groups of alternative keys, by the name of the table.
 
     Examples
     --------

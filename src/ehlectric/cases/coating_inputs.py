@@ -92,10 +92,7 @@ class Coating(Table):
 
         The coating is thin compared with the diameter of the ring, so that it is a plate capacitor.
 
-        Parameters
-        ----------
-        area : float
-            Area A over which the coating lies between ring and seat [m^2].
+        ``area``, area A over which the coating lies between ring and seat [m^2].
 
         Examples
         --------
@@ -109,18 +106,8 @@ class Coating(Table):
 
     def area_on(self, diameters: Mapping[str, float | None], width: float | None) -> float:
         """Area of the coating on its seat [m^2]: ``area``, or that of the cylinder of the ring.
-
-        Parameters
-        ----------
-        diameters : mapping of str to float or None
-            Bore of the bearing under "inner", and its outside diameter under "outer" [m].
-        width : float or None
-            Width of the bearing [m].
-
-        Raises
-        ------
-        InputError
-            Where neither the area nor diameter and width are known.
+        ``diameters``, bore of the bearing under "inner", and its outside diameter under "outer" [m];
+        ``width`` [m]. Raises InputError where neither the area nor diameter and width are known.
         """
         if self.area is not None:
             return self.area

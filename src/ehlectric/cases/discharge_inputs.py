@@ -145,17 +145,8 @@ class Discharge(Table):
             )
 
     def check_geometry(self, geometry: str) -> None:
-        """Check that a point contact has no length, and that a line contact has one if a key needs it.
-
-        Parameters
-        ----------
-        geometry : str
-            Geometry of the contact, "line" or "point".
-
-        Raises
-        ------
-        InputError
-            If a point contact has a length, or a line contact lacks a length that a key needs.
+        """Check that a point contact has no length, and that a line contact has one if a key needs it. Raises
+        InputError if a point contact has a length, or a line contact lacks a length that a key needs.
         """
         if geometry == "point":
             if self.length is not None:
@@ -188,24 +179,9 @@ class BearingDischarge(Discharge):
             )
 
     def at(self, temperature: float, key: str = "bearing.temperature") -> Discharge:
-        """Return the inputs of the discharge at a temperature.
-
-        Parameters
-        ----------
-        temperature : float
-            Absolute temperature [K].
-        key : str, optional
-            Key of the temperature, for messages.
-
-        Returns
-        -------
-        Discharge
-            Inputs of the discharge, with this temperature for a strength table over temperature.
-
-        Raises
-        ------
-        InputError
-            If the temperature is outside a strength table over temperature.
+        """Return the inputs of the discharge at a temperature. ``temperature`` [K]. Returns inputs of the
+        discharge, with this temperature for a strength table over temperature. Raises InputError if the
+        temperature is outside a strength table over temperature.
 
         Examples
         --------

@@ -187,23 +187,7 @@ class DriveCase(Tabled, Table):
 
 def with_files(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Tables of a drive file with the bearings of the files that it names, and the path of its waveform.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a file in the folder. Tables of other kinds of cases are returned unchanged.
-    folder : Path
-        Folder to which the names of files are relative.
-
-    Returns
-    -------
-    dict
-        Tables that name no bearing file; the name of the waveform is absolute.
-
-    Raises
-    ------
-    InputError
-        If a bearing file cannot be read or is not valid.
+    Raises InputError if a bearing file cannot be read or is not valid.
     """
     found, source = dict(table), table.get("source")
     for end in ENDS:
@@ -258,46 +242,16 @@ AnyCase = Case | BearingCase
 
 
 def case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> AnyCase:
-    """Make a bearing case from tables with a key of bearing files, else a case of a contact.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables, as read from a TOML file.
-    written : bool
-        Whether a person wrote the tables, as ``Table.from_written`` reads them.
-
-    Returns
-    -------
-    Case or BearingCase
-        Case of the contact or of the bearing.
-
-    Raises
-    ------
-    InputError
-        If the tables are not valid; the message names the key, its value, and what is allowed.
+    """Make a bearing case from tables with a key of bearing files, else a case of a contact. Raises
+    InputError if the tables are not valid; the message names the key, its value, and what is allowed.
     """
     model = BearingCase if "bearing" in table or bearing_key(table) is not None else Case
     return model.from_written(table) if written else model.from_dict(table)
 
 
 def case_of_file(path: str | Path) -> AnyCase:
-    """Read a case of a contact or of a bearing from a TOML file.
-
-    Parameters
-    ----------
-    path : str or Path
-        TOML file.
-
-    Returns
-    -------
-    Case or BearingCase
-        Case of the contact or of the bearing.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not TOML, or is not a valid case of a contact or of a bearing.
+    """Read a case of a contact or of a bearing from a TOML file. Raises InputError if the file cannot be
+    read, is not TOML, or is not a valid case of a contact or of a bearing.
     """
     table = read_toml(path)
     find_files(table, Path(path).parent)
@@ -309,23 +263,7 @@ SweptCase = AnyCase | DriveCase
 
 def swept_case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> SweptCase:
     """Make a drive case from tables with the key of one of its bearings, else a case of a bearing or contact.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables, as read from a TOML file.
-    written : bool
-        Whether a person wrote the tables, as ``Table.from_written`` reads them.
-
-    Returns
-    -------
-    Case, BearingCase or DriveCase
-        Case of the contact, of the bearing or of the drive.
-
-    Raises
-    ------
-    InputError
-        If the tables are not valid; the message names the key, its value, and what is allowed.
+    Raises InputError if the tables are not valid; the message names the key, its value, and what is allowed.
     """
     if not any(end in table for end in ENDS):
         return case_of_dict(table, written=written)
@@ -333,45 +271,16 @@ def swept_case_of_dict(table: Mapping[str, Any], *, written: bool = False) -> Sw
 
 
 def swept_case_of_file(path: str | Path) -> SweptCase:
-    """Read a case of a contact, of a bearing or of a drive from a TOML file.
-
-    Parameters
-    ----------
-    path : str or Path
-        TOML file.
-
-    Returns
-    -------
-    Case, BearingCase or DriveCase
-        Case of the contact, of the bearing or of the drive.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not TOML, or is not a valid case.
+    """Read a case of a contact, of a bearing or of a drive from a TOML file. Raises InputError if the file
+    cannot be read, is not TOML, or is not a valid case.
     """
     return swept_case_of_dict(with_found_files(read_toml(path), Path(path).parent), written=True)
 
 
 def with_found_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables of a case of any kind whose files lie relative to a folder.
-
-    Parameters
-    ----------
-    table : dict
-        Nested tables of a file in the folder.
-    folder : Path
-        Folder of the file.
-
-    Returns
-    -------
-    dict
-        Tables with absolute names of surfaces and waveforms, and with the bearings of bearing files.
-
-    Raises
-    ------
-    InputError
-        If a bearing file of a drive cannot be read or is not valid.
+    """Tables of a case of any kind whose files lie relative to a folder. Returns tables with absolute names
+    of surfaces and waveforms, and with the bearings of bearing files. Raises InputError if a bearing file of
+    a drive cannot be read or is not valid.
     """
     find_files(table, folder)
     return with_files(table, folder)

@@ -66,20 +66,8 @@ class Source(Table):
         machine. With ``base_frequency`` the index is ``modulation_index`` from this frequency on, and below
         it falls in proportion to the frequency, for a constant flux.
 
-        Parameters
-        ----------
-        speed : float
-            Speed of the rotor [rad/s].
-
-        Returns
-        -------
-        Source
-            Source with its frequency and its index, and without those two keys.
-
-        Raises
-        ------
-        InputError
-            If the frequency or an edge does not fit the carrier.
+        ``speed`` [rad/s]. Returns source with its frequency and its index, and without those two keys. Raises
+        InputError if the frequency or an edge does not fit the carrier.
         """
         frequency, index, base = self.fundamental_frequency, self.modulation_index, self.base_frequency
         if self.pole_pairs is not None:

@@ -32,32 +32,21 @@ STATED, RAISED, SCATTER = "stated uncertainty", "stated uncertainty, raised to t
 
 @dataclass(frozen=True)
 class MeanFactor:
-    """Weighted mean of film factors, and its 95 % interval.
+    """Weighted mean of film factors, and its 95 % interval."""
 
-    Attributes
-    ----------
-    value : float
-        Geometric mean, weighted with the reciprocal variances of the rows, dimensionless.
-    low, high : float or None
-        Ends of the 95 % interval; None for a single row without a stated uncertainty.
-    statistical, systematic : float or None
-        Relative standard uncertainty of the mean from the rows, and from inputs that all rows share.
-    scatter : float or None
-        Scatter of the rows divided by their stated uncertainty (Birge ratio), dimensionless. Without a stated
-        uncertainty: relative standard deviation of the rows. None for a single row.
-    basis : str
-        Origin of ``statistical``: "stated uncertainty", "stated uncertainty, raised to the scatter" or
-        "scatter only".
-    rows : int
-        Number of rows.
-    """
-
-    value: float
+    value: float  # geometric mean, weighted with the reciprocal variances of the rows, dimensionless
+    # low and high: ends of the 95 % interval; None for a single row without a stated uncertainty.
     low: float | None
     high: float | None
+    # statistical and systematic: relative standard uncertainty of the mean from the rows, and from inputs
+    # that all rows share.
     statistical: float | None
     systematic: float
+    # Scatter of the rows divided by their stated uncertainty (Birge ratio), dimensionless. Without a stated
+    # uncertainty: relative standard deviation of the rows. None for a single row.
     scatter: float | None
+    # Origin of ``statistical``: "stated uncertainty", "stated uncertainty, raised to the scatter" or "scatter
+    # only"
     basis: str
     rows: int
 
@@ -78,23 +67,10 @@ class MeanFactor:
 def mean_factor(
     factors: Array, stated: Array | None = None, shared: Mapping[str, Array] | None = None
 ) -> MeanFactor:
-    """Mean of film factors in their logarithm.
-
-    Parameters
-    ----------
-    factors : ndarray, shape (n,)
-        Film factors of the rows, n >= 1.
-    stated : ndarray, shape (n,), optional
-        Relative standard uncertainty of each factor from its measurement, independent of other rows.
-    shared : mapping of str to ndarray, shape (n,), optional
-        Change of ln(factor) by one standard uncertainty of an input that all rows share. Each input moves all
-        rows together, so that more rows do not make its part smaller.
-
-    Returns
-    -------
-    MeanFactor
-        Mean and interval. Where rows scatter more than they state, the stated uncertainties are raised by
-        the Birge ratio. Without stated uncertainties all rows count alike, and Student's t is used.
+    """Mean of film factors in their logarithm. ``factors``, film factors of the rows, n >= 1, shape (n,);
+    ``stated``, relative standard uncertainty of each factor from its measurement, independent of other rows,
+    shape (n,); ``shared``, change of ln(factor) by one standard uncertainty of an input that all rows share,
+    shape (n,).
 
     Examples
     --------
@@ -137,18 +113,9 @@ def _interval(
 def slope_of(x: Array, factors: Array, stated: Array | None = None) -> tuple[float, float] | None:
     """Slope d ln(factor)/d ln(x) of film factors over a speed, and its standard uncertainty.
 
-    Parameters
-    ----------
-    x, factors : ndarray, shape (n,)
-        Speeds and film factors, above 0.
-    stated : ndarray, shape (n,), optional
-        Relative standard uncertainties of the factors, as weights.
-
-    Returns
-    -------
-    tuple of float or None
-        Slope and its standard uncertainty from the scatter about the line, at least the stated one; None for
-        fewer than three different speeds.
+    ``x`` and ``factors``, speeds and film factors, above 0, shape (n,); ``stated``, relative standard
+    uncertainties of the factors, as weights, shape (n,). Returns slope and its standard uncertainty from the
+    scatter about the line, at least the stated one; None for fewer than three different speeds.
 
     Examples
     --------
@@ -187,21 +154,7 @@ def measurement_warnings(
     slope: tuple[float, float] | None,
     speed: str,
 ) -> Iterator[ResultWarning]:
-    """Warnings about columns, rows, scatter and trend of a measurement.
-
-    Parameters
-    ----------
-    measured : Measurement
-        Rows as read.
-    reasons : sequence of str, length n
-        For each row "" or why it has no film factor.
-    mean : MeanFactor or None
-        Mean film factor.
-    slope : tuple of float or None
-        Slope d ln(factor)/d ln(speed), and its standard uncertainty.
-    speed : str
-        Name of the speed.
-    """
+    """Warnings about columns, rows, scatter and trend of a measurement."""
     if measured.ignored:
         yield ResultWarning("columns-ignored", f"{measured.source}: ignored {_some(measured.ignored)}")
     without = [(line, why) for line, why in zip(measured.lines, reasons, strict=True) if why]
@@ -224,15 +177,7 @@ def measurement_warnings(
 
 
 def temperature_warnings(measured: Measurement, oil: Properties) -> Iterator[ResultWarning]:
-    """Note about measured temperatures that do not change the films, because the viscosity is a given one.
-
-    Parameters
-    ----------
-    measured : Measurement
-        Rows as read.
-    oil : Properties
-        Table of the oil in the case.
-    """
+    """Note about measured temperatures that do not change the films, because the viscosity is a given one."""
     if measured.has("temperature") and viscosity_over_temperature(oil) is None:
         yield ResultWarning(
             "temperature-unused",
@@ -414,18 +359,9 @@ def factor_text(mean: MeanFactor | None) -> str:
 def fitted_columns(values: Array, factors: Array, slopes: Array, mean: MeanFactor | None) -> dict[str, Array]:
     """Computed values of the rows at the mean film factor, and at both ends of its interval.
 
-    Parameters
-    ----------
-    values, factors, slopes : ndarray, shape (n,)
-        Measured value of each row, the film factor at which the computed value is the same, and the slope
-        d ln(value)/d ln(factor) there. The computed value is a power of the film factor nearby.
-    mean : MeanFactor or None
-        Mean film factor.
-
-    Returns
-    -------
-    dict of str to ndarray, shape (n,)
-        Columns ``fitted``, ``fitted_low`` and ``fitted_high``; only the first without an interval.
+    ``values``, ``factors`` and ``slopes``, measured value of each row, the film factor at which the computed
+    value is the same, and the slope d ln(value)/d ln(factor) there, shape (n,). Returns columns ``fitted``,
+    ``fitted_low`` and ``fitted_high``; only the first without an interval, shape (n,).
     """
     if mean is None:
         return {}

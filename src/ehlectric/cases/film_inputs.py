@@ -65,20 +65,9 @@ class Inlet(Table):
         return self
 
     def check(self, contact: Contact, *, beside: Collection[str]) -> None:
-        """Check that the table fits the other tables of its case.
-
-        Parameters
-        ----------
-        contact : Contact
-            Table ``contact`` of the case.
-        beside : collection of str
-            Names of the other tables of the case.
-
-        Raises
-        ------
-        InputError
-            If a line contact has a layer over y, surfaces move in opposite directions, a contact with motion
-            has a ratio of films, or the case has the table ``meter`` or ``film``.
+        """Check that the table fits the other tables of its case. Raises InputError if a line contact has a
+        layer over y, surfaces move in opposite directions, a contact with motion has a ratio of films, or the
+        case has the table ``meter`` or ``film``.
         """
         if contact.opposed:
             raise InputError(
@@ -124,21 +113,8 @@ class FilmPhysics(Table):
     rheology: Literal["newtonian", "eyring", "carreau", "limiting"] = "newtonian"
 
     def check(self, contact: Contact, lubricant: Lubricant, *, moves: bool) -> None:
-        """Check that a case has all that a film with heat or shear needs.
-
-        Parameters
-        ----------
-        contact : Contact
-            Table of the contact.
-        lubricant : Lubricant
-            Table of the oil.
-        moves : bool
-            Whether the roughness moves.
-
-        Raises
-        ------
-        InputError
-            If a property of the oil, of a body or a temperature is missing, or the contact is transient.
+        """Check that a case has all that a film with heat or shear needs. Raises InputError if a property of
+        the oil, of a body or a temperature is missing, or the contact is transient.
         """
         if moves:
             raise InputError.worded(
@@ -207,24 +183,9 @@ def _missing(oil: Lubricant, temperature: float) -> Iterator[tuple[str, str]]:
 
 
 def thermal_properties(body: Body | None, name: str) -> dict[str, float]:
-    """Thermal properties of a body: its own, or those of its material.
-
-    Parameters
-    ----------
-    body : Body or None
-        Table of the body.
-    name : str
-        Key of the table, for messages.
-
-    Returns
-    -------
-    dict
-        ``thermal_conductivity`` [W/(m K)], ``heat_capacity`` [J/(kg K)] and ``density`` [kg/m^3].
-
-    Raises
-    ------
-    InputError
-        If one of them is missing.
+    """Thermal properties of a body: its own, or those of its material. Returns ``thermal_conductivity``
+    [W/(m K)], ``heat_capacity`` [J/(kg K)] and ``density`` [kg/m^3]. Raises InputError if one of them is
+    missing.
 
     Examples
     --------

@@ -281,17 +281,8 @@ class Grid(Table):
             self.check_across(self.side)
 
     def check_across(self, side: float) -> None:
-        """Check the grid of a point contact across entrainment.
-
-        Parameters
-        ----------
-        side : float
-            Half of the domain's width, in semi-axes across.
-
-        Raises
-        ------
-        InputError
-            If the grid is too coarse across entrainment, or the domain is narrower than the field range.
+        """Check the grid of a point contact across entrainment. Raises InputError if the grid is too coarse
+        across entrainment, or the domain is narrower than the field range.
         """
         assert self.field_side is not None
         if self.field_side > side:
@@ -307,17 +298,8 @@ class Grid(Table):
 
 
 def point_grid(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Table of a point contact's grid, completed by the defaults of point contacts.
-
-    Parameters
-    ----------
-    table : mapping
-        Keys of ``Grid`` that are given, with their values.
-
-    Returns
-    -------
-    dict
-        Given keys, and the defaults that only the grid of a point contact has.
+    """Table of a point contact's grid, completed by the defaults of point contacts. Returns given keys, and
+    the defaults that only the grid of a point contact has.
 
     Examples
     --------
@@ -363,18 +345,7 @@ class Motion(Table):
 
     def check(self, grid: Grid, *, rough: bool) -> None:
         """Check that a case of moving roughness has a rough surface, and a grid that the motion can use.
-
-        Parameters
-        ----------
-        grid : Grid
-            Table ``grid`` of the case.
-        rough : bool
-            Whether a surface is rough.
-
-        Raises
-        ------
-        InputError
-            If no surface is rough, the wedge is of first order, or the grid is refined.
+        Raises InputError if no surface is rough, the wedge is of first order, or the grid is refined.
         """
         if not rough:
             raise InputError.worded("motion", "needs a rough surface: roughness is what moves")

@@ -115,23 +115,9 @@ def descriptions(table: str) -> dict[str, str]:
 
 
 def describe(key: str) -> str:
-    """Description of a key of a case, bearing or sweep file, as plain text with its SI unit.
-
-    Parameters
-    ----------
-    key : str
-        Dotted key. The number of a rough surface may stand in it; keys of a sweep file begin with "sweep",
-        those of a bearing of a drive with "drive_end", "non_drive_end" or "bearings".
-
-    Returns
-    -------
-    str
-        A phrase with the unit in brackets, such as "load of a point contact [N]".
-
-    Raises
-    ------
-    InputError
-        Where there is no such key; with the nearest known one.
+    """Description of a key of a case, bearing or sweep file, as plain text with its SI unit. Returns a phrase
+    with the unit in brackets, such as "load of a point contact [N]". Raises InputError where there is no such
+    key; with the nearest known one.
 
     Examples
     --------
@@ -197,23 +183,9 @@ def plain_text(text: str) -> str:
 
 
 def input_field(key: str) -> FieldInfo:
-    """Field of an input, with its annotation and default.
-
-    Parameters
-    ----------
-    key : str
-        Dotted key of the case; the key of a rough surface has its number, as in "roughness.1.rescale_rq".
-        Keys of a bearing of a drive follow "drive_end", "non_drive_end" or, for both, "bearings".
-
-    Returns
-    -------
-    FieldInfo
-        Field of the table that the key belongs to.
-
-    Raises
-    ------
-    InputError
-        If the key is unknown or is a table; the message names the nearest known key, or a key of the table.
+    """Field of an input, with its annotation and default. Returns field of the table that the key belongs to.
+    Raises InputError if the key is unknown or is a table; the message names the nearest known key, or a key
+    of the table.
 
     Examples
     --------
@@ -324,15 +296,7 @@ def unit_of(key: str) -> str:
 
     It is empty for a dimensionless number, a text or an unknown key.
 
-    Parameters
-    ----------
-    key : str
-        Dotted key of the case; the key of an item of a list ends in its number.
-
-    Returns
-    -------
-    str
-        Unit such as "N/m".
+    Returns unit such as "N/m".
 
     Examples
     --------

@@ -120,10 +120,7 @@ def refuse_long_keys(text: str) -> None:
 
     The time in which a parser reads such a key grows with the square of the number of its parts, or faster.
 
-    Raises
-    ------
-    InputError
-        If a key has more than ``MOST_DEEP`` parts.
+    Raises InputError if a key has more than ``MOST_DEEP`` parts.
 
     Examples
     --------
@@ -146,19 +143,10 @@ def refuse_long_keys(text: str) -> None:
 
 
 def refuse_deep(tables: Mapping[str, Any]) -> None:
-    """Refuse tables that lie too deep in each other or within themselves, and keys of many parts.
-
-    Parameters
-    ----------
-    tables : mapping
-        Nested tables and lists of a case. Objects of other types are not looked into.
-
-    Raises
-    ------
-    InputError
-        If more than ``MOST_DEEP`` tables or lists lie in each other, or a key is no text, has more than
-        ``MOST_DEEP`` parts or more than ``LONGEST_KEY`` characters, or an integer has more than
-        ``MOST_BITS`` bits.
+    """Refuse tables that lie too deep in each other or within themselves, and keys of many parts. Raises
+    InputError if more than ``MOST_DEEP`` tables or lists lie in each other, or a key is no text, has more
+    than ``MOST_DEEP`` parts or more than ``LONGEST_KEY`` characters, or an integer has more than
+    ``MOST_BITS`` bits.
 
     Examples
     --------

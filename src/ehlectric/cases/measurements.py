@@ -83,45 +83,26 @@ _LONGEST = 200
 
 @dataclass(frozen=True)
 class Column:
-    """Column of a measurement, by its head.
+    """Column of a measurement, by its head."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the quantity, one of ``COLUMNS``; of an uncertainty that of the quantity, or "" for the
-        measured one.
-    head : str
-        Head as it is written over the column.
-    unit : str
-        Unit in the head; "%" of a relative uncertainty.
-    uncertainty : bool
-        Whether the column has standard uncertainties.
-    """
-
+    # Name of the quantity, one of ``COLUMNS``; of an uncertainty that of the quantity, or "" for the measured
+    # one.
     name: str
     head: str
-    unit: str
-    uncertainty: bool = False
+    unit: str  # unit in the head; "%" of a relative uncertainty
+    uncertainty: bool = False  # whether the column has standard uncertainties
 
     def factor(self) -> float:
-        """Factor from the unit of the column to the SI unit; 0.01 for per cent.
-
-        Raises
-        ------
-        ValueError
-            If the unit is not one of the quantity; the message says why.
+        """Factor from the unit of the column to the SI unit; 0.01 for per cent. Raises ValueError if the unit
+        is not one of the quantity; the message says why.
         """
         if self.unit == "%":
             return 0.01
         return _factor(_plain(self.unit), COLUMNS[self.name].unit)
 
     def value(self, number: float) -> float:
-        """Value in SI units of a number in the unit of the column; an uncertainty stays a difference.
-
-        Raises
-        ------
-        ValueError
-            If the unit is not one of the quantity, or the value is out of its bounds.
+        """Value in SI units of a number in the unit of the column; an uncertainty stays a difference. Raises
+        ValueError if the unit is not one of the quantity, or the value is out of its bounds.
         """
         if self.uncertainty:
             return self._positive(number * self.factor())
@@ -146,22 +127,9 @@ def _factor(written: str, unit: str) -> float:
 
 
 def column_of(head: str) -> Column | None:
-    """Column by its head, such as "speed [rpm]" or "capacitance (pF)"; None for an unknown quantity.
-
-    Parameters
-    ----------
-    head : str
-        Head of the column: a name, and a unit in brackets. Names are not case-sensitive.
-
-    Returns
-    -------
-    Column or None
-        Column of a known quantity or of its uncertainty.
-
-    Raises
-    ------
-    InputError
-        If the quantity is known, but its unit is missing or is not one of the quantity.
+    """Column by its head, such as "speed [rpm]" or "capacitance (pF)"; None for an unknown quantity. Returns
+    column of a known quantity or of its uncertainty. Raises InputError if the quantity is known, but its unit
+    is missing or is not one of the quantity.
 
     Examples
     --------
@@ -232,35 +200,21 @@ _OF_IMPEDANCE = ("impedance", "phase", "frequency")
 
 @dataclass(frozen=True, eq=False)
 class MeasuredCapacitance:
-    """Parallel capacitance of measured rows, with the background in it.
+    """Parallel capacitance of measured rows, with the background in it."""
 
-    Attributes
-    ----------
-    value : ndarray, shape (n,)
-        Capacitance [F]; NaN where the phase is not that of a capacitor.
-    uncertainty : ndarray, shape (n,), or None
-        Standard uncertainty [F]; None where the measurement states none.
-    resistance : ndarray, shape (n,), or None
-        Parallel resistance [Ohm], infinite at a phase of -90 deg; None where a capacitance was measured.
-    """
-
-    value: Array
-    uncertainty: Array | None
+    value: Array  # capacitance [F]; NaN where the phase is not that of a capacitor, shape (n,)
+    uncertainty: Array | None  # standard uncertainty [F]; None where the measurement states none, shape (n,)
+    # Parallel resistance [Ohm], infinite at a phase of -90 deg; None where a capacitance was measured,
+    # shape (n,).
     resistance: Array | None = None
 
 
 def parallel_circuit(magnitude: Array, phase: Array, frequency: Array) -> tuple[Array, Array]:
     """Capacitance and resistance in parallel that have an impedance, C = -sin(phase)/(2 pi f magnitude).
 
-    Parameters
-    ----------
-    magnitude, phase, frequency : ndarray, shape (n,)
-        Magnitude of the impedance [Ohm], its phase [rad], negative for a capacitor, and the frequency f [Hz].
-
-    Returns
-    -------
-    capacitance, resistance : ndarray, shape (n,)
-        C [F], and R = magnitude/cos(phase) [Ohm]. C is negative for an inductive phase.
+    ``magnitude``, ``phase`` and ``frequency``, magnitude of the impedance [Ohm], its phase [rad], negative
+    for a capacitor, and the frequency f [Hz], shape (n,). Returns C [F], and R = magnitude/cos(phase) [Ohm],
+    shape (n,); C is negative for an inductive phase.
 
     Examples
     --------
@@ -275,24 +229,8 @@ def parallel_circuit(magnitude: Array, phase: Array, frequency: Array) -> tuple[
 
 
 def capacitance_of(measured: Measurement, uncertainty: float | None = None) -> MeasuredCapacitance:
-    """Parallel capacitance of all rows of a measurement.
-
-    Parameters
-    ----------
-    measured : Measurement
-        Rows with a capacitance, or with magnitude, phase and frequency of an impedance.
-    uncertainty : float, optional
-        Relative standard uncertainty of the capacitance, for a measurement that states none.
-
-    Returns
-    -------
-    MeasuredCapacitance
-        Capacitance with its uncertainty; columns of the measurement win over ``uncertainty``.
-
-    Raises
-    ------
-    InputError
-        If the measurement has neither, or has both.
+    """Parallel capacitance of all rows of a measurement. Returns capacitance with its uncertainty; columns of
+    the measurement win over ``uncertainty``. Raises InputError if the measurement has neither, or has both.
     """
     if measured.has("capacitance") and measured.has("impedance"):
         raise InputError(measured.source, "has a capacitance and an impedance", takes="one of the two")
@@ -349,27 +287,15 @@ _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """Measured rows beside a case, SI units.
+    """Measured rows beside a case, SI units."""
 
-    Attributes
-    ----------
-    source : str
-        Path of the file, or "table" for a table of pandas.
-    lines : tuple of int
-        Line of each row in the file, from 1; of a table its rows, from 1.
-    values : mapping of str to ndarray, shape (n,)
-        Quantities of the rows by name, as ``COLUMNS`` has them.
-    uncertainties : mapping of str to ndarray, shape (n,)
-        Standard uncertainties of the quantities, in the same units; relative ones are multiplied out.
-    ignored : tuple of str
-        Heads of columns that are not known, and were ignored.
-    """
-
-    source: str
-    lines: tuple[int, ...]
-    values: Mapping[str, Array]
+    source: str  # path of the file, or "table" for a table of pandas
+    lines: tuple[int, ...]  # line of each row in the file, from 1; of a table its rows, from 1
+    values: Mapping[str, Array]  # quantities of the rows by name, as ``COLUMNS`` has them, shape (n,)
+    # Standard uncertainties of the quantities, in the same units; relative ones are multiplied out,
+    # shape (n,).
     uncertainties: Mapping[str, Array]
-    ignored: tuple[str, ...] = ()
+    ignored: tuple[str, ...] = ()  # heads of columns that are not known, and were ignored
 
     @property
     def size(self) -> int:
@@ -392,23 +318,10 @@ class _Rows:
 def read_measurement(measured: str | Path | pd.DataFrame) -> Measurement:
     """Read a measurement from a text file or a table of pandas.
 
-    Parameters
-    ----------
-    measured : str, Path or pandas.DataFrame
-        Text file with separators ``,``, ``;`` or tab, decimal points or (not with ``,``) decimal commas, and
-        a line of heads such as ``speed [rpm];capacitance [pF]``. Lines that begin with ``#``, and lines above
-        the heads, are skipped. A table has such heads as names of its columns.
-
-    Returns
-    -------
-    Measurement
-        All rows in SI units.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is too large, has no heads that are known, a head has no unit or a wrong
-        one, or a row has a value that is missing, is no number or is out of bounds; the line is named.
+    ``measured``, text file with separators ``,``, ``;`` or tab, decimal points or (not with ``,``) decimal
+    commas, and a line of heads such as ``speed [rpm];capacitance [pF]``. Returns all rows in SI units. Raises
+    InputError if the file cannot be read or is too large, has no heads that are known, a head has no unit or
+    a wrong one, or a row has a value that is missing, is no number or is out of bounds; the line is named.
 
     Examples
     --------
@@ -437,12 +350,8 @@ def read_measurement(measured: str | Path | pd.DataFrame) -> Measurement:
 
 
 def decoded(path: Path, content: bytes) -> str:
-    """Text of a file in UTF-8, UTF-16 or Windows-1252, as instruments write them.
-
-    Raises
-    ------
-    InputError
-        If the file is no text.
+    """Text of a file in UTF-8, UTF-16 or Windows-1252, as instruments write them. Raises InputError if the
+    file is no text.
     """
     if b"\0" in content[:4096] and content[:2] not in _UTF_16:
         raise InputError(path, "is not a text file")

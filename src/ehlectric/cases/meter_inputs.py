@@ -84,22 +84,9 @@ class Meter(Table):
         return self
 
     def check(self, contact: Contact, length: float | None, *, rough: bool, moves: bool) -> None:
-        """Check that the table fits the other tables of its case.
-
-        Parameters
-        ----------
-        contact : Contact
-            Table of the contact.
-        length : float or None
-            Length of a line contact in the table of the discharge [m].
-        rough, moves : bool
-            Whether the case has rough surfaces, and whether they move.
-
-        Raises
-        ------
-        InputError
-            If the shape of the bodies is not known far enough, the roughness is given twice, or the contact
-            is transient.
+        """Check that the table fits the other tables of its case. ``length``, length of a line contact in the
+        table of the discharge [m]. Raises InputError if the shape of the bodies is not known far enough, the
+        roughness is given twice, or the contact is transient.
         """
         if moves:
             raise InputError.worded("meter", "is not used with [motion]; a stationary contact has it")

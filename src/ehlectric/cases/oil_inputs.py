@@ -58,17 +58,8 @@ OPTIONAL_LAWS = ("conductivity_law", "thermal_conductivity_law", "heat_capacity_
 
 
 def law_parameters(*choices: str) -> dict[str, Parameter]:
-    """Parameters of the laws of a lubricant, by name.
-
-    Parameters
-    ----------
-    *choices : str
-        Keys of ``LAWS``, such as "density_law"; all keys if none is given.
-
-    Returns
-    -------
-    dict of str to Parameter
-        Parameters of the laws that are in the tables at the time of the call.
+    """Parameters of the laws of a lubricant, by name. ``*choices``, keys of ``LAWS``, such as "density_law";
+    all keys if none is given. Returns parameters of the laws that are in the tables at the time of the call.
 
     Examples
     --------
@@ -99,15 +90,9 @@ def is_parameter(name: str) -> bool:
 
 @dataclass(frozen=True)
 class Named(AfterValidator):
-    """Pydantic annotation of a name, with the names that are allowed.
+    """Pydantic annotation of a name, with the names that are allowed."""
 
-    Attributes
-    ----------
-    takes : str
-        Description of the allowed names, for messages.
-    """
-
-    takes: str = ""
+    takes: str = ""  # description of the allowed names, for messages
 
 
 def law_name(laws: Mapping[str, object]) -> Named:
@@ -139,11 +124,7 @@ def quantity_of(parameter: Parameter) -> Amount:
 
 def library_name(base: Any, names: Sequence[str]) -> str:
     """Check that ``base`` is a name of the library, and return it; the number 6208 is not the name "6208".
-
-    Raises
-    ------
-    InputError
-        If the base is not a string, or not a name of the library.
+    Raises InputError if the base is not a string, or not a name of the library.
     """
     if not isinstance(base, str):
         raise InputError(
@@ -155,12 +136,8 @@ def library_name(base: Any, names: Sequence[str]) -> str:
 
 
 def base_values(table: Any) -> dict[str, Any]:
-    """Values of the lubricant that ``base`` names in the library; none without a base.
-
-    Raises
-    ------
-    InputError
-        If the library has no lubricant of this name.
+    """Values of the lubricant that ``base`` names in the library; none without a base. Raises InputError if
+    the library has no lubricant of this name.
     """
     if not isinstance(table, Mapping) or table.get("base") is None:
         return {}
@@ -265,12 +242,8 @@ class OilTemperature(Table):
         return grade_middle(self.iso_vg)
 
     def at_100(self) -> float:
-        """Kinematic viscosity at 100 degC [m^2/s]: the given one, or that of the viscosity index.
-
-        Raises
-        ------
-        InputError
-            If an oil with this index is too thin for ASTM D2270.
+        """Kinematic viscosity at 100 degC [m^2/s]: the given one, or that of the viscosity index. Raises
+        InputError if an oil with this index is too thin for ASTM D2270.
         """
         if self.kinematic_viscosity_100 is not None:
             return self.kinematic_viscosity_100
@@ -299,12 +272,8 @@ def of_base_oil(oil: Properties) -> frozenset[str]:
 
 
 def estimated_alpha(oil: Properties, temperature: float | None) -> Estimate | None:
-    """Estimate of the coefficient at a temperature [K]; None where the table says what it is.
-
-    Raises
-    ------
-    InputError
-        If the viscosity is outside the range in which the estimate holds.
+    """Estimate of the coefficient at a temperature [K]; None where the table says what it is. Raises
+    InputError if the viscosity is outside the range in which the estimate holds.
     """
     sheet = oil.temperature
     if sheet is None or sheet.base_oil is None or temperature is None or ALPHA not in of_base_oil(oil):
@@ -350,10 +319,7 @@ def with_base(table: Any) -> Any:
     Values of the library's data sheet stay unless the table replaces them: those whose keys a data sheet of
     the table does not give, and the thermal conductivity beside every way to give the viscosity.
 
-    Raises
-    ------
-    InputError
-        If the library has no lubricant of this name.
+    Raises InputError if the library has no lubricant of this name.
     """
     base = base_values(table)
     if not base or not isinstance(table, Mapping):
@@ -378,13 +344,6 @@ def _with_sheet(sheet: Mapping[str, Any], own: Mapping[Any, Any]) -> dict[Any, A
 
 def displace_oil(table: dict[str, Any], changes: Mapping[str, Any]) -> None:
     """Remove from the table of an oil the keys that changed keys replace, as ``with_base`` leaves them out.
-
-    Parameters
-    ----------
-    table : dict
-        Table ``lubricant`` of a case, changed in place.
-    changes : mapping
-        New values of this table; those of a data sheet as a table under ``temperature``.
 
     Examples
     --------
@@ -631,12 +590,8 @@ _WAYS = "viscosity, [lubricant.temperature] or atmospheric_law"
 
 
 def refuse_missing(oil: Properties) -> None:
-    """Check that a lubricant gives its values in one way, and that none is missing.
-
-    Raises
-    ------
-    InputError
-        If it does not; the message names all values that are missing.
+    """Check that a lubricant gives its values in one way, and that none is missing. Raises InputError if it
+    does not; the message names all values that are missing.
     """
     checks: list[Callable[[], None]] = [partial(check_viscosity, oil), partial(check_once, oil)]
     for key, laws in LAWS.items():
@@ -665,12 +620,8 @@ def _check_permittivity(oil: Properties) -> None:
 
 
 def check_viscosity(oil: Properties) -> None:
-    """Check that a lubricant has exactly one source of its viscosity at ambient pressure.
-
-    Raises
-    ------
-    InputError
-        If it has none, or more than one.
+    """Check that a lubricant has exactly one source of its viscosity at ambient pressure. Raises InputError
+    if it has none, or more than one.
     """
     if VISCOSITY_LAWS[oil.viscosity_law].atmospheric is not None:
         for key in ("viscosity", "temperature", "atmospheric_law"):
@@ -691,12 +642,9 @@ def check_viscosity(oil: Properties) -> None:
 
 
 def check_once(oil: Properties) -> None:
-    """Check that no value is given twice, and that none is given which no law of the oil would use.
-
-    Raises
-    ------
-    InputError
-        For two conductivities or two densities, and for a value that lacks the key which gives it a meaning.
+    """Check that no value is given twice, and that none is given which no law of the oil would use. Raises
+    InputError for two conductivities or two densities, and for a value that lacks the key which gives it a
+    meaning.
     """
     conductivities = [key for key in ("conductivity", "conductivity_law") if getattr(oil, key) is not None]
     if oil.conductivity_table is not None and conductivities:
@@ -728,10 +676,7 @@ def check_parameters(oil: Properties, key: str, law: Law) -> None:
     A parameter that follows from the viscosity at a temperature may be missing where the viscosity depends
     on the temperature, a coefficient where the type of base oil is given, and a permittivity with its table.
 
-    Raises
-    ------
-    InputError
-        If a parameter is missing; the message names the law, and all parameters that it lacks.
+    Raises InputError if a parameter is missing; the message names the law, and all parameters that it lacks.
     """
     given = {p.name: oil.parameter(p.name) for p in law.parameters}
     values = {name: value for name, value in given.items() if value is not None}

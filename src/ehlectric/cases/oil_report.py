@@ -76,20 +76,7 @@ def _in_place_of(table: Properties) -> str:
 
 def law_behind(name: str, table: Properties, pressure: float) -> str:
     """Name of the law of a property at pressure, or of that over temperature at ambient pressure.
-
-    Parameters
-    ----------
-    name : str
-        Name of the property.
-    table : Properties
-        Table of the oil.
-    pressure : float
-        Pressure [Pa]; zero for ambient pressure.
-
-    Returns
-    -------
-    str
-        Name of the law, "table" for a measured table, or empty for a given number.
+    ``pressure`` [Pa]. Returns name of the law, "table" for a measured table, or empty for a given number.
     """
     match name:
         case "viscosity" | "kinematic_viscosity" if pressure == 0.0:
@@ -231,30 +218,16 @@ GIVEN = "given"
 
 @dataclass(frozen=True)
 class OilProperty:
-    """Property of an oil.
-
-    Attributes
-    ----------
-    name : str
-        Name for programs.
-    title : str
-        Name for readers.
-    unit : str
-        SI unit in the notation of pint; empty for a dimensionless property.
-    value : callable
-        Value of an oil at a pressure [Pa]; None where it is not known.
-    keys : callable
-        Keys of ``[lubricant]`` that decide the value, as a function of the table and the pressure [Pa].
-    laws : tuple of str
-        Keys of ``LAWS`` of the laws over pressure; empty for a property without one.
-    """
+    """Property of an oil."""
 
     name: str
     title: str
-    unit: str
+    unit: str  # SI unit in the notation of pint; empty for a dimensionless property
+    # Value of an oil at a pressure [Pa]; None where it is not known.
     value: Callable[[KnownOil, float], float | None]
+    # Keys of ``[lubricant]`` that decide the value, as a function of the table and the pressure [Pa].
     keys: Callable[[Properties, float], Iterable[str]]
-    laws: tuple[str, ...] = ()
+    laws: tuple[str, ...] = ()  # keys of ``LAWS`` of the laws over pressure; empty for a property without one
 
     @property
     def over_pressure(self) -> bool:
@@ -268,31 +241,16 @@ class OilProperty:
 
 @dataclass(frozen=True)
 class SurveyLine:
-    """Property of an oil at one pressure and several temperatures.
-
-    Attributes
-    ----------
-    of : OilProperty
-        Property.
-    pressure : float
-        Pressure [Pa]; zero for ambient pressure.
-    values : tuple of float or None
-        Value at each temperature, SI units; None where it is not known.
-    law : str
-        Name of the law; empty without one.
-    kind : str
-        Kind of the weakest source behind the values, or "given" for values of a user's own table; empty where
-        nothing is known.
-    sources : tuple of Source
-        Sources behind the values, without those of a user's own table.
-    """
+    """Property of an oil at one pressure and several temperatures."""
 
     of: OilProperty
-    pressure: float
-    values: tuple[float | None, ...]
-    law: str
+    pressure: float  # pressure [Pa]; zero for ambient pressure
+    values: tuple[float | None, ...]  # value at each temperature, SI units; None where it is not known
+    law: str  # name of the law; empty without one
+    # Kind of the weakest source behind the values, or "given" for values of a user's own table; empty where
+    # nothing is known.
     kind: str
-    sources: tuple[Source, ...]
+    sources: tuple[Source, ...]  # sources behind the values, without those of a user's own table
 
     @property
     def missing(self) -> bool:
@@ -302,21 +260,7 @@ class SurveyLine:
 
 def survey(named: NamedOil, oils: Sequence[KnownOil], pressures: Sequence[float]) -> Iterator[SurveyLine]:
     """Lines of a survey of an oil: every property at ambient pressure and at further pressures.
-
-    Parameters
-    ----------
-    named : NamedOil
-        Oil with the sources of its values.
-    oils : sequence of KnownOil
-        The oil at each temperature.
-    pressures : sequence of float
-        Pressures beside ambient pressure [Pa], for the properties that change with pressure.
-
-    Yields
-    ------
-    SurveyLine
-        Line of a property at a pressure, property by property. The density ratio has no line at ambient
-        pressure, where it is 1.
+    ``pressures``, pressures beside ambient pressure [Pa], for the properties that change with pressure.
     """
     for one in PROPERTIES.values():
         at = [0.0, *pressures] if one.over_pressure else [0.0]
@@ -479,26 +423,13 @@ PRESSURE = Amount("Pa", least=0.0, most=2e10, reason="in the oil; contacts of st
 
 @dataclass(frozen=True, eq=False)
 class OilReport:
-    """Properties of an oil at temperatures and pressures.
-
-    Attributes
-    ----------
-    named : NamedOil
-        Oil with the sources of its values.
-    oils : tuple of KnownOil
-        The oil at each temperature.
-    pressures : tuple of float
-        Pressures beside ambient pressure [Pa].
-    lines : tuple of SurveyLine
-        Every property at every pressure, with the values at all temperatures.
-    warnings : tuple of ResultWarning or str
-        Warnings about laws and estimates, with the temperature at which they hold.
-    """
+    """Properties of an oil at temperatures and pressures."""
 
     named: NamedOil
     oils: tuple[KnownOil, ...]
-    pressures: tuple[float, ...]
-    lines: tuple[SurveyLine, ...]
+    pressures: tuple[float, ...]  # pressures beside ambient pressure [Pa]
+    lines: tuple[SurveyLine, ...]  # every property at every pressure, with the values at all temperatures
+    # Warnings about laws and estimates, with the temperature at which they hold.
     warnings: tuple[ResultWarning | str, ...]
 
     @property
@@ -555,26 +486,9 @@ def oil_report(
     temperatures: Sequence[str | float] = (),
     pressures: Sequence[str | float] = (),
 ) -> OilReport:
-    """Report on an oil of the library, of a file or of a table.
-
-    Parameters
-    ----------
-    source : str, Path or mapping
-        Name of the library, file with a table ``[lubricant]``, or such a table.
-    temperatures : sequence of str or float, optional
-        Temperatures with their units, or in kelvin; by default those of ``usual_temperatures``.
-    pressures : sequence of str or float, optional
-        Pressures with their units, or in pascal, beside ambient pressure.
-
-    Returns
-    -------
-    OilReport
-        Every property of the oil; those of which a value is missing are marked.
-
-    Raises
-    ------
-    InputError
-        If there is no such oil, or a temperature is outside the range of the oil.
+    """Report on an oil of the library, of a file or of a table. Returns every property of the oil; those of
+    which a value is missing are marked. Raises InputError if there is no such oil, or a temperature is
+    outside the range of the oil.
 
     Examples
     --------

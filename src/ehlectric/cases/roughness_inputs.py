@@ -119,17 +119,8 @@ class Roughness(Table):
         return {"generator", *needed, *optional, *(() if self.generator in SHAPES else _STEPS)}
 
     def check_geometry(self, geometry: str) -> None:
-        """Check that the surface has no key that only the other kind of contact may have.
-
-        Parameters
-        ----------
-        geometry : str
-            Geometry of the contact, "line" or "point".
-
-        Raises
-        ------
-        InputError
-            If a key does not fit the geometry; the key in the message is not preceded by ``roughness.``.
+        """Check that the surface has no key that only the other kind of contact may have. Raises InputError
+        if a key does not fit the geometry; the key in the message is not preceded by ``roughness.``.
         """
         if geometry == "line":
             for name in _POINT_KEYS:
@@ -150,11 +141,7 @@ class Roughness(Table):
 
 def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
     """Check that rough surfaces have only keys that fit the geometry of the contact, "line" or "point".
-
-    Raises
-    ------
-    InputError
-        If a key does not fit; the message names the key, its value, and what is allowed.
+    Raises InputError if a key does not fit; the message names the key, its value, and what is allowed.
     """
     for table in tables:
         try:

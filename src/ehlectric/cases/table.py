@@ -167,23 +167,13 @@ def _frozen(name: str) -> InputError:
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
-    """Read the nested tables of a TOML file.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not TOML.
-    """
+    """Read the nested tables of a TOML file. Raises InputError if the file cannot be read or is not TOML."""
     return tables_of_text(read_text(path), path)
 
 
 def tables_of_text(text: str, name: object) -> dict[str, Any]:
-    """Nested tables of a text in TOML, which errors name as the file ``name``.
-
-    Raises
-    ------
-    InputError
-        If the text is not TOML.
+    """Nested tables of a text in TOML, which errors name as the file ``name``. Raises InputError if the text
+    is not TOML.
     """
     try:
         refuse_long_keys(text)

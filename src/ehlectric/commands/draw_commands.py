@@ -33,29 +33,9 @@ def load_and_draw(
 ) -> Files:
     """Draw the figures of a stored result again.
 
-    Parameters
-    ----------
-    path : str or Path
-        File or folder of a result, as ``stored_result`` takes it.
-    folder : str or Path
-        Folder of the figures; it is made if it does not exist.
-    formats : sequence of str
-        Formats of the figures, of "png", "svg" and "pdf".
-    style : str
-        Style of the figures, "screen" or "journal".
-
-    Returns
-    -------
-    files : tuple of Path
-        Files written.
-    warnings : tuple of ResultWarning
-        Warnings of the result and of its figures.
-
-    Raises
-    ------
-    InputError
-        If the file is not a result, the folder cannot be used, another command draws into it, or a sweep
-        varies too many keys for a map.
+    ``folder``, folder of the figures; it is made if it does not exist. Returns ``files``, files written;
+    ``warnings``, warnings of the result and of its figures. Raises InputError if the file is not a result,
+    the folder cannot be used, another command draws into it, or a sweep varies too many keys for a map.
     """
     from ehlectric.runs.result_folders import stored_result
 
@@ -130,12 +110,8 @@ def _draw_sweep(results: SweepResults, folder: Path, home: Path, formats: Sequen
 
 
 def _axes(results: SweepResults, home: Path) -> tuple[str, str | None]:
-    """Keys along the axes of the map of a sweep that varies one or two keys.
-
-    Raises
-    ------
-    InputError
-        If it varies more keys, so that somebody has to choose.
+    """Keys along the axes of the map of a sweep that varies one or two keys. Raises InputError if it varies
+    more keys, so that somebody has to choose.
     """
     keys = sorted(results.axes, key=lambda key: not _numeric(results.axes[key]))
     if len(keys) > 2:

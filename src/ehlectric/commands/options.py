@@ -36,13 +36,7 @@ def one_of(*names: str) -> Callable[[str], list[str]]:
 
 
 def chosen(option: str, value: str, names: Sequence[str]) -> str:
-    """Value of an option that takes one of some names.
-
-    Raises
-    ------
-    InputError
-        If it is none of them.
-    """
+    """Value of an option that takes one of some names. Raises InputError if it is none of them."""
     if value not in names:
         raise InputError(option, got=shown(value), takes=f"one of {', '.join(names)}")
     return value
@@ -135,12 +129,8 @@ class Look(TypedDict):
 
 
 def figure_options(formats: Sequence[str] | None, style: str) -> Look:
-    """Formats and style of figures, from the options of a command.
-
-    Raises
-    ------
-    InputError
-        If there is no such format or style.
+    """Formats and style of figures, from the options of a command. Raises InputError if there is no such
+    format or style.
     """
     from ehlectric.figures.figure_names import FORMATS, STYLES
 

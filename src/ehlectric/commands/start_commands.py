@@ -41,18 +41,7 @@ _SURFACES = "surfaces"
 
 
 def template(kind: str) -> Path:
-    """File of a template.
-
-    Parameters
-    ----------
-    kind : str
-        Kind of the file, one of ``TEMPLATES``.
-
-    Raises
-    ------
-    InputError
-        If there is no such kind.
-    """
+    """File of a template. Raises InputError if there is no such kind."""
     if kind not in TEMPLATES:
         raise InputError("--kind", got=shown(kind), takes=f"one of {', '.join(TEMPLATES)}")
     folder, _, name = TEMPLATES[kind].partition("/")
@@ -161,13 +150,7 @@ def _names() -> list[str]:
 
 
 def _known(name: str) -> str:
-    """Name of an example, also where its suffix was typed.
-
-    Raises
-    ------
-    InputError
-        If there is no such example.
-    """
+    """Name of an example, also where its suffix was typed. Raises InputError if there is no such example."""
     stem = name.removesuffix(".toml")
     if stem not in _names():
         raise InputError("examples", got=shown(name), takes=f"one of {', '.join(_names())}")

@@ -75,12 +75,8 @@ def user_errors() -> Iterator[None]:
 
 @contextmanager
 def solving() -> Iterator[None]:
-    """Context in which something is solved: where memory runs out, a LostError says so.
-
-    Raises
-    ------
-    LostError
-        Where memory runs out; a grid that is known not to fit is an InputError as ever.
+    """Context in which something is solved: where memory runs out, a LostError says so. Raises LostError
+    where memory runs out; a grid that is known not to fit is an InputError as ever.
     """
     try:
         yield
@@ -127,23 +123,8 @@ def report(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Print the tables and files of a run, its warnings, its verdict, and why it failed.
-
-    Parameters
-    ----------
-    outcome : RunOutcome
-        Outcome of the run.
-    tables : callable
-        Makes the tables of the outcome.
-    quiet : bool
-        Print no tables, files and warnings.
-    as_json : bool
-        Print the summary as JSON in place of tables and files.
-
-    Raises
-    ------
-    Exit
-        With status 3 where the run failed.
+    """Print the tables and files of a run, its warnings, its verdict, and why it failed. Raises Exit: with
+    status 3 where the run failed.
     """
     if as_json:
         typer.echo(json.dumps(outcome.summary, indent=2))

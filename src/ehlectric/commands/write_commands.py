@@ -102,12 +102,8 @@ def report(
 
 
 def _wanted(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:
-    """Formats that are wanted.
-
-    Raises
-    ------
-    InputError
-        If there is no such format, or a file is named too, whose ending decides.
+    """Formats that are wanted. Raises InputError if there is no such format, or a file is named too, whose
+    ending decides.
     """
     for name in formats or ():
         if name not in _FORMATS:
@@ -164,12 +160,8 @@ def schema(
 
 
 def schema_text(kind: str) -> str:
-    """Text of the JSON Schema of a kind of file, made from the tables by which files are checked.
-
-    Raises
-    ------
-    InputError
-        If there is no such kind.
+    """Text of the JSON Schema of a kind of file, made from the tables by which files are checked. Raises
+    InputError if there is no such kind.
     """
     if kind not in KINDS:
         raise InputError("KIND", got=shown(kind), takes=f"one of {', '.join(KINDS)}")

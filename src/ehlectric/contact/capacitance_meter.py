@@ -73,27 +73,10 @@ def gap_around(
 ) -> tuple[Outside, float]:
     """Gap between the bodies outside the domain of a film.
 
-    Parameters
-    ----------
-    contact : Contact
-        Table of the contact, for the radii of both bodies.
-    conditions : Conditions or PointConditions
-        Operating conditions of the contact.
-    film : Film or PointFilm
-        Film whose domain is left out, and whose thickness the gap continues.
-    meter : Meter
-        Inputs of the meter, for the width of the bodies.
-    length : float or None
-        Length across entrainment of a line contact [m].
-    ring : tuple of float
-        Smallest and largest distance from the contact of the part that is wanted [m].
-
-    Returns
-    -------
-    outside : Outside
-        Gap at nodes outside the domain.
-    mismatch : float
-        Largest relative difference between gap and film at the edge of the domain; zero for a line contact.
+    ``length``, length across entrainment of a line contact [m]; ``ring``, smallest and largest distance from
+    the contact of the part that is wanted [m]. Returns ``outside``, gap at nodes outside the domain;
+    ``mismatch``, largest relative difference between gap and film at the edge of the domain; zero for a line
+    contact.
     """
     bodies = bodies_of(contact)
     if isinstance(film, PointFilm):
@@ -110,40 +93,20 @@ def gap_around(
 
 @dataclass(frozen=True)
 class MeterProfile:
-    """Capacitance between the bodies up to a distance from the contact, without what lies in parallel.
+    """Capacitance between the bodies up to a distance from the contact, without what lies in parallel."""
 
-    Attributes
-    ----------
-    radius : ndarray, shape (n,)
-        Distance from the middle of the contact, increasing [m].
-    filled, air, oil : ndarray, shape (n,)
-        Capacitance up to this distance, with the gap outside the domain filled as the case says, with air,
-        and with oil [F].
-    edge : float
-        Smallest distance of the edge of the film's domain from the contact [m].
-    """
-
-    radius: Array
+    radius: Array  # distance from the middle of the contact, increasing [m], shape (n,)
+    # filled, air and oil: capacitance up to this distance, with the gap outside the domain filled as the case
+    # says, with air, and with oil [F], shape (n,).
     filled: Array
     air: Array
     oil: Array
-    edge: float
+    edge: float  # smallest distance of the edge of the film's domain from the contact [m]
 
 
 def meter_profile(contact: Metered, distances: int = 80) -> MeterProfile:
-    """Capacitance between the bodies of a solved contact up to a distance from it.
-
-    Parameters
-    ----------
-    contact : Metered
-        Solved contact, whose case has a table ``meter``.
-    distances : int
-        Number of distances, in equal ratios.
-
-    Returns
-    -------
-    MeterProfile
-        Capacitance [F] over distance [m]. The last values are those of the whole gap.
+    """Capacitance between the bodies of a solved contact up to a distance from it. Returns capacitance [F]
+    over distance [m]; the last values are those of the whole gap.
     """
     coating = contact.layers.coating
     near, within = contact.nodes()
@@ -177,71 +140,45 @@ class MeterReading:
 
     A value is None if the case lacks the input that it needs. The capacitances of the film's domain, of the
     gap outside and in parallel add up to ``capacitance``; a coating is in each of the first two.
-
-    Attributes
-    ----------
-    capacitance : float
-        Capacitance that the meter reads [F].
-    capacitance_air, capacitance_oil : float
-        The same where air or oil fills the whole gap outside the film's domain [F].
-    capacitance_domain, capacitance_hertz : float
-        Capacitance of the film's domain, and of the Hertz zone in it [F].
-    capacitance_outside : float
-        Capacitance between the bodies outside the domain, filled as the case says [F].
-    capacitance_outside_air, capacitance_outside_oil : float
-        Capacitance outside the domain in air and in oil [F].
-    parallel_capacitance : float or None
-        Capacitance in parallel [F].
-    share_of_hertz, share_of_domain, share_of_outside : float
-        Parts of the reading that are due to the Hertz zone, the domain and the gap outside, dimensionless.
-    roughness_factor : float or None
-        Capacitance of the domain over that with smooth surfaces, dimensionless.
-    film_ratio : float or None
-        Minimum film thickness over Rq, dimensionless.
-    capacitance_uncoated : float or None
-        Capacitance between the bodies without the coating [F].
-    coating_capacitance : float or None
-        Single capacitor in series with ``capacitance_uncoated`` that has the effect of the coating [F].
-    coating_voltage_share, film_voltage_share : float or None
-        Parts of the voltage on the coating and on the film at the minimum film, dimensionless.
-    film_breakdown_voltage : float or None
-        Voltage between the bodies at which the film breaks down under its share [V].
-    coating_breakdown_voltage : float or None
-        Voltage at which the coating alone breaks down [V].
-    breakdown_voltage : float or None
-        Voltage between the bodies at which both have broken down [V].
-    length : float or None
-        Length of a line contact, or given width of a point contact [m].
-    bodies : str
-        Words for the bodies that face each other outside the domain.
-    mismatch : float
-        Largest relative difference between film and outer gap at the edge of the domain.
     """
 
-    capacitance: float
+    capacitance: float  # capacitance that the meter reads [F]
+    # capacitance_air and capacitance_oil: the same where air or oil fills the whole gap outside the film's
+    # domain [F].
     capacitance_air: float
     capacitance_oil: float
+    # capacitance_domain and capacitance_hertz: capacitance of the film's domain, and of the Hertz zone in it
+    # [F].
     capacitance_domain: float
     capacitance_hertz: float
+    # Capacitance between the bodies outside the domain, filled as the case says [F].
     capacitance_outside: float
+    # capacitance_outside_air and capacitance_outside_oil: capacitance outside the domain in air and in oil
+    # [F].
     capacitance_outside_air: float
     capacitance_outside_oil: float
-    parallel_capacitance: float | None
+    parallel_capacitance: float | None  # [F]
+    # share_of_hertz, share_of_domain and share_of_outside: parts of the reading that are due to the Hertz
+    # zone, the domain and the gap outside, dimensionless.
     share_of_hertz: float
     share_of_domain: float
     share_of_outside: float
-    roughness_factor: float | None
-    film_ratio: float | None
-    capacitance_uncoated: float | None
+    roughness_factor: float | None  # capacitance of the domain over that with smooth surfaces, dimensionless
+    film_ratio: float | None  # minimum film thickness over Rq, dimensionless
+    capacitance_uncoated: float | None  # capacitance between the bodies without the coating [F]
+    # Single capacitor in series with ``capacitance_uncoated`` that has the effect of the coating [F].
     coating_capacitance: float | None
+    # coating_voltage_share and film_voltage_share: parts of the voltage on the coating and on the film at the
+    # minimum film, dimensionless.
     coating_voltage_share: float | None
     film_voltage_share: float | None
+    # Voltage between the bodies at which the film breaks down under its share [V].
     film_breakdown_voltage: float | None
-    coating_breakdown_voltage: float | None
-    breakdown_voltage: float | None
-    length: float | None
-    bodies: str
-    mismatch: float
+    coating_breakdown_voltage: float | None  # voltage at which the coating alone breaks down [V]
+    breakdown_voltage: float | None  # voltage between the bodies at which both have broken down [V]
+    length: float | None  # length of a line contact, or given width of a point contact [m]
+    bodies: str  # words for the bodies that face each other outside the domain
+    mismatch: float  # largest relative difference between film and outer gap at the edge of the domain
 
     def summary(self) -> dict[str, Any]:
         """All values, as in ``meter`` of summary.json."""
@@ -261,17 +198,7 @@ class _Parts:
 
 @dataclass(frozen=True)
 class Metered:
-    """Solved contact of a case with a table ``meter``.
-
-    Attributes
-    ----------
-    case : Case
-        Case of the contact.
-    conditions : Conditions or PointConditions
-        Operating conditions.
-    film, field : Film and Field, or PointFilm and PointField
-        Solution of the contact.
-    """
+    """Solved contact of a case with a table ``meter``."""
 
     case: Case
     conditions: Conditions | PointConditions
@@ -359,19 +286,8 @@ class Metered:
 
 
 def meter_reading(contact: Metered, film_breakdown: float | None) -> MeterReading:
-    """Capacitance that a meter at the two bodies of a solved contact reads.
-
-    Parameters
-    ----------
-    contact : Metered
-        Solved contact, whose case has a table ``meter``.
-    film_breakdown : float or None
-        Breakdown voltage of the film alone [V].
-
-    Returns
-    -------
-    MeterReading
-        Capacitance and its parts, SI units.
+    """Capacitance that a meter at the two bodies of a solved contact reads. ``film_breakdown``, breakdown
+    voltage of the film alone [V]. Returns capacitance and its parts, SI units.
     """
     meter, layers = contact.meter, contact.layers
     parts, beside = contact.parts(layers), meter.parallel_capacitance or 0.0

@@ -37,23 +37,12 @@ _ZONE_NODES = {1: 4001, 2: 401}
 
 @dataclass(frozen=True)
 class PreparedContact:
-    """Contact that is ready to be solved, with its rough surfaces read from files or generated.
-
-    Attributes
-    ----------
-    case : Case or Setup
-        Case of the contact, or setup if there is no case.
-    conditions : Conditions or PointConditions
-        Operating conditions, SI units.
-    domain : Domain
-        Domain in which the film is solved [m].
-    rough : sequence of RoughSurface or RoughMap
-        Rough surfaces, one for each table ``roughness`` of the case.
-    """
+    """Contact that is ready to be solved, with its rough surfaces read from files or generated."""
 
     case: Case | Setup
-    conditions: Conditions | PointConditions
-    domain: Domain
+    conditions: Conditions | PointConditions  # operating conditions, SI units
+    domain: Domain  # domain in which the film is solved [m]
+    # Rough surfaces, one for each table ``roughness`` of the case.
     rough: Sequence[RoughSurface] | Sequence[RoughMap]
 
     @property
@@ -104,23 +93,10 @@ class PreparedContact:
 
 
 def check_case(case: Case) -> PreparedContact:
-    """Check a case and prepare its contact, before any folder is made for its results.
-
-    Parameters
-    ----------
-    case : Case
-        A valid case.
-
-    Returns
-    -------
-    PreparedContact
-        Contact to pass to ``solve``, which then does not read the surfaces again.
-
-    Raises
-    ------
-    InputError
-        If the values contradict each other, the tolerance is too large, a surface cannot be used, or the
-        case needs more than the available memory.
+    """Check a case and prepare its contact, before any folder is made for its results. Returns contact to
+    pass to ``solve``, which then does not read the surfaces again. Raises InputError if the values contradict
+    each other, the tolerance is too large, a surface cannot be used, or the case needs more than the
+    available memory.
     """
     kind = KINDS[case.contact.geometry]
     conditions = kind.resolve(case)
@@ -137,22 +113,8 @@ def with_laws(case: Case, laws: Laws) -> Case:
 
     A dielectric strength becomes the strength table of the case.
 
-    Parameters
-    ----------
-    case : Case
-        Case whose contact has a temperature.
-    laws : Laws
-        Functions of pressure and temperature.
-
-    Returns
-    -------
-    Case
-        Case whose ``oil`` has these laws at the temperature of the contact.
-
-    Raises
-    ------
-    InputError
-        If the contact has no temperature, or a law has no valid values at its pressures.
+    Returns case whose ``oil`` has these laws at the temperature of the contact. Raises InputError if the
+    contact has no temperature, or a law has no valid values at its pressures.
     """
     if case.film is not None and case.film.thermal:
         raise InputError.worded(
@@ -190,19 +152,8 @@ _DENSITY = {"line": (16, 0, 401), "point": (8, 16, 129)}
 
 def widened(contact: PreparedContact, film: Film | PointFilm) -> PreparedContact | None:
     """Contact on a larger domain, where that of its film cuts off more than the error that is asked for.
-
-    Parameters
-    ----------
-    contact : PreparedContact
-        Contact whose film is solved.
-    film : Film or PointFilm
-        Its film.
-
-    Returns
-    -------
-    PreparedContact or None
-        None where the domain is large enough or cannot be larger, where the grid has nodes and no error to
-        reach, where surfaces are rough, and where oil is supplied at the inlet.
+    Returns None where the domain is large enough or cannot be larger, where the grid has nodes and no error
+    to reach, where surfaces are rough, and where oil is supplied at the inlet.
     """
     case, grid, loss = contact.case, contact.case.grid, film.domain_loss
     if not film.converged or loss is None or grid.target is None or loss <= grid.target:

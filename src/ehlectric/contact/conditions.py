@@ -96,45 +96,33 @@ LINE_FILM_EXPONENT, POINT_FILM_EXPONENT = 0.69, 0.67
 
 @dataclass(frozen=True)
 class Conditions:
-    """Operating conditions of a line contact, SI units.
-
-    Attributes
-    ----------
-    reduced_radius, reduced_modulus, load_per_length : float
-        R [m], E' [Pa] with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, and w [N/m].
-    entrainment_speed : float
-        (u1 + u2)/2 [m/s].
-    slide_to_roll_ratio : float
-        (u1 - u2)/entrainment_speed, dimensionless.
-    viscosity, pressure_viscosity_coefficient : float
-        Viscosity eta0 at ambient pressure [Pa s], and reciprocal asymptotic coefficient alpha* [1/Pa].
-    half_width, max_pressure : float
-        Half-width b [m] and Hertz pressure p_h [Pa] of the dry contact.
-    curvature_share, compliance_share : float
-        Surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only the reduced values are known.
-    boundary_film : float
-        Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
-    hardness : float or None
-        Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
-    film_factor : float
-        Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
-    """
+    """Operating conditions of a line contact, SI units."""
 
     geometry: ClassVar[str] = "line"
 
+    # reduced_radius, reduced_modulus and load_per_length: R [m], E' [Pa] with 2/E' = (1 - nu1^2)/E1 + (1 -
+    # nu2^2)/E2, and w [N/m].
     reduced_radius: float
     reduced_modulus: float
     load_per_length: float
-    entrainment_speed: float
-    slide_to_roll_ratio: float
+    entrainment_speed: float  # (u1 + u2)/2 [m/s]
+    slide_to_roll_ratio: float  # (u1 - u2)/entrainment_speed, dimensionless
+    # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
+    # asymptotic coefficient alpha* [1/Pa].
     viscosity: float
     pressure_viscosity_coefficient: float
+    # half_width and max_pressure: half-width b [m] and Hertz pressure p_h [Pa] of the dry contact.
     half_width: float
     max_pressure: float
+    # curvature_share and compliance_share: surface 1's shares of 1/R and of 2/E', dimensionless; 0.5 if only
+    # the reduced values are known.
     curvature_share: float = 0.5
     compliance_share: float = 0.5
+    # Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
     boundary_film: float = 0.0
+    # Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     hardness: float | None = None
+    # Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``
     film_factor: float = 1.0
 
     @property
@@ -197,31 +185,15 @@ def line_conditions(
 ) -> Conditions:
     """Compute the operating conditions of a line contact from numbers in SI units, without a case.
 
-    Parameters
-    ----------
-    oil : Oil
-        Oil at the temperature of the contact.
-    reduced_radius, reduced_modulus, load_per_length : float
-        R [m], E' [Pa] and w [N/m].
-    entrainment_speed, slide_to_roll_ratio : float
-        (u1 + u2)/2 [m/s], and (u1 - u2)/entrainment_speed, dimensionless.
-    bodies : sequence of float
-        Radii of both bodies [m], if they are known; the dry contact must be small compared to them.
-    curvature_share, compliance_share, film_factor : float
-        Surface 1's shares of 1/R and of 2/E', and the film factor, dimensionless; see ``Conditions``.
-    boundary_film, hardness : float
-        Gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there
-        [Pa].
-
-    Returns
-    -------
-    Conditions
-        Operating conditions, including half-width [m] and Hertz pressure [Pa] of the dry contact.
-
-    Raises
-    ------
-    InputError
-        If the dry contact is too wide for its bodies, or the Hertz pressure is near the ambient pressure.
+    ``reduced_radius``, ``reduced_modulus`` and ``load_per_length``, R [m], E' [Pa] and w [N/m];
+    ``entrainment_speed`` and ``slide_to_roll_ratio``, (u1 + u2)/2 [m/s], and (u1 - u2)/entrainment_speed,
+    dimensionless; ``bodies``, radii of both bodies [m], if they are known; the dry contact must be small
+    compared to them; ``curvature_share``, ``compliance_share`` and ``film_factor``, surface 1's shares of 1/R
+    and of 2/E', and the film factor, dimensionless; see ``Conditions``; ``boundary_film`` and ``hardness``,
+    gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there [Pa].
+    Returns operating conditions, including half-width [m] and Hertz pressure [Pa] of the dry contact. Raises
+    InputError if the dry contact is too wide for its bodies, or the Hertz pressure is near the ambient
+    pressure.
 
     Examples
     --------
@@ -256,53 +228,34 @@ def line_conditions(
 
 @dataclass(frozen=True)
 class PointConditions:
-    """Operating conditions of a point contact, SI units; x runs along entrainment, y across it.
-
-    Attributes
-    ----------
-    radius_x, radius_y : float
-        Reduced radii along and across entrainment [m].
-    reduced_modulus : float
-        E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    load : float
-        F [N].
-    entrainment_speed : float
-        (u1 + u2)/2 [m/s].
-    slide_to_roll_ratio : float
-        (u1 - u2)/entrainment_speed, dimensionless.
-    viscosity, pressure_viscosity_coefficient : float
-        Viscosity eta0 at ambient pressure [Pa s], and reciprocal asymptotic coefficient alpha* [1/Pa].
-    semi_axis_x, semi_axis_y, max_pressure : float
-        Semi-axes b along and a across entrainment [m], and Hertz pressure p_h [Pa] of the dry contact.
-    side : float
-        Half of the domain's width across entrainment, in semi-axes across.
-    compliance_share : float
-        Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
-    boundary_film : float
-        Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
-    hardness : float or None
-        Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
-    film_factor : float
-        Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``.
-    """
+    """Operating conditions of a point contact, SI units; x runs along entrainment, y across it."""
 
     geometry: ClassVar[str] = "point"
 
+    # radius_x and radius_y: reduced radii along and across entrainment [m].
     radius_x: float
     radius_y: float
-    reduced_modulus: float
-    load: float
-    entrainment_speed: float
-    slide_to_roll_ratio: float
+    reduced_modulus: float  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
+    load: float  # F [N]
+    entrainment_speed: float  # (u1 + u2)/2 [m/s]
+    slide_to_roll_ratio: float  # (u1 - u2)/entrainment_speed, dimensionless
+    # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
+    # asymptotic coefficient alpha* [1/Pa].
     viscosity: float
     pressure_viscosity_coefficient: float
+    # semi_axis_x, semi_axis_y and max_pressure: semi-axes b along and a across entrainment [m], and Hertz
+    # pressure p_h [Pa] of the dry contact.
     semi_axis_x: float
     semi_axis_y: float
     max_pressure: float
-    side: float
+    side: float  # half of the domain's width across entrainment, in semi-axes across
+    # Surface 1's share of 2/E', dimensionless; 0.5 if only the reduced modulus is known.
     compliance_share: float = 0.5
+    # Thickness of the boundary film [m] at which the surfaces touch; zero where they are taken not to.
     boundary_film: float = 0.0
+    # Largest pressure where the surfaces touch [Pa]; None for elastic asperities.
     hardness: float | None = None
+    # Film thickness divided by that of an isothermal, fully flooded film, dimensionless; see ``contact``
     film_factor: float = 1.0
 
     @property
@@ -376,36 +329,16 @@ def point_conditions(
 ) -> PointConditions:
     """Compute the operating conditions of a point contact from numbers in SI units, without a case.
 
-    Parameters
-    ----------
-    oil : Oil
-        Oil at the temperature of the contact.
-    radii : tuple of float
-        Reduced radii along and across entrainment [m].
-    reduced_modulus, load : float
-        E' [Pa] and F [N].
-    entrainment_speed, slide_to_roll_ratio : float
-        (u1 + u2)/2 [m/s], and (u1 - u2)/entrainment_speed, dimensionless.
-    bodies : tuple of sequence of float
-        Radii of both bodies along and across entrainment [m], if they are known; the dry contact must be
-        small compared to them.
-    side : float, optional
-        Half of the domain's width, in semi-axes across; ``default_side`` if not given.
-    compliance_share, film_factor : float
-        Surface 1's share of 2/E', and the film factor, dimensionless; see ``PointConditions``.
-    boundary_film, hardness : float
-        Gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there
-        [Pa].
-
-    Returns
-    -------
-    PointConditions
-        Operating conditions, including semi-axes [m] and Hertz pressure [Pa] of the dry contact.
-
-    Raises
-    ------
-    InputError
-        If the dry contact is too wide for its bodies, or the Hertz pressure is near the ambient pressure.
+    ``radii``, reduced radii along and across entrainment [m]; ``reduced_modulus`` and ``load``, E' [Pa] and F
+    [N]; ``entrainment_speed`` and ``slide_to_roll_ratio``, (u1 + u2)/2 [m/s], and (u1 -
+    u2)/entrainment_speed, dimensionless; ``bodies``, radii of both bodies along and across entrainment [m],
+    if they are known; the dry contact must be small compared to them; ``side``, half of the domain's width,
+    in semi-axes across; ``default_side`` if not given; ``compliance_share`` and ``film_factor``, surface 1's
+    share of 2/E', and the film factor, dimensionless; see ``PointConditions``; ``boundary_film`` and
+    ``hardness``, gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure
+    there [Pa]. Returns operating conditions, including semi-axes [m] and Hertz pressure [Pa] of the dry
+    contact. Raises InputError if the dry contact is too wide for its bodies, or the Hertz pressure is near
+    the ambient pressure.
 
     Examples
     --------
@@ -442,16 +375,8 @@ def point_conditions(
 
 def default_side(ratio: float) -> float:
     """Default half-width of the domain of a point contact: 1.6 + 1.4/k, at most 4.5 semi-axes across.
-
-    Parameters
-    ----------
-    ratio : float
-        Ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment, dimensionless.
-
-    Returns
-    -------
-    float
-        Half of the domain's width, in semi-axes across, dimensionless.
+    ``ratio``, ratio k = a/b of the semi-axes of the dry contact, a across and b along entrainment,
+    dimensionless. Returns half of the domain's width, in semi-axes across, dimensionless.
 
     Examples
     --------
@@ -467,21 +392,8 @@ def resolve(case: Case) -> Conditions:
     Two radii are converted to the reduced radius, and a Hertz pressure to the load. Two speeds are converted
     to the entrainment speed and the slide-to-roll ratio.
 
-    Parameters
-    ----------
-    case : Case
-        A valid case of a line contact.
-
-    Returns
-    -------
-    Conditions
-        Operating conditions, SI units.
-
-    Raises
-    ------
-    InputError
-        If the values contradict each other: no positive reduced radius, a Hertz pressure near the ambient
-        pressure, or a dry contact too wide for its bodies. Also if the case is of a point contact.
+    Returns operating conditions, SI units. Raises InputError if the values contradict each other: no positive
+    reduced radius, a Hertz pressure near the ambient pressure, or a dry contact too wide for its bodies.
 
     Examples
     --------
@@ -541,22 +453,9 @@ def resolve_point(case: Case) -> PointConditions:
     The radii of two bodies are converted to the reduced radii, and a Hertz pressure to the load. Two speeds
     are converted to the entrainment speed and the slide-to-roll ratio.
 
-    Parameters
-    ----------
-    case : Case
-        A valid case of a point contact.
-
-    Returns
-    -------
-    PointConditions
-        Operating conditions, SI units.
-
-    Raises
-    ------
-    InputError
-        If the values contradict each other: no positive reduced radius in a plane, a Hertz pressure near the
-        ambient pressure, or a dry contact too wide for its bodies. Also if the grid is too coarse across
-        entrainment, or the case is of a line contact.
+    Returns operating conditions, SI units. Raises InputError if the values contradict each other: no positive
+    reduced radius in a plane, a Hertz pressure near the ambient pressure, or a dry contact too wide for its
+    bodies.
 
     Examples
     --------

@@ -23,25 +23,9 @@ _TEMPERATURES = ("contact.temperature", "contact.temperature_1", "contact.temper
 
 
 def physics_of(case: Case | Setup, conditions: Conditions | PointConditions) -> Physics | None:
-    """Heat and shear of the film of a contact; None for an isothermal Newtonian one.
-
-    Parameters
-    ----------
-    case : Case or Setup
-        Case of the contact. A setup without a case has no heat and no shear.
-    conditions : Conditions or PointConditions
-        Operating conditions of the contact.
-
-    Returns
-    -------
-    Physics or None
-        Rheology, speeds, bodies and oil over temperature, SI units.
-
-    Raises
-    ------
-    InputError
-        If a surface moves against entrainment in a thermal film, or the oil has no values at its
-        temperatures.
+    """Heat and shear of the film of a contact; None for an isothermal Newtonian one. Returns rheology,
+    speeds, bodies and oil over temperature, SI units. Raises InputError if a surface moves against
+    entrainment in a thermal film, or the oil has no values at its temperatures.
 
     Examples
     --------
@@ -91,17 +75,8 @@ def _thermal(case: Case, conditions: Conditions | PointConditions, speeds: tuple
 
 
 def heat_summary(heated: HeatedFilm | None) -> dict[str, Any]:
-    """Numbers within the table ``film`` of summary.json; none of an isothermal Newtonian film.
-
-    Parameters
-    ----------
-    heated : HeatedFilm or None
-        Heat and shear of the film.
-
-    Returns
-    -------
-    dict
-        Values in SI units, with the keys of ``contact.heat.keys``.
+    """Numbers within the table ``film`` of summary.json; none of an isothermal Newtonian film. Returns values
+    in SI units, with the keys of ``contact.heat.keys``.
     """
     if heated is None:
         return {}
@@ -163,19 +138,7 @@ def heat_warnings(
     film: Film | PointFilm,
     physics: Physics | None,
 ) -> Iterator[ResultWarning]:
-    """Warnings about a film with heat or shear; none for an isothermal Newtonian film.
-
-    Parameters
-    ----------
-    case : Case or Setup
-        Case of the contact.
-    conditions : Conditions or PointConditions
-        Operating conditions.
-    film : Film or PointFilm
-        Solved film.
-    physics : Physics or None
-        Heat and shear as they were solved.
-    """
+    """Warnings about a film with heat or shear; none for an isothermal Newtonian film."""
     heated = film.heated
     if heated is None or physics is None:
         return
@@ -384,27 +347,10 @@ def hot_oil(
 ) -> HotOil:
     """Oil over pressure and temperature for the energy equation of a film.
 
-    Parameters
-    ----------
-    lubricant : Lubricant
-        Table of the oil, with density, thermal conductivity and heat capacity.
-    temperatures : tuple of float
-        Temperatures of the oil in the inlet and of both bodies [K].
-    max_pressure : float
-        Hertz pressure [Pa], at which the laws must have values.
-    keys : tuple of str
-        Keys of the temperatures in the file, which a message names; without them it names the lubricant.
-
-    Returns
-    -------
-    HotOil
-        Oil from 20 K below the lowest of the temperatures to 250 K above the highest, or to where its laws
-        have values.
-
-    Raises
-    ------
-    InputError
-        If the laws of the oil have no values in this neighbourhood.
+    ``temperatures``, temperatures of the oil in the inlet and of both bodies [K]; ``max_pressure``, Hertz
+    pressure [Pa], at which the laws must have values. Returns oil from 20 K below the lowest of the
+    temperatures to 250 K above the highest, or to where its laws have values. Raises InputError if the laws
+    of the oil have no values in this neighbourhood.
     """
     oil_at = oil_over_temperature(lubricant)
     ends = []

@@ -50,54 +50,42 @@ ProblemT = TypeVar("ProblemT", FieldProblem, PointFieldProblem)
 
 @dataclass(frozen=True)
 class Kind(Generic[ConditionsT, ContactT, RoughT, FilmT, ProblemT, FieldT]):
-    """Functions of one kind of contact, line or point, for each step in which the kinds differ.
+    """Functions of one kind of contact, line or point, for each step in which the kinds differ."""
 
-    Attributes
-    ----------
-    resolve : callable
-        Case -> operating conditions.
-    domain, spacings : callable
-        Setup, conditions -> domain of the film [m]; setup, conditions -> node spacing along each axis [m].
-    rough : callable
-        Tables of the rough surfaces, domain -> rough surfaces, read from files or generated.
-    film_problem, solve_film : callable
-        Setup, conditions, rough surfaces -> film problem; film problem -> film.
-    field_problem, solve_field : callable
-        Setup, conditions, film, roughness -> field problem; field problem -> field over the whole range.
-    case_warnings, surface_warnings : callable
-        Functions that yield warnings before the solution: about the operating conditions, and about the
-        rough surfaces.
-    result_warnings : callable
-        Setup, film, field -> warnings about the solution.
-    formulas, regime : mapping and callable
-        Published film-thickness formulas by name, and the function that names the lubrication regime.
-    contact_keys, grid_keys, hertz_keys : tuple of str
-        Attributes of the operating conditions that a summary lists under ``inputs.contact``,
-        ``inputs.grid`` and ``hertz``.
-    film_summary, field_summary : callable
-        Solution -> key figures of the film and of the field that are specific to this kind of contact.
-    roughness : callable
-        Solution -> statistics of the roughness over the Hertz zone.
-    """
-
-    resolve: Callable[[Case], ConditionsT]
+    resolve: Callable[[Case], ConditionsT]  # case -> operating conditions
+    # domain and spacings: setup, conditions -> domain of the film [m]; setup, conditions -> node spacing
+    # along each axis [m].
     domain: Callable[[Case | Setup, ConditionsT], Domain]
     spacings: Callable[[Case | Setup, ConditionsT], tuple[float, ...]]
+    # Tables of the rough surfaces, domain -> rough surfaces, read from files or generated.
     rough: Callable[[Sequence[Roughness], Domain], Sequence[RoughT]]
+    # film_problem and solve_film: setup, conditions, rough surfaces -> film problem; film problem -> film.
     film_problem: Callable[[Case | Setup, ConditionsT, Sequence[RoughT]], FilmProblem]
     solve_film: Callable[..., FilmT]
+    # field_problem and solve_field: setup, conditions, film, roughness -> field problem; field problem ->
+    # field over the whole range.
     field_problem: Callable[[Case | Setup, ConditionsT, FilmT, Array], ProblemT]
     solve_field: Callable[[ProblemT], FieldT]
+    # case_warnings and surface_warnings: functions that yield warnings before the solution: about the
+    # operating conditions, and about the rough surfaces.
     case_warnings: Callable[[Case | Setup, ConditionsT], Iterator[ResultWarning]]
     surface_warnings: Callable[..., Iterator[ResultWarning]]
+    # Setup, film, field -> warnings about the solution.
     result_warnings: Callable[[Case | Setup, FilmT, FieldT], Iterator[ResultWarning]]
+    # formulas and regime: published film-thickness formulas by name, and the function that names the
+    # lubrication regime.
     formulas: Mapping[str, Callable[[ContactT], Thickness]]
     regime: Callable[[ContactT], str]
+    # contact_keys, grid_keys and hertz_keys: attributes of the operating conditions that a summary lists
+    # under ``inputs.contact``, ``inputs.grid`` and ``hertz``
     contact_keys: tuple[str, ...]
     grid_keys: tuple[str, ...]
     hertz_keys: tuple[str, ...]
+    # film_summary and field_summary: solution -> key figures of the film and of the field that are specific
+    # to this kind of contact.
     film_summary: Callable[[Solution[ConditionsT, FilmT, FieldT]], dict[str, Any]]
     field_summary: Callable[[Solution[ConditionsT, FilmT, FieldT]], dict[str, Any]]
+    # Solution -> statistics of the roughness over the Hertz zone.
     roughness: Callable[[Solution[ConditionsT, FilmT, FieldT]], RoughnessStatistics]
 
 

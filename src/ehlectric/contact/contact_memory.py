@@ -38,17 +38,8 @@ RECORD_BYTES = 64
 
 
 def check_memory(case: Case) -> None:
-    """Raise a MemoryLimitError if a case does not fit into the available memory.
-
-    Parameters
-    ----------
-    case : Case
-        A valid case.
-
-    Raises
-    ------
-    MemoryLimitError
-        If film and field, or the recorded instants of a motion, need more than the available memory.
+    """Raise a MemoryLimitError if a case does not fit into the available memory. Raises MemoryLimitError if
+    film and field, or the recorded instants of a motion, need more than the available memory.
     """
     if case.motion is not None:
         _check_record(case.motion, case.first_grid, _NODES[case.contact.geometry](case.first_grid))
@@ -57,23 +48,8 @@ def check_memory(case: Case) -> None:
 
 
 def check_grid(geometry: str, grid: Grid, *, rough: bool, heat: str | None = None) -> None:
-    """Raise a MemoryLimitError if film and field on a grid do not fit into memory.
-
-    Parameters
-    ----------
-    geometry : str
-        Geometry of the contact, "line" or "point".
-    grid : Grid
-        Grid of the film and of the field.
-    rough : bool
-        Whether a surface is rough, so that a point contact may not be symmetric about y = 0.
-    heat : str, optional
-        "sheared" or "thermal" for a film with shear, or with heat too.
-
-    Raises
-    ------
-    MemoryLimitError
-        If film and field need more than the available memory.
+    """Raise a MemoryLimitError if film and field on a grid do not fit into memory. Raises MemoryLimitError if
+    film and field need more than the available memory.
     """
     sizes = _SIZES[geometry](grid)
     film, field = _NEEDED[geometry](grid, rough=rough)
@@ -84,17 +60,6 @@ def check_grid(geometry: str, grid: Grid, *, rough: bool, heat: str | None = Non
 
 def heated_memory(geometry: str, grid: Grid, heat: str, *, rough: bool) -> float:
     """Memory that the shear or the heat of a film needs beside that of the film [bytes].
-
-    Parameters
-    ----------
-    geometry : str
-        Geometry of the contact, "line" or "point".
-    grid : Grid
-        Grid of the film.
-    heat : str
-        "sheared" or "thermal".
-    rough : bool
-        Whether a surface is rough.
 
     Examples
     --------
@@ -153,20 +118,8 @@ def line_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
 
 
 def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
-    """Largest memory of the film and of the field of a point contact.
-
-    Parameters
-    ----------
-    grid : Grid
-        Grid of a point contact.
-    rough : bool
-        Whether a surface is rough. If both are smooth and the number of nodes across is odd, only half of the
-        contact is solved.
-
-    Returns
-    -------
-    tuple of float
-        Memory of the film and of the field [bytes].
+    """Largest memory of the film and of the field of a point contact. Returns memory of the film and of the
+    field [bytes].
 
     Examples
     --------

@@ -28,25 +28,14 @@ _MOST_DOUBLED_ROUGH = {"line": 3, "point": 2}
 
 @dataclass(frozen=True)
 class Refined:
-    """Film of the last grid of a refinement, and the setup with this grid.
-
-    Attributes
-    ----------
-    film : Film or PointFilm
-        Film on the last grid.
-    first, setup : Setup
-        Setup with the first grid and with the last one, which have no target.
-    seconds : float
-        Time taken to solve the films on all grids [s].
-    warnings : tuple of ResultWarning
-        A warning if the target error was not reached.
-    """
+    """Film of the last grid of a refinement, and the setup with this grid."""
 
     film: Any
+    # first and setup: setup with the first grid and with the last one, which have no target.
     first: Setup
     setup: Setup
-    seconds: float
-    warnings: tuple[ResultWarning, ...]
+    seconds: float  # time taken to solve the films on all grids [s]
+    warnings: tuple[ResultWarning, ...]  # a warning if the target error was not reached
 
 
 def refined(
@@ -60,25 +49,11 @@ def refined(
 
     The film is solved on one grid only if the grid has no target.
 
-    Parameters
-    ----------
-    setup : Setup
-        Setup with the first grid.
-    geometry : str
-        Geometry of the contact, "line" or "point".
-    problem_of : callable
-        Function that makes the film problem: setup -> problem.
-    solved : callable
-        Function that solves the film and refines its grid: problem -> film.
-    on_grid : callable, optional
-        Function that is called after each grid: grid, discretisation error or None -> None.
-
-    Returns
-    -------
-    Refined
-        Film of the last grid, with a warning if the target error was not reached. The intervals of a line
-        contact's grid are doubled at most eight times, those of a point contact's five times; with rough
-        surfaces three times and twice.
+    ``problem_of``, function that makes the film problem: setup -> problem; ``solved``, function that solves
+    the film and refines its grid: problem -> film; ``on_grid``, function that is called after each grid:
+    grid, discretisation error or None -> None. Returns film of the last grid, with a warning if the target
+    error was not reached; the intervals of a line contact's grid are doubled at most eight times, those of a
+    point contact's five times; with rough surfaces three times and twice.
     """
     started, target = time.perf_counter(), setup.grid.target
     first = replace(setup, grid=_fixed(setup.first_grid))
@@ -99,20 +74,8 @@ def refined(
 
 def finer_grids(setup: Setup, geometry: str, physics: Physics | None) -> tuple[list[Grid], str]:
     """Grids of a refinement from the first one up to the last one that is allowed, and why it is the last.
-
-    Parameters
-    ----------
-    setup : Setup
-        Setup of the contact.
-    geometry : str
-        Geometry of the contact, "line" or "point".
-    physics : Physics or None
-        Rheology and heat of the film, which need memory.
-
-    Returns
-    -------
-    list of Grid, str
-        Grids, each with twice as many intervals as the grid before, and the reason why there is no finer one.
+    Returns grids, each with twice as many intervals as the grid before, and the reason why there is no finer
+    one.
     """
     heat = None if physics is None else "sheared" if physics.thermal is None else "thermal"
     grids, rough = [_fixed(setup.first_grid)], bool(setup.roughness)
@@ -164,43 +127,22 @@ _GROWTH = 1.1
 
 @dataclass(frozen=True)
 class ExpectedGrid:
-    """Grid of a refinement before it is solved.
+    """Grid of a refinement before it is solved."""
 
-    Attributes
-    ----------
-    nodes : int
-        Number of nodes along entrainment, over the whole domain.
-    solved : float
-        Number of nodes that are solved for.
-    error : float or None
-        Relative discretisation error of the film that is expected on this grid; None if it is not known.
-    """
-
-    nodes: int
+    nodes: int  # number of nodes along entrainment, over the whole domain
     solved: float
+    # Relative discretisation error of the film that is expected on this grid; None if it is not known.
     error: float | None
 
 
 @dataclass(frozen=True)
 class Reach:
-    """Grids of a refinement and what is expected of them, before the film is solved.
+    """Grids of a refinement and what is expected of them, before the film is solved."""
 
-    Attributes
-    ----------
-    key : str
-        Key of the grid that asks for the error, "error" or "refine".
-    target : float
-        Relative error that is asked for.
-    grids : tuple of ExpectedGrid
-        All grids up to the finest one that is allowed.
-    seconds_a_node : float
-        Time that the film takes for each node [s].
-    """
-
-    key: str
-    target: float
-    grids: tuple[ExpectedGrid, ...]
-    seconds_a_node: float
+    key: str  # key of the grid that asks for the error, "error" or "refine"
+    target: float  # relative error that is asked for
+    grids: tuple[ExpectedGrid, ...]  # all grids up to the finest one that is allowed
+    seconds_a_node: float  # time that the film takes for each node [s]
 
     def last(self, done: int = 0, error: float | None = None) -> int | None:
         """Number of the grid on which the refinement will end, counted from 1; None if it is not known.
@@ -255,17 +197,7 @@ class Reach:
 
 
 def reach_of(setup: Setup, geometry: str, problem: FilmProblem) -> Reach:
-    """Expected errors and times of the grids of a refinement.
-
-    Parameters
-    ----------
-    setup : Setup
-        Setup of the contact, whose grid has a target.
-    geometry : str
-        Geometry of the contact, "line" or "point".
-    problem : FilmProblem
-        Film problem of the contact on its first grid.
-    """
+    """Expected errors and times of the grids of a refinement."""
     assert setup.grid.target is not None
     grids, _ = finer_grids(setup, geometry, problem.physics)
     return Reach(
@@ -281,13 +213,8 @@ def reach_of(setup: Setup, geometry: str, problem: FilmProblem) -> Reach:
 
 class FilmProgress:
     """Progress of a contact's film in words: its grid, the error so far, and about the time that is left.
-
-    Parameters
-    ----------
-    reach : Reach or None
-        Expected errors of the grids; None of a grid that is not refined.
-    clock : callable
-        Function that returns the time [s].
+    ``reach``, expected errors of the grids; None of a grid that is not refined; ``clock``, function that
+    returns the time [s].
     """
 
     def __init__(self, reach: Reach | None, clock: Callable[[], float] = time.perf_counter) -> None:

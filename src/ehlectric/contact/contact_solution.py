@@ -44,16 +44,10 @@ FieldT = TypeVar("FieldT", bound=Field | PointField)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Smooth(Values):
-    """Film and field of a rough contact that is solved with smooth surfaces, for comparison.
+    """Film and field of a rough contact that is solved with smooth surfaces, for comparison."""
 
-    Attributes
-    ----------
-    pressure, thickness : ndarray, shape (nx,) or (nx, ny)
-        Pressure [Pa] and film thickness [m] at the film's nodes.
-    middle_strength : ndarray, shape (mx,) or (mx, my)
-        Field strength at mid-film, at the columns of the field [V/m].
-    """
-
+    # pressure and thickness: pressure [Pa] and film thickness [m] at the film's nodes, shape (nx,) or
+    # (nx, ny).
     pressure: Array = dataclasses.field(
         metadata=stored("nodes", "Pa", "not negative", "pressure of smooth surfaces")
     )
@@ -64,7 +58,7 @@ class Smooth(Values):
         metadata=stored(
             "columns", "V/m", "not negative", "electric field strength at mid-film of smooth surfaces"
         )
-    )
+    )  # field strength at mid-film, at the columns of the field [V/m], shape (mx,) or (mx, my)
 
     @property
     def minimum_thickness(self) -> float:
@@ -74,46 +68,29 @@ class Smooth(Values):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution(Shown, Generic[ConditionsT, FilmT, FieldT]):
-    """Film and field of one contact.
+    """Film and field of one contact."""
 
-    Attributes
-    ----------
-    case : Case or Setup
-        Case that was solved, or setup if the contact was solved without a case.
-    conditions : Conditions or PointConditions
-        Operating conditions, SI units.
-    film, field : Film and Field, or PointFilm and PointField
-        Film and electric field, SI units.
-    roughness : ndarray, shape (2, nx) or (2, nx, ny)
-        Roughness heights of both surfaces at the film's nodes, positive out of the body [m].
-    rough : tuple of dict
-        Source of each rough surface, and its statistics after each processing step, SI units.
-    smooth : Smooth or None
-        Same contact with smooth surfaces; None if the surfaces are smooth, or if it was not solved.
-    coarser : Coarser or None
-        Asperities of the same contact on a grid with half the nodes; None if its surfaces do not touch, or if
-        it was not solved.
-    warnings : tuple of ResultWarning
-        Warnings about unreliable results, each with a code and a severity.
-    film_solver, field_solver : str
-        Solver of the film and of the field: "ehlectric", or "paper" for the methods of the paper.
-    film_seconds, field_seconds : float
-        Time taken by the solvers of the film and of the field [s].
-    version, date : str
-        Version of the program, and date of the solution (ISO 8601).
-    """
-
-    case: Case | Setup
-    conditions: ConditionsT
+    case: Case | Setup  # case that was solved, or setup if the contact was solved without a case
+    conditions: ConditionsT  # operating conditions, SI units
+    # film and field: film and electric field, SI units.
     film: FilmT
+    # Roughness heights of both surfaces at the film's nodes, positive out of the body [m], shape (2, nx) or
+    # (2, nx, ny).
     roughness: Array
+    # Source of each rough surface, and its statistics after each processing step, SI units.
     rough: tuple[dict[str, Any], ...]
+    # Same contact with smooth surfaces; None if the surfaces are smooth, or if it was not solved.
     smooth: Smooth | None
+    # Asperities of the same contact on a grid with half the nodes; None if its surfaces do not touch, or if
+    # it was not solved.
     coarser: Coarser | None
     field: FieldT
-    warnings: tuple[ResultWarning, ...]
+    warnings: tuple[ResultWarning, ...]  # warnings about unreliable results, each with a code and a severity
+    # film_solver and field_solver: solver of the film and of the field: "ehlectric", or "paper" for the
+    # methods of the paper.
     film_solver: str
     field_solver: str
+    # film_seconds and field_seconds: time taken by the solvers of the film and of the field [s].
     film_seconds: float = dataclasses.field(compare=False)
     field_seconds: float = dataclasses.field(compare=False)
     version: str
@@ -224,29 +201,20 @@ PointSolution = Solution[PointConditions, PointFilm, PointField]
 
 @dataclass(frozen=True)
 class RoughnessStatistics:
-    """Statistics of the roughness over the Hertz zone, and ratios of film thickness to roughness.
+    """Statistics of the roughness over the Hertz zone, and ratios of film thickness to roughness."""
 
-    Attributes
-    ----------
-    rq_1, rq_2, rq_combined : float
-        Root-mean-square heights of surface 1, of surface 2, and of the sum of both surfaces [m].
-    combined : mapping
-        All statistics of the sum of both surfaces, SI units.
-    lambda_ratio : float or None
-        Minimum film thickness divided by ``rq_combined``, dimensionless; None if the Hertz zone is smooth.
-    lambda_ratio_smooth : float or None
-        ``smooth_minimum_thickness`` divided by ``rq_combined``, dimensionless; None if the Hertz zone is
-        smooth or the smooth contact was not solved.
-    smooth_minimum_thickness : float or None
-        Minimum film thickness of the same contact with smooth surfaces [m]; None if it was not solved.
-    """
-
+    # rq_1, rq_2 and rq_combined: root-mean-square heights of surface 1, of surface 2, and of the sum of both
+    # surfaces [m].
     rq_1: float
     rq_2: float
     rq_combined: float
-    combined: Mapping[str, float]
+    combined: Mapping[str, float]  # all statistics of the sum of both surfaces, SI units
+    # Minimum film thickness divided by ``rq_combined``, dimensionless; None if the Hertz zone is smooth.
     lambda_ratio: float | None
+    # ``smooth_minimum_thickness`` divided by ``rq_combined``, dimensionless; None if the Hertz zone is smooth
+    # or the smooth contact was not solved.
     lambda_ratio_smooth: float | None
+    # Minimum film thickness of the same contact with smooth surfaces [m]; None if it was not solved.
     smooth_minimum_thickness: float | None
 
 

@@ -71,33 +71,12 @@ def contact_factors(
 ) -> FilmFactors:
     """Film factors of a contact: measured over computed central film thickness, row by row, and their mean.
 
-    Parameters
-    ----------
-    case : Case
-        Case of the contact. Its entrainment speed stands for those that the measurement does not have; its
-        surfaces are taken as smooth.
-    measured : Measurement
-        Rows with a film thickness.
-    contacts : str
-        "solved" for films that are solved at three to seven speeds and interpolated between them, "atlas" for
-        films from the atlas, and by formula where it has none, or "formula" for the formulas of Nijenbanning,
-        Venner and Moes (points) and of Moes (lines).
-    uncertainty : float, optional
-        Relative standard uncertainty of the film, where the measurement states none.
-    progress : callable, optional
-        Called with the number of solved films, the number of all films, and a text.
-
-    Returns
-    -------
-    FilmFactors
-        Rows, mean with its interval, and warnings.
-
-    Raises
-    ------
-    InputError
-        Where the measurement has no film, or too many different speeds; where the case moves.
-    ConvergenceError
-        Where a film does not converge.
+    ``contacts``, "solved" for films that are solved at three to seven speeds and interpolated between them,
+    "atlas" for films from the atlas, and by formula where it has none, or "formula" for the formulas of
+    Nijenbanning, Venner and Moes (points) and of Moes (lines); ``uncertainty``, relative standard uncertainty
+    of the film, where the measurement states none. Returns rows, mean with its interval, and warnings. Raises
+    InputError where the measurement has no film, or too many different speeds; where the case moves;
+    ConvergenceError where a film does not converge.
     """
     if case.motion is not None:
         raise InputError("motion", "is not used with a measurement", takes="a stationary contact")
@@ -144,12 +123,8 @@ def _changes(case: Case, measured: Measurement) -> tuple[Mapping[str, Any], ...]
 
 
 def _formula_films(case: Case, rows: Sequence[Mapping[str, Any]], measured: Measurement) -> Array:
-    """Central film by formula of each row [m], shape (n,).
-
-    Raises
-    ------
-    InputError
-        Where a row is no case, for example at a temperature for which the oil has no data; with its line.
+    """Central film by formula of each row [m], shape (n,). Raises InputError where a row is no case, for
+    example at a temperature for which the oil has no data; with its line.
     """
     kind, known = KINDS[case.contact.geometry], dict[tuple[Any, ...], float]()
     formula = kind.formulas[FORMULA[case.contact.geometry]]

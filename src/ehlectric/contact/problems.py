@@ -41,35 +41,18 @@ class Setup:
     """Inputs of a contact other than its operating conditions.
 
     A ``Case`` has the same attributes. Functions that read only these attributes accept a case or a setup.
-
-    Attributes
-    ----------
-    oil : Oil
-        Oil at the temperature of the contact.
-    grid : Grid
-        Grid of the film and of the field; the grid of a point contact must have a ``field_side``.
-    electric : Electric
-        Potentials of the two surfaces.
-    solver : Solver
-        Tolerance and largest number of iterations of the film solver.
-    discharge : Discharge or None
-        Dielectric strength and other inputs of a discharge; None if no discharge is assessed.
-    roughness : tuple of Roughness
-        Tables of the rough surfaces; empty if both surfaces are smooth.
-    title : str
-        Title of files and figures.
-    inlet : Inlet or None
-        Oil that is supplied to a starved contact; None if the inlet is flooded.
     """
 
     oil: Oil
-    grid: Grid
-    electric: Electric = field(default_factory=Electric)
+    grid: Grid  # grid of the film and of the field; the grid of a point contact must have a ``field_side``
+    electric: Electric = field(default_factory=Electric)  # potentials of the two surfaces
+    # Tolerance and largest number of iterations of the film solver.
     solver: Solver = field(default_factory=Solver)
+    # Dielectric strength and other inputs of a discharge; None if no discharge is assessed.
     discharge: Discharge | None = None
-    roughness: tuple[Roughness, ...] = ()
+    roughness: tuple[Roughness, ...] = ()  # tables of the rough surfaces; empty if both surfaces are smooth
     title: str = ""
-    inlet: Inlet | None = None
+    inlet: Inlet | None = None  # oil that is supplied to a starved contact; None if the inlet is flooded
 
     @property
     def first_grid(self) -> Grid:
@@ -104,20 +87,9 @@ class Setup:
 
 
 def oil_supply(inlet: Inlet | None, conditions: Conditions | PointConditions) -> OilSupply | None:
-    """Supply of oil of a film problem; None where the inlet is flooded.
-
-    Parameters
-    ----------
-    inlet : Inlet or None
-        Table ``inlet`` of a case.
-    conditions : Conditions or PointConditions
-        Operating conditions, whose scales make the layer dimensionless.
-
-    Returns
-    -------
-    OilSupply or None
-        Layer over Y = y/b in units of b^2/R, or the ratio of films. Beyond the ends of a table its first and
-        last thickness hold.
+    """Supply of oil of a film problem; None where the inlet is flooded. ``conditions``, operating conditions,
+    whose scales make the layer dimensionless. Returns layer over Y = y/b in units of b^2/R, or the ratio of
+    films; beyond the ends of a table its first and last thickness hold.
 
     Examples
     --------
@@ -238,21 +210,9 @@ def point_field_problem(
     setup: Case | Setup, conditions: PointConditions, film: PointFilm, roughness: Array
 ) -> PointFieldProblem:
     """Field problem of a point contact with a known film; cavitated regions count as full of oil.
-
-    Parameters
-    ----------
-    setup, conditions : Case or Setup, PointConditions
-        Lubricant, potentials and grid; operating conditions.
-    film : PointFilm
-        Film of the contact.
-    roughness : ndarray, shape (2, nx, ny)
-        Heights of both surfaces at the film's nodes [m].
-
-    Returns
-    -------
-    PointFieldProblem
-        Poisson problem on the columns that the grid defines. It covers only the half y >= 0 if film and
-        surfaces are symmetric about y = 0.
+    ``roughness``, heights of both surfaces at the film's nodes [m], shape (2, nx, ny). Returns Poisson
+    problem on the columns that the grid defines; it covers only the half y >= 0 if film and surfaces are
+    symmetric about y = 0.
     """
     grid = setup.grid
     assert grid.field_side is not None
@@ -414,20 +374,8 @@ def heights_of(rough: Sequence[RoughSurface] | Sequence[RoughMap], *axes: Array)
 
 def field_problem(setup: Case | Setup, conditions: Conditions, film: Film, roughness: Array) -> FieldProblem:
     """Field problem of a line contact with a known film; cavitated regions count as full of oil.
-
-    Parameters
-    ----------
-    setup, conditions : Case or Setup, Conditions
-        Lubricant, potentials and grid; operating conditions.
-    film : Film
-        Film of the contact.
-    roughness : ndarray, shape (2, nx)
-        Heights of both surfaces at the film's nodes [m].
-
-    Returns
-    -------
-    FieldProblem
-        Poisson problem on the columns that the grid defines.
+    ``roughness``, heights of both surfaces at the film's nodes [m], shape (2, nx). Returns Poisson problem on
+    the columns that the grid defines.
     """
     x = _columns(setup, conditions, film, refine=bool(np.any(roughness)))
     lower, upper = surfaces(conditions, film, roughness)

@@ -41,12 +41,8 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
     """Film and field of one contact, with the summary and the dataset that files and figures use."""
 
     def summary(self) -> dict[str, Any]:
-        """Key figures in SI units, as nested tables with the keys of summary.json.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists; None if a value has no meaning, never NaN.
+        """Key figures in SI units, as nested tables with the keys of summary.json. Returns numbers, texts and
+        lists; None if a value has no meaning, never NaN.
         """
         return summary_of(self)
 
@@ -55,13 +51,9 @@ class ContactResult(Solution[ConditionsT, FilmT, FieldT]):
         return dataset_of(self, summary_of(self))
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Film node by node as a table of pandas, the same as film.csv.
-
-        Returns
-        -------
-        pandas.DataFrame
-            Positions ``x`` (and ``y``), ``pressure``, ``thickness`` and ``density`` of every node in SI
-            units; ``attrs["units"]`` has the unit of each column.
+        """Film node by node as a table of pandas, the same as film.csv. Returns positions ``x`` (and ``y``),
+        ``pressure``, ``thickness`` and ``density`` of every node in SI units; ``attrs["units"]`` has the unit
+        of each column.
         """
         import pandas as pd
 

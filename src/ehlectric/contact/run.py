@@ -94,32 +94,9 @@ def run(
 ) -> RunOutcome[Result | PointResult]:
     """Solve a contact, and write summary.json, result.nc and film.csv.
 
-    Parameters
-    ----------
-    case : Case
-        Case without ``motion``.
-    folder : str or Path
-        Folder of the files; it is made if it does not exist.
-    progress : callable, optional
-        Called with 0, 0 and a text: the number of Newton steps is not known before. The text has the grid,
-        the error of the grid before, and about the time that is left.
-    solvers : Solvers, optional
-        Solvers of film and field; by default those of the package.
-    others : sequence of str, optional
-        Names of other files in the folder that belong to its result, such as figures. Those of an earlier
-        result are removed when the contact is solved.
-    further : mapping of str to bytes or callable, optional
-        Content of further files by their names, which are written together with the others.
-
-    Returns
-    -------
-    RunOutcome
-        With a ``failure`` where the film is not converged; its files are written all the same.
-
-    Raises
-    ------
-    InputError
-        Where the case or the folder cannot be used, or another command writes into the folder.
+    ``folder``, folder of the files; it is made if it does not exist. Returns with a ``failure`` where the
+    film is not converged; its files are written all the same. Raises InputError where the case or the folder
+    cannot be used, or another command writes into the folder.
 
     Examples
     --------

@@ -49,21 +49,13 @@ _LEAST_NODES = 33
 
 @dataclass(frozen=True, repr=False)
 class Solvers:
-    """Solvers of the film and of the field of a contact.
-
-    Attributes
-    ----------
-    name : str
-        Name of the solvers in commands and in results.
-    film, field : mapping
-        Function that solves a film problem or a field problem, by the geometry of the contact.
-    accept : callable
-        Function that returns a case as these solvers solve it, or raises an InputError if they cannot.
-    """
+    """Solvers of the film and of the field of a contact."""
 
     name: str
+    # film and field: function that solves a film problem or a field problem, by the geometry of the contact.
     film: Mapping[str, Callable[..., Any]]
     field: Mapping[str, Callable[..., Any]]
+    # Function that returns a case as these solvers solve it, or raises an InputError if they cannot.
     accept: Callable[[Case], Case]
 
     def __repr__(self) -> str:
@@ -91,37 +83,11 @@ def solve(
 ) -> Result | PointResult:
     """Solve the film and the electric field of a case.
 
-    Parameters
-    ----------
-    case : Case
-        Case of a line or point contact, without ``motion``.
-    progress : callable, optional
-        Called with (nodes, Newton step, residual) before every Newton step of the film.
-    require_convergence : bool
-        Whether to raise a ConvergenceError if the film does not converge, instead of returning its status.
-    solvers : Solvers
-        Solvers of this package, or solvers of ``ehlectric.paper.paper_contacts``.
-    beside_smooth : bool
-        Whether to solve a rough contact with smooth surfaces too, for ``Result.smooth``.
-    prepared : PreparedContact, optional
-        Contact of the same case as returned by ``check_case``; surface files are then not read again.
-    laws : Laws, optional
-        Laws of the user's own in place of those of the case: functions of pressure and temperature.
-    on_grid : callable, optional
-        Called with the grid and its discretisation error, or None, after each grid of a refinement.
-
-    Returns
-    -------
-    Result or PointResult
-        Result of a line contact or of a point contact. If the film did not converge, ``converged`` is False
-        and the field belongs to the last iterate of the film.
-
-    Raises
-    ------
-    InputError
-        If the values of the case contradict each other, or the case has a table ``motion``.
-    ConvergenceError
-        If the film did not converge and ``require_convergence`` is True, or if the field did not converge.
+    ``require_convergence``, whether to raise a ConvergenceError if the film does not converge, instead of
+    returning its status; ``on_grid``, called with the grid and its discretisation error, or None, after each
+    grid of a refinement. Returns result of a line contact or of a point contact. Raises InputError if the
+    values of the case contradict each other, or the case has a table ``motion``; ConvergenceError if the film
+    did not converge and ``require_convergence`` is True, or if the field did not converge.
 
     Examples
     --------
@@ -168,39 +134,10 @@ def solve_contact(
 ) -> Result | PointResult:
     """Solve the film and the electric field of a contact from its operating conditions, without a case.
 
-    Parameters
-    ----------
-    conditions : Conditions or PointConditions
-        Operating conditions from ``line_conditions`` or ``point_conditions``; a ``film_factor`` below 1
-        reduces the film thickness.
-    oil : Oil
-        Oil from which the operating conditions were computed.
-    grid : Grid
-        Grid of the film and of the field; the grid of a point contact must have a ``field_side``.
-    electric, solver : Electric and Solver, optional
-        Potentials of the surfaces, and stopping rule of the film solver; defaults as in a case file.
-    discharge : Discharge, optional
-        Dielectric strength and other inputs of a discharge; without it no discharge is assessed.
-    roughness, rough : sequences, optional
-        Tables of the rough surfaces, and the surfaces made from them. Without ``rough`` the surfaces are
-        read from files or generated.
-    title : str
-        Title of files and figures.
-    progress, require_convergence, beside_smooth
-        See ``solve``.
-
-    Returns
-    -------
-    Result or PointResult
-        Result of a line contact or of a point contact; its ``case`` is a ``Setup``. ``load`` cannot read a
-        file of this result.
-
-    Raises
-    ------
-    InputError
-        If a surface cannot be used, or film and field need more than the available memory.
-    ConvergenceError
-        If the film did not converge and ``require_convergence`` is True, or if the field did not converge.
+    Returns result of a line contact or of a point contact; its ``case`` is a ``Setup``; ``load`` cannot read
+    a file of this result. Raises InputError if a surface cannot be used, or film and field need more than the
+    available memory; ConvergenceError if the film did not converge and ``require_convergence`` is True, or if
+    the field did not converge.
 
     Examples
     --------

@@ -140,11 +140,7 @@ def stored_case(attributes: Mapping[Any, Any]) -> Case:
 
 def parts_of(dataset: xr.Dataset, geometry: str, scales: Scales) -> dict[str, Any]:
     """Arguments of the result of a contact without its case, from its dataset, which is checked before.
-
-    Raises
-    ------
-    UnfitError
-        Where a variable or an attribute is missing, or is not as ``dataset_of`` makes it.
+    Raises UnfitError where a variable or an attribute is missing, or is not as ``dataset_of`` makes it.
     """
     form, attributes = _FORMS[geometry], dataset.attrs
     least = dict.fromkeys((*form.nodes, *(f"{axis}_field" for axis in form.nodes), "s"), 2)

@@ -21,17 +21,8 @@ SCHEMA = "ehlectric.summary/1"
 
 
 def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
-    """Key figures of a solved contact in SI units, as nested tables with the keys of summary.json.
-
-    Parameters
-    ----------
-    solution : Solution
-        Film and field of the contact.
-
-    Returns
-    -------
-    dict
-        Numbers, texts and lists; None if a value has no meaning, never NaN.
+    """Key figures of a solved contact in SI units, as nested tables with the keys of summary.json. Returns
+    numbers, texts and lists; None if a value has no meaning, never NaN.
     """
     kind, film, conditions = KINDS[solution.conditions.geometry], solution.film, solution.conditions
     summary: dict[str, Any] = {
@@ -108,19 +99,8 @@ def _field(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
 
 def case_summary(case: Case | Setup, conditions: Conditions | PointConditions) -> dict[str, Any]:
     """Key figures that are known before a contact is solved, in SI units, with the keys of summary.json.
-
-    Parameters
-    ----------
-    case : Case or Setup
-        Inputs of the contact.
-    conditions : Conditions or PointConditions
-        Operating conditions of the contact.
-
-    Returns
-    -------
-    dict
-        Inputs, dimensionless groups, dry contact, lubrication regime, and film thickness from the published
-        formulas.
+    Returns inputs, dimensionless groups, dry contact, lubrication regime, and film thickness from the
+    published formulas.
     """
     return {
         "schema": SCHEMA.replace("summary", "check"),

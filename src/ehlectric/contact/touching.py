@@ -50,39 +50,19 @@ class Spots:
     Two nodes are in one spot if they are neighbours along an axis of the grid. Nodes that are neighbours
     along a diagonal only are two spots, as the film between them is connected. In a line contact a spot is a
     strip that is as long as the contact.
-
-    Attributes
-    ----------
-    areas : ndarray, shape (n,)
-        Area of each spot [m^2]; of a line contact its width [m].
-    positions : ndarray, shape (n, d)
-        Centre of the area of each spot (x,) or (x, y) [m].
-    nodes : ndarray of int, shape (n,)
-        Number of nodes of each spot.
-    loads : ndarray, shape (n,)
-        Load that each spot carries [N]; of a line contact per length [N/m].
-    edge : float
-        Largest error of the total area because edges of spots lie somewhere between two nodes [m^2] or [m].
     """
 
-    areas: Array
-    positions: Array
-    nodes: NDArray[np.int_]
-    loads: Array
+    areas: Array  # area of each spot [m^2]; of a line contact its width [m], shape (n,)
+    positions: Array  # centre of the area of each spot (x,) or (x, y) [m], shape (n, d)
+    nodes: NDArray[np.int_]  # number of nodes of each spot, shape (n,)
+    loads: Array  # load that each spot carries [N]; of a line contact per length [N/m], shape (n,)
+    # Largest error of the total area because edges of spots lie somewhere between two nodes [m^2] or [m].
     edge: float
 
     @classmethod
     def of(cls, axes: tuple[Array, ...], contact: Mask, pressure: Array) -> Spots:
-        """Find the spots of a contact.
-
-        Parameters
-        ----------
-        axes : tuple of ndarray
-            Nodes along each axis [m].
-        contact : ndarray of bool, shape (nx,) or (nx, ny)
-            Nodes where the surfaces touch.
-        pressure : ndarray, shape of ``contact``
-            Contact pressure [Pa].
+        """Find the spots of a contact. ``axes``, nodes along each axis [m]; ``contact``, nodes where the
+        surfaces touch, shape (nx,) or (nx, ny); ``pressure`` [Pa].
 
         Examples
         --------
@@ -146,19 +126,9 @@ def _edge(axes: tuple[Array, ...], contact: Mask) -> float:
 
 
 def weighted_percentiles(values: Array, weights: Array, shares: ArrayLike) -> Array:
-    """Values below which given shares of the weight lie.
-
-    Parameters
-    ----------
-    values, weights : ndarray, shape (...)
-        Values in any unit, and their weights, >= 0.
-    shares : array_like, shape (n,)
-        Shares from 0 to 1.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Smallest value up to which at least each share of the weight lies.
+    """Values below which given shares of the weight lie. ``values`` and ``weights``, values in any unit, and
+    their weights, >= 0, shape (...); ``shares``, shares from 0 to 1, shape (n,). Returns smallest value up to
+    which at least each share of the weight lies, shape (n,).
 
     Examples
     --------
@@ -178,17 +148,10 @@ THIN_SHARES = (0.01, 0.05, 0.5)
 
 @dataclass(frozen=True)
 class Coarser:
-    """Asperities of the same contact on a grid with half the nodes along each axis.
+    """Asperities of the same contact on a grid with half the nodes along each axis."""
 
-    Attributes
-    ----------
-    load_share : float
-        Part of the load that asperities carry.
-    contact_area_share : float
-        Part of the area of the dry smooth contact in which the surfaces touch.
-    """
-
-    load_share: float = field(metadata=number("not negative"))
+    load_share: float = field(metadata=number("not negative"))  # part of the load that asperities carry
+    # Part of the area of the dry smooth contact in which the surfaces touch.
     contact_area_share: float = field(metadata=number("not negative"))
 
 
@@ -197,57 +160,42 @@ class Touching:
     """Load and area of the spots of a solved contact, and the film around them, SI units.
 
     Areas of a point contact [m^2] are widths of a line contact [m].
-
-    Attributes
-    ----------
-    boundary_film : float
-        Gap at which the surfaces touch [m].
-    load_share : float
-        Part of the load that the contact pressure of the asperities carries, from 0 to 1.
-    contact_area : float
-        Real area of contact: that of the nodes that touch.
-    contact_area_share : float
-        Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1.
-    contact_area_error : float or None
-        Relative error of ``contact_area``, the larger of two: the edges of spots lie between nodes, and the
-        area of the Hertz zone in contact changed from a grid with half the nodes. From 1 on, a fine grid may
-        have no spots at all. None without spots.
-    spots, spots_of_one_node : int
-        Number of spots, and of those that are a single node and so are not resolved.
-    mean_spot, largest_spot : float or None
-        Mean and largest area of a spot; None without spots.
-    mean_film, least_film : float or None
-        Mean and least film thickness in the Hertz zone outside of the spots [m]; None if they cover it.
-    film_1, film_5, film_50 : float or None
-        Film thickness below which 1, 5 and 50 % of the area of the Hertz zone outside of the spots lie [m].
-    rq_deformed : float or None
-        Root mean square of the film thickness less that of smooth surfaces, about its mean over the Hertz
-        zone [m]; None if the contact was not solved with smooth surfaces.
-    lambda_undeformed, lambda_deformed : float or None
-        Mean film thickness in the Hertz zone, spots included, over the combined Rq of the surfaces as they
-        are, and over ``rq_deformed``; None without such an Rq.
-    boundary_friction : float or None
-        Share of asperities in the friction coefficient of sliding, ``load_share`` times the coefficient of
-        the case; None if the case gives none.
     """
 
-    boundary_film: float
-    load_share: float
-    contact_area: float
+    boundary_film: float  # gap at which the surfaces touch [m]
+    load_share: float  # part of the load that the contact pressure of the asperities carries, from 0 to 1
+    contact_area: float  # real area of contact: that of the nodes that touch
+    # Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1
     contact_area_share: float
+    # Relative error of ``contact_area``, the larger of two: the edges of spots lie between nodes, and the
+    # area of the Hertz zone in contact changed from a grid with half the nodes. From 1 on, a fine grid may
+    # have no spots at all. None without spots.
     contact_area_error: float | None
+    # spots and spots_of_one_node: number of spots, and of those that are a single node and so are not
+    # resolved.
     spots: int
     spots_of_one_node: int
+    # mean_spot and largest_spot: mean and largest area of a spot; None without spots.
     mean_spot: float | None
     largest_spot: float | None
+    # mean_film and least_film: mean and least film thickness in the Hertz zone outside of the spots [m]; None
+    # if they cover it.
     mean_film: float | None
     least_film: float | None
+    # film_1, film_5 and film_50: film thickness below which 1, 5 and 50 % of the area of the Hertz zone
+    # outside of the spots lie [m].
     film_1: float | None
     film_5: float | None
     film_50: float | None
+    # Root mean square of the film thickness less that of smooth surfaces, about its mean over the Hertz zone
+    # [m]; None if the contact was not solved with smooth surfaces.
     rq_deformed: float | None
+    # lambda_undeformed and lambda_deformed: mean film thickness in the Hertz zone, spots included, over the
+    # combined Rq of the surfaces as they are, and over ``rq_deformed``; None without such an Rq.
     lambda_undeformed: float | None
     lambda_deformed: float | None
+    # Share of asperities in the friction coefficient of sliding, ``load_share`` times the coefficient of the
+    # case; None if the case gives none.
     boundary_friction: float | None
 
 
@@ -282,27 +230,9 @@ def touching(
 ) -> Touching:
     """Load, area and film of a contact whose surfaces touch in spots.
 
-    Parameters
-    ----------
-    conditions : Conditions or PointConditions
-        Operating conditions.
-    film : Film or PointFilm
-        Solved film.
-    spots : Spots
-        Spots of the film.
-    rq : float
-        Combined Rq of the surfaces over the Hertz zone before they are deformed [m].
-    smooth : ndarray or None
-        Film thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved.
-    friction : float or None
-        Friction coefficient of sliding boundary films.
-    coarser : Coarser, optional
-        Asperities on a grid with half the nodes.
-
-    Returns
-    -------
-    Touching
-        Load share, areas, film around the spots, roughness and friction.
+    ``rq``, combined Rq of the surfaces over the Hertz zone before they are deformed [m]; ``smooth``, film
+    thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved. Returns load
+    share, areas, film around the spots, roughness and friction.
     """
     zone = hertz_weights(film, conditions.semi_axes)
     touched = film.contact
@@ -362,42 +292,20 @@ class OilBalance:
 
     The mean flow is that of the mean mass of the oil in the Hertz zone at the entrainment speed, over the
     width of the zone.
-
-    Attributes
-    ----------
-    mass_error : float
-        Sum of both parts.
-    oil_lost : float
-        Oil that enters nodes where the surfaces touch and does not leave them.
-    oil_made : float
-        Oil that leaves cavitated nodes in the Hertz zone or in a spot in excess of what enters them, where
-        oil fills the gap again further downstream within the zone. Each refilling along a streamline counts,
-        so that it may be above 1.
     """
 
-    mass_error: float
-    oil_lost: float
+    mass_error: float  # sum of both parts
+    oil_lost: float  # oil that enters nodes where the surfaces touch and does not leave them
+    # Oil that leaves cavitated nodes in the Hertz zone or in a spot in excess of what enters them, where oil
+    # fills the gap again further downstream within the zone.
     oil_made: float
 
 
 def oil_balance(
     case: Case | Setup, conditions: Conditions | PointConditions, film: Film | PointFilm
 ) -> OilBalance | None:
-    """Balance of the oil of a converged stationary film, from its pressure and thickness.
-
-    Parameters
-    ----------
-    case : Case or Setup
-        Case of the contact, for its oil and its scheme.
-    conditions : Conditions or PointConditions
-        Operating conditions.
-    film : Film or PointFilm
-        Converged film.
-
-    Returns
-    -------
-    OilBalance or None
-        Oil lost and made; None where the nodes are not equidistant, as those of a film with a patch.
+    """Balance of the oil of a converged stationary film, from its pressure and thickness. Returns oil lost
+    and made; None where the nodes are not equidistant, as those of a film with a patch.
     """
     if film.mass_residual is not None:
         return OilBalance(film.mass_residual, oil_lost=0.0, oil_made=film.mass_residual)
@@ -480,50 +388,34 @@ _MOST_SOLVED = 2000
 
 @dataclass(frozen=True)
 class Electrical:
-    """Resistance of the spots of a contact, and capacitance and breakdown of the film around them, SI units.
+    """Resistance of the spots of a contact; capacitance and breakdown of the film around them, SI units."""
 
-    Attributes
-    ----------
-    behaviour : str
-        "resistive", "mixed" or "capacitive"; see ``behaviour_of``.
-    time_share : float
-        Share of the time with at least one spot, if spots of moving surfaces come and go independently of
-        each other; see ``time_share``.
-    resistance : float or None
-        Resistance of all spots with their tribofilm [ohm]; of a line contact an upper bound for ridges along
-        the whole length. None without spots, or without the resistivity of the case or the length of a line
-        contact.
-    constriction_resistance, tribofilm_resistance : float or None
-        Its two parts, in series [ohm].
-    capacitance_outside : float
-        Capacitance of the film outside of the spots, over the whole domain, by a thin gap [F]; of a line
-        contact per length [F/m].
-    impedance_ratio : float or None
-        Impedance of this capacitance at 10 kHz over ``resistance``; None if that is unknown.
-    corner_frequency : float or None
-        Frequency above which more current takes the film than the spots [Hz].
-    breakdown_1, breakdown_5, breakdown_50 : float or None
-        Voltage at which 1, 5 and 50 % of the Hertz zone outside of the spots reach the dielectric strength
-        [V]; None if the case gives no strength.
-    breakdown_voltage : float or None
-        Voltage at which a film without its spots breaks down with a probability of 63.2 % by the Weibull law
-        of the case [V]; None without this law.
-    breakdown_probability : float or None
-        Probability that the film outside of the spots breaks down at the voltage of the case.
-    """
-
-    behaviour: Behaviour
+    behaviour: Behaviour  # "resistive", "mixed" or "capacitive"; see ``behaviour_of``
+    # Share of the time with at least one spot, if spots of moving surfaces come and go independently of each
+    # other; see ``time_share``
     time_share: float
+    # Resistance of all spots with their tribofilm [ohm]; of a line contact an upper bound for ridges along
+    # the whole length. None without spots, or without the resistivity of the case or the length of a line
+    # contact.
     resistance: float | None
+    # constriction_resistance and tribofilm_resistance: its two parts, in series [ohm].
     constriction_resistance: float | None
     tribofilm_resistance: float | None
+    # Capacitance of the film outside of the spots, over the whole domain, by a thin gap [F]; of a line
+    # contact per length [F/m].
     capacitance_outside: float
+    # Impedance of this capacitance at 10 kHz over ``resistance``; None if that is unknown.
     impedance_ratio: float | None
-    corner_frequency: float | None
+    corner_frequency: float | None  # frequency above which more current takes the film than the spots [Hz]
+    # breakdown_1, breakdown_5 and breakdown_50: voltage at which 1, 5 and 50 % of the Hertz zone outside of
+    # the spots reach the dielectric strength [V]; None if the case gives no strength.
     breakdown_1: float | None
     breakdown_5: float | None
     breakdown_50: float | None
+    # Voltage at which a film without its spots breaks down with a probability of 63.2 % by the Weibull law of
+    # the case [V]; None without this law.
     breakdown_voltage: float | None
+    # Probability that the film outside of the spots breaks down at the voltage of the case.
     breakdown_probability: float | None
 
 
@@ -532,13 +424,6 @@ def time_share(spots: int, area_share: float) -> float:
 
     The Hertz zone has N/f sites of the mean size of N spots that cover its part f. Each is touched with the
     probability f, so that the time share is 1 - (1 - f)^(N/f). For small spots it is Poisson's 1 - exp(-N).
-
-    Parameters
-    ----------
-    spots : int
-        Number N of spots at one instant.
-    area_share : float
-        Part f of the Hertz zone that they cover, from 0 to 1.
 
     Examples
     --------
@@ -562,17 +447,9 @@ def behaviour_of(
     all between, as a contact that conducts and insulates in turn, and one whose spots a finer grid may not
     have.
 
-    Parameters
-    ----------
-    spots : int
-        Number of spots.
-    always : float
-        Share of the time with at least one spot.
-    impedance_ratio : float or None
-        Impedance of the film over that of the spots at 10 kHz. None if the resistance of the spots is
-        unknown: they are taken as metal, which shorts any film at this frequency.
-    area_error : float, optional
-        Relative error of the real contact area by the grid; from 1 on there may be no spot at all.
+    ``always``, share of the time with at least one spot; ``impedance_ratio``, impedance of the film over that
+    of the spots at 10 kHz; None if the resistance of the spots is unknown: they are taken as metal, which
+    shorts any film at this frequency.
 
     Examples
     --------
@@ -594,20 +471,9 @@ def strip_resistance(width: float, length: float, resistivity: float) -> float:
     R = rho K(1 - b^2/a^2)/(pi a) with the semi-axes a and b and the complete elliptic integral K of a
     parameter; a circle gives rho/(2 a).
 
-    Parameters
-    ----------
-    width, length : float
-        Axes of the ellipse [m], > 0.
-    resistivity : float
-        Resistivity rho of the bodies [ohm m].
+    ``width`` and ``length``, axes of the ellipse [m], > 0; ``resistivity``, resistivity rho of the bodies
+    [ohm m]. Returns resistance [ohm].
 
-    Returns
-    -------
-    float
-        Resistance [ohm].
-
-    Notes
-    -----
     R. Holm, Electric Contacts, 4th ed., Springer 1967; it is the capacitance of an elliptical disc.
 
     Examples
@@ -645,29 +511,9 @@ def electrical(
     semi_axes: tuple[float, ...],
     area_error: float | None = None,
 ) -> Electrical:
-    """Electrical answer of a contact whose surfaces touch in spots.
-
-    Parameters
-    ----------
-    film : Film or PointFilm
-        Solved film.
-    spots : Spots
-        Spots of the film.
-    oil : Oil
-        Oil, for its permittivity.
-    electric : Electric
-        Potentials, and resistivity of the bodies and of their tribofilm.
-    discharge : Discharge or None
-        Dielectric strength or Weibull law, and length of a line contact.
-    semi_axes : tuple of float
-        Half-width of a line contact, or semi-axes of a point contact [m].
-    area_error : float, optional
-        Relative error of the real contact area by the grid.
-
-    Returns
-    -------
-    Electrical
-        Resistance, capacitance, breakdown voltages, and the behaviour in one word.
+    """Electrical answer of a contact whose surfaces touch in spots. ``semi_axes``, half-width of a line
+    contact, or semi-axes of a point contact [m]. Returns resistance, capacitance, breakdown voltages, and the
+    behaviour in one word.
     """
     length = 1.0 if len(semi_axes) == 2 else None if discharge is None else discharge.length
     metal = constriction(spots, electric, length)
@@ -744,27 +590,13 @@ _NEARLY_ALL = 0.9
 
 @dataclass(frozen=True)
 class Asperities:
-    """Asperities of a solved contact.
-
-    Attributes
-    ----------
-    spots : Spots
-        Spots in which the surfaces touch.
-    touching : Touching
-        What they carry, and the film around them.
-    electrical : Electrical
-        What they conduct, and the capacitance and breakdown around them.
-    balance : OilBalance or None
-        Oil that the film loses and makes; None where it is not known.
-    coarser : Coarser or None
-        Load share and area on a grid with half the nodes; None if it was not solved.
-    """
+    """Asperities of a solved contact."""
 
     spots: Spots
-    touching: Touching
-    electrical: Electrical
-    balance: OilBalance | None
-    coarser: Coarser | None
+    touching: Touching  # what they carry, and the film around them
+    electrical: Electrical  # what they conduct, and the capacitance and breakdown around them
+    balance: OilBalance | None  # oil that the film loses and makes; None where it is not known
+    coarser: Coarser | None  # load share and area on a grid with half the nodes; None if it was not solved
 
     @property
     def share_change(self) -> float | None:
@@ -796,25 +628,10 @@ def asperities(
 ) -> Asperities:
     """Asperities of a converged film.
 
-    Parameters
-    ----------
-    case : Case or Setup
-        Case of the contact, or its setup.
-    conditions : Conditions or PointConditions
-        Operating conditions.
-    film : Film or PointFilm
-        Converged film.
-    rq : float
-        Combined Rq of the surfaces over the Hertz zone before they are deformed [m].
-    smooth : ndarray or None
-        Film thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved.
-    coarser : Coarser or None
-        Asperities on a grid with half the nodes; None if it was not solved.
-
-    Returns
-    -------
-    Asperities
-        Spots, what they carry and conduct, and the film around them.
+    ``rq``, combined Rq of the surfaces over the Hertz zone before they are deformed [m]; ``smooth``, film
+    thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved; ``coarser``,
+    asperities on a grid with half the nodes; None if it was not solved. Returns spots, what they carry and
+    conduct, and the film around them.
 
     Examples
     --------
@@ -860,21 +677,9 @@ _ANSWERS = {
 
 
 def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWarning]) -> Verdict:
-    """Verdict on a contact whose surfaces touch under a voltage.
-
-    Parameters
-    ----------
-    found : Asperities
-        Asperities of the contact, with at least one spot.
-    voltage : float
-        Applied voltage [V].
-    warnings : iterable of ResultWarning
-        Warnings of the contact; a severe one leaves no verdict.
-
-    Returns
-    -------
-    Verdict
-        Red; yellow where a tribofilm insulates the spots; grey where the film must not be used.
+    """Verdict on a contact whose surfaces touch under a voltage. ``found``, asperities of the contact, with
+    at least one spot; ``voltage`` [V]. Returns red; yellow where a tribofilm insulates the spots; grey where
+    the film must not be used.
     """
     refused = unusable(warnings)
     if refused:
@@ -938,22 +743,9 @@ def spot_warnings(
 ) -> Iterator[ResultWarning]:
     """Warnings about a converged film that is rough or touches: what it means, and what is not resolved.
 
-    Parameters
-    ----------
-    case : Case or Setup
-        Case of the contact.
-    conditions : Conditions or PointConditions
-        Operating conditions.
-    film : Film or PointFilm
-        Film; there are no warnings where it has not converged.
-    coarser : Coarser or None
-        Asperities on a grid with half the nodes; None if it was not solved.
-
-    Yields
-    ------
-    ResultWarning
-        That the surfaces touch at the edge of the domain; oil that appears; that they touch in the domain,
-        and where so a load share that depends on the grid.
+    ``film``, there are no warnings where it has not converged; ``coarser``, asperities on a grid with half
+    the nodes; None if it was not solved. Yields that the surfaces touch at the edge of the domain; oil that
+    appears; that they touch in the domain, and where so a load share that depends on the grid.
     """
     if not film.converged:
         return

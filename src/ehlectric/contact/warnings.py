@@ -352,12 +352,7 @@ def _longer_inlet(inlet: float, deficit: float) -> float:
     Far upstream the gap is a parabola, the gradient of the reduced pressure falls with the fourth power of
     the distance, and so the missing pressure falls with its cube.
 
-    Parameters
-    ----------
-    inlet : float
-        Inlet of the case in half-widths, negative.
-    deficit : float
-        Share of the reduced pressure that is missing with this inlet, from 0 to 1.
+    ``inlet``, inlet of the case in half-widths, negative.
     """
     return -math.ceil(-2.0 * inlet * math.cbrt(deficit / _DEFICIT)) / 2.0
 
@@ -395,17 +390,7 @@ def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointFiel
 def accuracy_warnings(
     grid: Grid, field: Field | PointField, *, estimated: bool = True
 ) -> Iterator[ResultWarning]:
-    """Warning about a maximum field whose estimated error is large, or unknown after an attempt.
-
-    Parameters
-    ----------
-    grid : Grid
-        Grid of the film and of the field.
-    field : Field or PointField
-        Solved field.
-    estimated : bool
-        Whether the solver of the field estimates its error. The paper's solver does not.
-    """
+    """Warning about a maximum field whose estimated error is large, or unknown after an attempt."""
     if field.strength_error is not None and field.strength_error > FIELD_ERROR:
         yield inaccurate_field(grid, field.strength_error, field.s.size - 1, field.sufficient_degree)
     if field.strength_error is None and estimated:
@@ -425,17 +410,7 @@ def unknown_error(where: str = "") -> ResultWarning:
 def inaccurate_field(
     grid: Grid, error: float, degree: int | None = None, sufficient: int | None = None
 ) -> ResultWarning:
-    """Warning about an error of the maximum field.
-
-    Parameters
-    ----------
-    grid : Grid
-        Grid of the film and of the field.
-    error : float
-        Estimated relative error of the maximum field.
-    degree, sufficient : int, optional
-        Polynomial degree of the field across the film, and the one that would be sufficient.
-    """
+    """Warning about an error of the maximum field."""
     advice = "use more grid.nodes" if grid.field_nodes is None else "use more grid.nodes and grid.field_nodes"
     if degree is not None and sufficient is not None and sufficient > degree:
         advice = f"raise grid.field_degree to {min(sufficient, MOST_DEGREE)}, or {advice}"

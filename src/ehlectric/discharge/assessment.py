@@ -42,26 +42,13 @@ class Assessment:
 
     A value is None if the case lacks an input that it needs. Every value of a part is also an attribute of
     the assessment: ``assessment.breakdown_voltage`` is ``assessment.breakdown.breakdown_voltage``.
-
-    Attributes
-    ----------
-    breakdown : Breakdown
-        Breakdown voltage and probability of breakdown.
-    zone : BreakdownZone
-        Zone of the film that breaks down first.
-    capacitances : Capacitances
-        Capacitances of the contact and of its zones.
-    costs : DischargeCosts
-        Energy of a discharge, size of the pit that it melts, and current density.
-    leakage : Leakage
-        Charge relaxation time of the oil.
     """
 
     breakdown: Breakdown
-    zone: BreakdownZone
+    zone: BreakdownZone  # zone of the film that breaks down first
     capacitances: Capacitances
-    costs: DischargeCosts
-    leakage: Leakage
+    costs: DischargeCosts  # energy of a discharge, size of the pit that it melts, and current density
+    leakage: Leakage  # charge relaxation time of the oil
 
     strength_law = property(attrgetter("breakdown.strength_law"))
     dielectric_strength = property(attrgetter("breakdown.dielectric_strength"))
@@ -117,23 +104,9 @@ def assess(
     film: Film | PointFilm,
     field: Field | PointField,
 ) -> Assessment:
-    """Assess a discharge through a solved contact.
-
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge: dielectric strength, outlet filling, external capacitance and others.
-    oil : Oil
-        Oil, for its relative permittivity.
-    semi_axes : tuple of float
-        Half-width of a line contact, or semi-axes of a point contact along and across entrainment [m].
-    film, field : Film and Field, or PointFilm and PointField
-        Solution of the contact.
-
-    Returns
-    -------
-    Assessment
-        Breakdown, breakdown zone, capacitances, energies and leakage, SI units.
+    """Assess a discharge through a solved contact. ``semi_axes``, half-width of a line contact, or semi-axes
+    of a point contact along and across entrainment [m]. Returns breakdown, breakdown zone, capacitances,
+    energies and leakage, SI units.
 
     Examples
     --------

@@ -65,21 +65,10 @@ BREAKING = 0.95
 
 
 def breakdown_voltage(voltage: float, strength: Array, dielectric_strength: Array | float) -> float:
-    """Voltage at which the field first reaches the dielectric strength: V_b = V/max(E/E_b).
-
-    Parameters
-    ----------
-    voltage : float
-        Voltage V at which the field was solved [V].
-    strength : ndarray, shape (...)
-        Field strength E [V/m].
-    dielectric_strength : ndarray, shape (...), or float
-        Dielectric strength E_b at the same positions [V/m].
-
-    Returns
-    -------
-    float
-        Breakdown voltage V_b [V].
+    """Voltage at which the field first reaches the dielectric strength: V_b = V/max(E/E_b). ``voltage``,
+    voltage V at which the field was solved [V]; ``strength``, field strength E [V/m], shape (...);
+    ``dielectric_strength``, dielectric strength E_b at the same positions [V/m], shape (...). Returns
+    breakdown voltage V_b [V].
 
     Examples
     --------
@@ -98,13 +87,6 @@ class WeakestLink:
 
     W. Weibull, J. Appl. Mech. 18 (1951) 293, doi:10.1115/1.4010337.
 
-    Attributes
-    ----------
-    shape : float
-        Weibull shape m, dimensionless.
-    characteristic_voltage : float
-        Voltage V_0 at which the probability of breakdown is 1 - 1/e, 63.2 % [V].
-
     Examples
     --------
     A uniform field of half the scale E_0 over four reference areas, with m = 2, gives the exponent 1:
@@ -114,23 +96,17 @@ class WeakestLink:
     (10.0, 0.6321)
     """
 
-    shape: float
-    characteristic_voltage: float
+    shape: float  # weibull shape m, dimensionless
+    characteristic_voltage: float  # voltage V_0 at which the probability of breakdown is 1 - 1/e, 63.2 % [V]
 
     @classmethod
     def of(
         cls, voltage: float, strength: Array, areas: Array, scale: float, shape: float, reference_area: float
     ) -> WeakestLink:
-        """Weibull law of a solved field.
-
-        Parameters
-        ----------
-        voltage : float
-            Voltage at which the field was solved [V].
-        strength, areas : ndarray, shape (...)
-            Field strength E [V/m], and the area on which it acts [m^2].
-        scale, shape, reference_area : float
-            Scale E_0 [V/m], shape m, and reference area A_0 [m^2] of the Weibull law.
+        """Weibull law of a solved field. ``voltage``, voltage at which the field was solved [V]; ``strength``
+        and ``areas``, field strength E [V/m], and the area on which it acts [m^2], shape (...); ``scale``,
+        ``shape`` and ``reference_area``, scale E_0 [V/m], shape m, and reference area A_0 [m^2] of the
+        Weibull law.
         """
         largest = float(np.max(strength))
         # The field strength is divided by its maximum, as a high power of the strength alone would overflow.
@@ -161,21 +137,9 @@ def stored_energy(capacitance: float, voltage: float) -> float:
 
 
 def melted_volume(energy: float, efficiency: float, melting_energy: float) -> float:
-    """Volume of one surface that a discharge melts: efficiency times energy over melting energy.
-
-    Parameters
-    ----------
-    energy : float
-        Energy of the discharge [J].
-    efficiency : float
-        Part of the energy that melts one surface, from 0 to 1, dimensionless.
-    melting_energy : float
-        Energy to heat and melt the material, per volume [J/m^3].
-
-    Returns
-    -------
-    float
-        Melted volume [m^3].
+    """Volume of one surface that a discharge melts: efficiency times energy over melting energy. ``energy``
+    [J]; ``efficiency``, part of the energy that melts one surface, from 0 to 1, dimensionless;
+    ``melting_energy``, energy to heat and melt the material, per volume [J/m^3]. Returns melted volume [m^3].
 
     Examples
     --------
@@ -225,22 +189,11 @@ def beside_limits(density: float) -> str:
 
 @dataclass(frozen=True)
 class Size:
-    """Size of the dry contact.
+    """Size of the dry contact."""
 
-    Attributes
-    ----------
-    half_width : float
-        Half-width of a line contact, or semi-axis of a point contact along entrainment [m].
-    hertz : float
-        Width of a dry line contact [m], or area of a dry point contact [m^2].
-    length : float or None
-        Length of a line contact [m], None if the case does not give it; 1 for a point contact.
-    line : bool
-        Whether the contact is a line contact.
-    """
-
-    half_width: float
-    hertz: float
+    half_width: float  # half-width of a line contact, or semi-axis of a point contact along entrainment [m]
+    hertz: float  # width of a dry line contact [m], or area of a dry point contact [m^2]
+    # Length of a line contact [m], None if the case does not give it; 1 for a point contact.
     length: float | None
     line: bool
 
@@ -265,32 +218,17 @@ class DischargeCosts:
     """Energy of a discharge, size of the pit that it melts, and current density.
 
     A value is None if the case lacks an input that it needs.
-
-    Attributes
-    ----------
-    contact_energy : float or None
-        Energy C V^2/2 stored in the contact at the voltage of the case [J].
-    discharge_energy : float or None
-        Energy C V^2/2 stored in the contact and in the external capacitance, at the voltage of the case [J].
-    breakdown_energy : float or None
-        Energy C V^2/2 stored in the contact and in the external capacitance, at the breakdown voltage [J].
-    pit_volume : float or None
-        Volume of one surface that ``discharge_energy`` melts [m^3].
-    pit_diameter : float or None
-        Diameter of a hemisphere of that volume [m].
-    current_density : float or None
-        Peak current over the area of the dry contact [A/m^2].
-    current_density_limits : tuple of float or None
-        Published limits of the current density [A/m^2].
     """
 
-    contact_energy: float | None = None
+    contact_energy: float | None = None  # energy C V^2/2 stored in the contact at the voltage of the case [J]
+    # Energy C V^2/2 stored in the contact and in the external capacitance, at the voltage of the case [J].
     discharge_energy: float | None = None
+    # Energy C V^2/2 stored in the contact and in the external capacitance, at the breakdown voltage [J].
     breakdown_energy: float | None = None
-    pit_volume: float | None = None
-    pit_diameter: float | None = None
-    current_density: float | None = None
-    current_density_limits: tuple[float, ...] | None = None
+    pit_volume: float | None = None  # volume of one surface that ``discharge_energy`` melts [m^3]
+    pit_diameter: float | None = None  # diameter of a hemisphere of that volume [m]
+    current_density: float | None = None  # peak current over the area of the dry contact [A/m^2]
+    current_density_limits: tuple[float, ...] | None = None  # published limits of the current density [A/m^2]
 
 
 def discharge_costs(
@@ -298,23 +236,9 @@ def discharge_costs(
 ) -> DischargeCosts:
     """Energy of a discharge, size of the pit that it melts, and apparent current density.
 
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge, with external capacitance, pit and peak current.
-    capacitance : float
-        Capacitance per length of a line contact [F/m], or of a point contact [F].
-    voltage : float
-        Voltage of the case [V].
-    breaking_voltage : float or None
-        Breakdown voltage [V]; None if it is unknown.
-    size : Size
-        Size of the dry contact.
-
-    Returns
-    -------
-    DischargeCosts
-        Values in SI units; None if the case lacks an input that a value needs.
+    ``capacitance``, capacitance per length of a line contact [F/m], or of a point contact [F]; ``voltage``
+    [V]; ``breaking_voltage``, breakdown voltage [V]; None if it is unknown. Returns values in SI units; None
+    if the case lacks an input that a value needs.
     """
     total, external = size.total(capacitance), discharge.external_capacitance
     together = None if total is None or external is None else total + external
@@ -343,17 +267,10 @@ def _energy(capacitance: float | None, voltage: float | None) -> float | None:
 
 @dataclass(frozen=True)
 class Leakage:
-    """Leakage of charge through the oil at ambient pressure; None if the conductivity is unknown.
+    """Leakage of charge through the oil at ambient pressure; None if the conductivity is unknown."""
 
-    Attributes
-    ----------
-    relaxation_time : float or None
-        Charge relaxation time eps0 eps_r/sigma [s].
-    corner_frequency : float or None
-        Frequency above which the film is a capacitor, 1/(2 pi ``relaxation_time``) [Hz].
-    """
-
-    relaxation_time: float | None = None
+    relaxation_time: float | None = None  # charge relaxation time eps0 eps_r/sigma [s]
+    # Frequency above which the film is a capacitor, 1/(2 pi ``relaxation_time``) [Hz].
     corner_frequency: float | None = None
 
 
@@ -369,23 +286,9 @@ def leakage(
     film: Film | PointFilm | None = None,
     semi_axes: tuple[float, ...] = (),
 ) -> Leakage:
-    """Leakage of charge through an oil at ambient pressure.
-
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge; its conductivity, if it has one, holds at any temperature.
-    oil : Oil
-        Oil at the temperature of the inlet.
-    film : Film or PointFilm, optional
-        Film. In a film with heat, the conductivity is the mean over its Hertz zone.
-    semi_axes : tuple of float, optional
-        Half-width or semi-axes of the Hertz zone of the film [m].
-
-    Returns
-    -------
-    Leakage
-        Relaxation time and corner frequency.
+    """Leakage of charge through an oil at ambient pressure. ``discharge``, inputs of the discharge; its
+    conductivity, if it has one, holds at any temperature; ``semi_axes``, half-width or semi-axes of the Hertz
+    zone of the film [m]. Returns relaxation time and corner frequency.
     """
     conductivity = conductivity_of(discharge, oil)
     if conductivity is None:
@@ -400,19 +303,9 @@ def leakage(
 def mean_conductivity(film: Film | PointFilm, conductivity: Array, semi_axes: tuple[float, ...]) -> float:
     """Mean conductivity of the oil in the Hertz zone, weighted by the conductance of the film.
 
-    Parameters
-    ----------
-    film : Film or PointFilm
-        Film.
-    conductivity : ndarray, shape (nx,) or (nx, ny)
-        Electrical conductivity of the oil at the nodes [S/m].
-    semi_axes : tuple of float
-        Half-width or semi-axes of the Hertz zone [m].
-
-    Returns
-    -------
-    float
-        Int sigma/h dA over Int 1/h dA [S/m]: the oil columns of the zone lie side by side between the walls.
+    ``conductivity``, electrical conductivity of the oil at the nodes [S/m], shape (nx,) or (nx, ny);
+    ``semi_axes``, half-width or semi-axes of the Hertz zone [m]. Returns int sigma/h dA over Int 1/h dA
+    [S/m]: the oil columns of the zone lie side by side between the walls.
     """
     places = np.meshgrid(*film.axes, indexing="ij")
     zone = sum((at / half) ** 2 for at, half in zip(places, semi_axes, strict=True)) <= 1.0

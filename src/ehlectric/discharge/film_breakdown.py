@@ -34,14 +34,8 @@ MOST_OF_LIQUIDS = 1e9
 
 
 def field_warnings(max_strength: float | None, check: str) -> Iterator[ResultWarning]:
-    """Warning of a maximum field strength that no film of a liquid carries.
-
-    Parameters
-    ----------
-    max_strength : float or None
-        Maximum field strength at the applied voltage [V/m]; None where there is none.
-    check : str
-        Inputs to check, which give this voltage.
+    """Warning of a maximum field strength that no film of a liquid carries. ``max_strength``, maximum field
+    strength at the applied voltage [V/m]; None where there is none.
     """
     if max_strength is not None and max_strength > MOST_OF_LIQUIDS:
         yield ResultWarning(
@@ -72,30 +66,22 @@ def strength_warnings(discharge: Discharge | None) -> Iterator[ResultWarning]:
 
 @dataclass(frozen=True)
 class FieldUtilisation:
-    """Utilisation of the dielectric strength: the ratio of field strength to dielectric strength.
+    """Utilisation of the dielectric strength: the ratio of field strength to dielectric strength."""
 
-    Attributes
-    ----------
-    strength : ndarray, shape (nx,) or (nx, ny)
-        Largest field strength of each column of the solved field, on either wall or at mid-film [V/m].
-    dielectric_strength : ndarray, shape (nx,) or (nx, ny)
-        Dielectric strength at each column [V/m]; 1 V/m if the case gives none, or gives a Weibull law.
-    position : tuple of float
-        Position of the largest utilisation, (x,) or (x, y) [m].
-    extent : float
-        Width [m], or area [m^2] for a point contact, of the zone around ``position`` where the utilisation
-        is at least 95 % of its maximum.
-    over_domain : ndarray, shape (n,)
-        Field strength over the whole domain of the film [V/m]; outside the field range that of a thin gap.
-    areas : ndarray, shape (n,)
-        Area that each value of ``over_domain`` stands for [m^2]; for a line contact the width [m].
-    """
-
+    # Largest field strength of each column of the solved field, on either wall or at mid-film [V/m],
+    # shape (nx,) or (nx, ny).
     strength: Array
+    # Dielectric strength at each column [V/m]; 1 V/m if the case gives none, or gives a Weibull law,
+    # shape (nx,) or (nx, ny).
     dielectric_strength: Array
-    position: tuple[float, ...]
+    position: tuple[float, ...]  # position of the largest utilisation, (x,) or (x, y) [m]
+    # Width [m], or area [m^2] for a point contact, of the zone around ``position`` where the utilisation is
+    # at least 95 % of its maximum.
     extent: float
+    # Field strength over the whole domain of the film [V/m]; outside the field range that of a thin gap,
+    # shape (n,).
     over_domain: Array
+    # Area that each value of ``over_domain`` stands for [m^2]; for a line contact the width [m], shape (n,).
     areas: Array
 
     @property
@@ -124,22 +110,9 @@ class FieldUtilisation:
 
 
 def dielectric_strength(discharge: Discharge, pressure: Array, temperature: Array | None = None) -> Array:
-    """Dielectric strength of a film at given pressures.
-
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge: a constant strength, a table over pressure or temperature, or neither.
-    pressure : ndarray, shape (...)
-        Pressure in the film [Pa].
-    temperature : ndarray, shape (...), optional
-        Temperature in a film with heat [K], in place of that of the discharge.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Dielectric strength [V/m]. A table is interpolated linearly, and its end values hold beyond its ends.
-        If the case gives neither a constant nor a table, it is 1 V/m.
+    """Dielectric strength of a film at given pressures. ``pressure`` [Pa], shape (...); ``temperature``,
+    temperature in a film with heat [K], in place of that of the discharge, shape (...). Returns dielectric
+    strength [V/m], shape (...).
 
     Examples
     --------
@@ -163,54 +136,30 @@ class Breakdown:
     """Breakdown voltage of a film and probability of breakdown.
 
     All values are None if the case gives neither a dielectric strength nor a Weibull law.
-
-    Attributes
-    ----------
-    strength_law : str or None
-        "constant", "table over pressure", "table over temperature" or "weibull".
-    dielectric_strength : float or None
-        Dielectric strength in the zone that breaks down first [V/m]; None for a Weibull law.
-    breakdown_voltage : float or None
-        Breakdown voltage [V]; for a Weibull law at a probability of 63.2 %.
-    breakdown_voltage_low, breakdown_voltage_high : float or None
-        Breakdown voltage of a Weibull law at probabilities of 5 % and 95 % [V]; None for other laws.
-    margin : float or None
-        Breakdown voltage over the voltage of the case, dimensionless.
-    probability : float or None
-        Probability of breakdown at the voltage of the case; 0 or 1 unless the law is a Weibull law.
-    breakdown_field_error : float or None
-        Estimated relative error of the breakdown voltage that is due to the field, the error of the largest
-        field strength. The error of the film comes on top. None if it is not known.
     """
 
+    # "constant", "table over pressure", "table over temperature" or "weibull"
     strength_law: str | None = None
+    # Dielectric strength in the zone that breaks down first [V/m]; None for a Weibull law.
     dielectric_strength: float | None = None
+    # Breakdown voltage [V]; for a Weibull law at a probability of 63.2 %
     breakdown_voltage: float | None = None
+    # breakdown_voltage_low and breakdown_voltage_high: breakdown voltage of a Weibull law at probabilities of
+    # 5 % and 95 % [V]; None for other laws.
     breakdown_voltage_low: float | None = None
     breakdown_voltage_high: float | None = None
-    margin: float | None = None
+    margin: float | None = None  # breakdown voltage over the voltage of the case, dimensionless
+    # Probability of breakdown at the voltage of the case; 0 or 1 unless the law is a Weibull law.
     probability: float | None = None
+    # Estimated relative error of the breakdown voltage that is due to the field, the error of the largest
+    # field strength. The error of the film comes on top. None if it is not known.
     breakdown_field_error: float | None = None
 
 
 def breakdown(discharge: Discharge, utilisation: FieldUtilisation, voltage: float, size: Size) -> Breakdown:
-    """Breakdown of a film by a Weibull law, a constant dielectric strength, or a table of it.
-
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge, with the dielectric strength or the Weibull law.
-    utilisation : FieldUtilisation
-        Field strength and dielectric strength of the film.
-    voltage : float
-        Voltage of the field [V].
-    size : Size
-        Size of the dry contact.
-
-    Returns
-    -------
-    Breakdown
-        Breakdown voltage and probability; all None if the case gives neither a strength nor a Weibull law.
+    """Breakdown of a film by a Weibull law, a constant dielectric strength, or a table of it. ``voltage``
+    [V]. Returns breakdown voltage and probability; all None if the case gives neither a strength nor a
+    Weibull law.
     """
     if discharge.weibull is not None:
         return _weibull_breakdown(discharge, utilisation, voltage, size)
@@ -250,26 +199,18 @@ class BreakdownZone:
     """Zone of a film that breaks down first.
 
     Utilisation is the ratio of field strength to dielectric strength.
-
-    Attributes
-    ----------
-    zone_position : float or tuple of float
-        Position of the largest utilisation, x or (x, y) [m].
-    zone_size : float
-        Width of the zone around this position where the utilisation is at least 95 % of its maximum [m]; for
-        a point contact the diameter of a circle with the area of the zone.
-    zone_area : float or None
-        Area of the zone [m^2]; for a line contact its width times the length, None if the length is unknown.
-    zone_over_half_width : float
-        ``zone_size`` over the half-width of the dry contact, or over its semi-axis along entrainment.
-    zone_over_largest_pit, zone_over_mean_pit : float
-        ``zone_size`` over the largest and over the mean published size of a pit, 4 um and 1.7 um.
     """
 
-    zone_position: float | tuple[float, ...]
+    zone_position: float | tuple[float, ...]  # position of the largest utilisation, x or (x, y) [m]
+    # Width of the zone around this position where the utilisation is at least 95 % of its maximum [m]; for a
+    # point contact the diameter of a circle with the area of the zone.
     zone_size: float
+    # Area of the zone [m^2]; for a line contact its width times the length, None if the length is unknown.
     zone_area: float | None
+    # ``zone_size`` over the half-width of the dry contact, or over its semi-axis along entrainment.
     zone_over_half_width: float
+    # zone_over_largest_pit and zone_over_mean_pit: ``zone_size`` over the largest and over the mean published
+    # size of a pit, 4 um and 1.7 um.
     zone_over_largest_pit: float
     zone_over_mean_pit: float
 

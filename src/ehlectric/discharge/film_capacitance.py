@@ -51,18 +51,8 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
     surfaces that diverge. A rough film may cavitate and reform several times. The oil mass rho H that flows
     on is then at most the smallest oil mass at the exits upstream.
 
-    Parameters
-    ----------
-    thickness, density : ndarray, shape (nx,) or (nx, ny)
-        Film thickness and density, in any unit; the first axis runs along entrainment.
-    cavitated : ndarray of bool, of the same shape
-        Whether the film is cavitated, that is at ambient pressure.
-
-    Returns
-    -------
-    ndarray, of the same shape
-        Oil fraction from 0 to 1, dimensionless. It is 1 in the full film, and before the first exit of each
-        line along x. An exit is the first cavitated node behind a full-film node.
+    ``thickness`` and ``density``, film thickness and density, in any unit; the first axis runs along
+    entrainment, shape (nx,) or (nx, ny). Returns oil fraction from 0 to 1, dimensionless.
 
     Examples
     --------
@@ -100,23 +90,9 @@ OUTLETS: dict[str, Callable[[Array, Array], Array]] = {
 
 
 def filled_permittivity(permittivity: Array, fraction: Array, outlet: str) -> Array:
-    """Relative permittivity of a gap that is filled with oil and gas.
-
-    Parameters
-    ----------
-    permittivity : ndarray, shape (...)
-        Relative permittivity of the oil, dimensionless.
-    fraction : ndarray, shape (...)
-        Fraction f of the gap that is filled with oil, from 0 to 1, dimensionless.
-    outlet : str
-        "full" (oil alone), "fingers" (eps = f eps_oil + 1 - f) or "layers" (1/eps = f/eps_oil + 1 - f). The
-        permittivity of any arrangement of oil and gas is between that of fingers and of layers (O. Wiener,
-        Abh. Math.-Phys. Kl. Saechs. Ges. Wiss. 32 (1912) 509).
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Relative permittivity of the gap, dimensionless.
+    """Relative permittivity of a gap that is filled with oil and gas. ``permittivity``, relative permittivity
+    of the oil, dimensionless, shape (...); ``fraction``, fraction f of the gap that is filled with oil, from
+    0 to 1, dimensionless, shape (...). Returns relative permittivity of the gap, dimensionless, shape (...).
 
     Examples
     --------
@@ -134,13 +110,6 @@ class Layers:
     The coating is in series place by place: the gap h/eps becomes h/eps + t/eps_c. This neglects the field
     along the coating, which spreads the voltage where the film changes over a length below t.
 
-    Attributes
-    ----------
-    coating : float
-        Thickness of the coating over its relative permittivity, t/eps_c [m].
-    rq : float
-        Combined root-mean-square height of both surfaces in the loaded contact [m].
-
     Examples
     --------
     A film of 0.5 um with a relative permittivity of 2.5, and a coating of 1.6 um with one of 8, share the
@@ -151,23 +120,13 @@ class Layers:
     0.5
     """
 
-    coating: float = 0.0
-    rq: float = 0.0
+    coating: float = 0.0  # thickness of the coating over its relative permittivity, t/eps_c [m]
+    rq: float = 0.0  # combined root-mean-square height of both surfaces in the loaded contact [m]
 
     def density(self, film: ArrayLike, relative_permittivity: ArrayLike) -> Array:
-        """Capacitance per area of film, coating and roughness together.
-
-        Parameters
-        ----------
-        film : array_like, shape (...)
-            Capacitance per area of the smooth film alone [F/m^2], positive.
-        relative_permittivity : array_like, shape (...)
-            Relative permittivity in the film, dimensionless.
-
-        Returns
-        -------
-        ndarray, shape (...)
-            Capacitance per area [F/m^2].
+        """Capacitance per area of film, coating and roughness together. ``film``, capacitance per area of the
+        smooth film alone [F/m^2], positive, shape (...); ``relative_permittivity``, relative permittivity in
+        the film, dimensionless, shape (...). Returns capacitance per area [F/m^2], shape (...).
         """
         alone = np.asarray(film, dtype=float)
         permittivity = np.asarray(relative_permittivity, dtype=float)
@@ -178,17 +137,9 @@ class Layers:
         return alone
 
     def film_share(self, film: ArrayLike) -> Array:
-        """Share of the voltage that lies on the film, from its capacitance per area alone [F/m^2].
-
-        Parameters
-        ----------
-        film : array_like, shape (...)
-            Capacitance per area of the film alone [F/m^2].
-
-        Returns
-        -------
-        ndarray, shape (...)
-            Share from 0 to 1, dimensionless; the rest lies on the coating.
+        """Share of the voltage that lies on the film, from its capacitance per area alone [F/m^2]. ``film``,
+        capacitance per area of the film alone [F/m^2], shape (...). Returns share from 0 to 1, dimensionless;
+        the rest lies on the coating, shape (...).
         """
         share: Array = 1.0 / (1.0 + np.asarray(film, dtype=float) * self.coating / epsilon_0)
         return share
@@ -214,26 +165,12 @@ _HEIGHTS, _NODES = 9.0, 100
 def roughness_factor(film_ratio: ArrayLike, *, touching: float = TOUCHING) -> Array:
     """Capacitance of a rough film over that of a smooth film of the same mean thickness.
 
-    Parameters
-    ----------
-    film_ratio : array_like, shape (...)
-        Mean film thickness h over the combined root-mean-square height Rq of both surfaces, dimensionless,
-        positive. It is infinite for smooth surfaces.
-    touching : float
-        Gap over Rq below which the surfaces touch, dimensionless, above 0 and below 1.
+    ``film_ratio``, mean film thickness h over the combined root-mean-square height Rq of both surfaces,
+    dimensionless, positive, shape (...); ``touching``, gap over Rq below which the surfaces touch,
+    dimensionless, above 0 and below 1. Returns factor, dimensionless, shape (...); it is 1 + (Rq/h)^2 for a
+    film that is thick compared to the roughness. Raises InputError where a ratio is not positive, or
+    ``touching`` is out of range.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Factor, dimensionless. It is 1 + (Rq/h)^2 for a film that is thick compared to the roughness.
-
-    Raises
-    ------
-    InputError
-        Where a ratio is not positive, or ``touching`` is out of range.
-
-    Notes
-    -----
     The factor is the integral of (h/g) phi((g - h)/Rq)/Rq dg over all gaps g above ``touching`` Rq, with the
     standard normal density phi. Above h/Rq = 9 it is sqrt(2) (h/Rq) D(h/(sqrt(2) Rq)), the principal value
     of the integral over all gaps, with Dawson's integral D.
@@ -291,23 +228,10 @@ def zone_capacitances(
     by ``filled_permittivity``. This agrees to 1e-5 with a field that is solved with the gas in the gap,
     because the walls diverge slowly behind the exit.
 
-    Parameters
-    ----------
-    film, field : Film and Field, or PointFilm and PointField
-        Solution of the contact.
-    zones : pair of mapping
-        Width [m] or area [m^2] of each node's part of a zone, by the name of the zone: one mapping for the
-        film's nodes, and one for the columns of the field.
-    oil : ndarray, shape of the film
-        Relative permittivity of the oil at the film's nodes.
-    layers : Layers
-        Coating and roughness that change the capacitance of the film place by place.
-
-    Returns
-    -------
-    dict of dict
-        Capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact, by the filling
-        ("full", "fingers", "layers") and by the name of the zone.
+    ``zones``, width [m] or area [m^2] of each node's part of a zone, by the name of the zone: one mapping for
+    the film's nodes, and one for the columns of the field. Returns capacitance per length [F/m] of a line
+    contact, or capacitance [F] of a point contact, by the filling ("full", "fingers", "layers") and by the
+    name of the zone.
     """
     fraction = film.film_fraction
     if fraction is None:
@@ -338,17 +262,7 @@ def capacitance_beyond(film: Film | PointFilm, permittivity: float) -> float:
     and eps ln(2) times the integral of dA/h over the edge of a point contact, where dA is the distance of an
     edge from the middle times its length.
 
-    Parameters
-    ----------
-    film : Film or PointFilm
-        Film on its domain.
-    permittivity : float
-        Relative permittivity of the oil.
-
-    Returns
-    -------
-    float
-        Capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact.
+    Returns capacitance per length [F/m] of a line contact, or capacitance [F] of a point contact.
     """
     ends = film.thickness[[0, -1]]
     if isinstance(film, Film):
@@ -363,45 +277,31 @@ def capacitance_beyond(film: Film | PointFilm, permittivity: float) -> float:
 
 @dataclass(frozen=True)
 class Capacitances:
-    """Capacitances of a contact: per length [F/m] for a line contact, [F] for a point contact.
+    """Capacitances of a contact: per length [F/m] for a line contact, [F] for a point contact."""
 
-    Attributes
-    ----------
-    capacitance : float
-        Capacitance over the whole domain of the film.
-    capacitance_beyond : float
-        What ``capacitance`` would have more on a domain twice as large, were its gap full of oil.
-    capacitance_hertz, capacitance_inlet, capacitance_outlet : float
-        Capacitances of the Hertz zone, of the inlet before it, and of the outlet behind it.
-    capacitance_sides : float or None
-        Capacitance of the sides of a point contact; None for a line contact.
-    capacitance_plate : float
-        Capacitance of parallel plates over the Hertz zone, eps0 eps_r A/h(0), with eps_r at ambient pressure.
-    capacitance_ratio : float
-        ``capacitance`` over ``capacitance_plate``, dimensionless.
-    capacitance_outlet_full, capacitance_outlet_fingers, capacitance_outlet_layers : float
-        Capacitance of the outlet for each filling of the gap behind the exit.
-    capacitance_full, capacitance_fingers, capacitance_layers : float
-        Capacitance over the whole domain for each filling. In a point contact it affects the sides too.
-    outlet : str
-        Filling of the outlet on which ``capacitance`` and the energies are based.
-    """
-
-    capacitance: float
+    capacitance: float  # capacitance over the whole domain of the film
+    # What ``capacitance`` would have more on a domain twice as large, were its gap full of oil.
     capacitance_beyond: float
+    # capacitance_hertz, capacitance_inlet and capacitance_outlet: capacitances of the Hertz zone, of the
+    # inlet before it, and of the outlet behind it.
     capacitance_hertz: float
     capacitance_inlet: float
     capacitance_outlet: float
-    capacitance_sides: float | None
+    capacitance_sides: float | None  # capacitance of the sides of a point contact; None for a line contact
+    # Capacitance of parallel plates over the Hertz zone, eps0 eps_r A/h(0), with eps_r at ambient pressure.
     capacitance_plate: float
-    capacitance_ratio: float
+    capacitance_ratio: float  # ``capacitance`` over ``capacitance_plate``, dimensionless
+    # capacitance_outlet_full, capacitance_outlet_fingers and capacitance_outlet_layers: capacitance of the
+    # outlet for each filling of the gap behind the exit.
     capacitance_outlet_full: float
     capacitance_outlet_fingers: float
     capacitance_outlet_layers: float
+    # capacitance_full, capacitance_fingers and capacitance_layers: capacitance over the whole domain for each
+    # filling. In a point contact it affects the sides too.
     capacitance_full: float
     capacitance_fingers: float
     capacitance_layers: float
-    outlet: str
+    outlet: str  # filling of the outlet on which ``capacitance`` and the energies are based
 
 
 def capacitances(
@@ -411,23 +311,9 @@ def capacitances(
     film: Film | PointFilm,
     field: Field | PointField,
 ) -> Capacitances:
-    """Capacitances of the zones of a contact, for each filling of the outlet.
-
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge, with the filling of the outlet.
-    oil : Oil
-        Oil, for its relative permittivity.
-    semi_axes : tuple of float
-        Half-width of a line contact, or semi-axes of a point contact along and across entrainment [m].
-    film, field : Film and Field, or PointFilm and PointField
-        Solution of the contact.
-
-    Returns
-    -------
-    Capacitances
-        Capacitances per length [F/m] of a line contact, or [F] of a point contact.
+    """Capacitances of the zones of a contact, for each filling of the outlet. ``semi_axes``, half-width of a
+    line contact, or semi-axes of a point contact along and across entrainment [m]. Returns capacitances per
+    length [F/m] of a line contact, or [F] of a point contact.
     """
     areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
     zones = areas(film.axes, *semi_axes), areas(field.axes, *semi_axes)

@@ -104,15 +104,7 @@ def ratio_text(ratio: float) -> str:
 
 
 def assumption_of(discharge: Discharge, stated: tuple[float, float] | None = None) -> str:
-    """Clause that says which dielectric strength is assumed.
-
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge, with a strength.
-    stated : tuple of float, optional
-        Range of a constant strength [V/m].
-    """
+    """Clause on the dielectric strength that is assumed; ``stated`` is the range of a constant one [V/m]."""
     strength, table = discharge.dielectric_strength, discharge.strength_table
     if strength is not None:
         between = "" if stated is None else f" ({stated[0] / 1e6:.3g} to {stated[1] / 1e6:.3g} V/µm)"
@@ -176,32 +168,9 @@ def contact_verdict(
 ) -> Verdict:
     """Verdict on a solved contact.
 
-    Parameters
-    ----------
-    discharge : Discharge
-        Inputs of the discharge.
-    breakdown : Breakdown
-        Breakdown voltage and margin of the contact.
-    voltage : float
-        Applied voltage [V].
-    warnings : iterable of ResultWarning
-        Warnings of the contact; a severe one leaves no verdict.
-    error : float or None
-        Estimated discretisation error of the film, relative; None where it is not known.
-    flooded : bool
-        Whether the film is that of fully flooded oil.
-    isothermal : bool
-        Whether the heating of the oil is left out.
-    field_error : float or None
-        Estimated error of the largest field strength by the grid of the field, relative; None where it is
-        not known.
-
-    Returns
-    -------
-    Verdict
-        Grey without a strength, or where the film must not be used. Yellow where the discretisation
-        error, a strength that differs by 20 %, or a probability of 5 % with a Weibull law takes the margin
-        across 1.
+    ``voltage`` [V]; ``error``, estimated discretisation error of the film, relative; None where it is not
+    known; ``field_error``, estimated error of the largest field strength by the grid of the field, relative;
+    None where it is not known. Returns grey without a strength, or where the film must not be used.
     """
     warnings = tuple(warnings)
     refused = unusable(warnings)
@@ -254,20 +223,8 @@ def weibull_part(shape: float, probability: float) -> float:
 def breakdown_warning(
     kind: str, voltage: float, at: str, margin: float, *, field: float | None = None
 ) -> ResultWarning:
-    """Warning of a margin below 1.
-
-    Parameters
-    ----------
-    kind : str
-        Name of the voltage on the film, "applied voltage" or "shaft voltage".
-    voltage : float
-        This voltage [V].
-    at : str
-        Clause with the voltage at which the film breaks down.
-    margin : float
-        Margin, dimensionless.
-    field : float, optional
-        Maximum field strength at this voltage [V/m], which exceeds the dielectric strength.
+    """Warning of a margin below 1. ``voltage`` [V]; ``margin``, dimensionless; ``field``, maximum field
+    strength at this voltage [V/m], which exceeds the dielectric strength.
     """
     text = f"breakdown is expected: {kind} {voltage:.3g} V, {at} (margin {ratio_text(margin)})"
     if field is not None:

@@ -37,32 +37,20 @@ from ehlectric.formulas.hertz import DryContact, line_opening, point_deflection
 
 @dataclass(frozen=True)
 class Body:
-    """Curvatures of one body at the contact [1/m], positive for a convex body and zero for a plane.
+    """Curvatures of one body at the contact [1/m], positive for a convex body and zero for a plane."""
 
-    Attributes
-    ----------
-    along, across : float
-        Curvature 1/rx along and 1/ry across entrainment [1/m].
-    """
-
+    # along and across: curvature 1/rx along and 1/ry across entrainment [1/m].
     along: float
     across: float
 
 
 @dataclass(frozen=True)
 class Bodies:
-    """Two bodies that face each other across a thin gap.
+    """Two bodies that face each other across a thin gap."""
 
-    Attributes
-    ----------
-    far : Body
-        Body whose end is the end of the gap: the one of larger curvature along entrainment, which is convex.
-    near : Body
-        Other body, on whose surface the charge is integrated.
-    """
-
+    # Body whose end is the end of the gap: the one of larger curvature along entrainment, which is convex.
     far: Body
-    near: Body
+    near: Body  # other body, on whose surface the charge is integrated
 
     @classmethod
     def of(cls, first: Body, second: Body) -> Bodies:
@@ -80,39 +68,21 @@ class Bodies:
 
 @dataclass(frozen=True)
 class Points:
-    """Points of the near body, and the gap there.
+    """Points of the near body, and the gap there."""
 
-    Attributes
-    ----------
-    gap : ndarray, shape (...)
-        Distance from the far body, along the normal of the far body [m].
-    tilt : ndarray, shape (...)
-        Angle between that normal and the normal of the near body [rad].
-    far, near : ndarray, shape (...)
-        Sum of the principal curvatures of the far and of the near body, positive where the centre lies beyond
-        the far body [1/m].
-    bend : ndarray, shape (...)
-        Curvature of the far body in the direction in which both normals differ [1/m].
-    stretch : ndarray, shape (...)
-        Area of the surface over ds dt, dimensionless.
-    """
-
-    gap: Array
-    tilt: Array
+    gap: Array  # distance from the far body, along the normal of the far body [m], shape (...)
+    tilt: Array  # angle between that normal and the normal of the near body [rad], shape (...)
+    # far and near: sum of the principal curvatures of the far and of the near body, positive where the centre
+    # lies beyond the far body [1/m], shape (...).
     far: Array
     near: Array
-    bend: Array
-    stretch: Array
+    bend: Array  # curvature of the far body in the direction in which both normals differ [1/m], shape (...)
+    stretch: Array  # area of the surface over ds dt, dimensionless, shape (...)
 
     def density(self, opening: Array | float = 0.0, coating: float = 0.0) -> Array:
-        """Charge density on the near body over eps0 eps V [1/m].
-
-        Parameters
-        ----------
-        opening : array_like, shape (...)
-            Distance by which deflection and film open the gap further [m].
-        coating : float
-            Thickness of a coating over its relative permittivity, times that of the medium in the gap [m].
+        """Charge density on the near body over eps0 eps V [1/m]. ``opening``, distance by which deflection
+        and film open the gap further [m], shape (...); ``coating``, thickness of a coating over its relative
+        permittivity, times that of the medium in the gap [m].
         """
         return charge_density(self.gap + opening + coating, self.tilt, self.far, self.near)
 
@@ -124,21 +94,9 @@ class Points:
 
 
 def points(bodies: Bodies, gap: float, s: Array, t: Array) -> Points:
-    """Gap, angle between the normals, and curvatures at points of the near body.
-
-    Parameters
-    ----------
-    bodies : Bodies
-        Both bodies.
-    gap : float
-        Gap at s = t = 0 [m]; it may be negative for bodies that are pressed together.
-    s, t : ndarray, shapes that broadcast to (...)
-        Arcs from the contact on the near body, along and across entrainment [m].
-
-    Returns
-    -------
-    Points
-        Gap and geometry at the points, shape (...).
+    """Gap, angle between the normals, and curvatures at points of the near body. ``gap``, gap at s = t = 0
+    [m]; it may be negative for bodies that are pressed together; ``s`` and ``t``, arcs from the contact on
+    the near body, along and across entrainment [m]. Returns gap and geometry at the points, shape (...).
 
     Examples
     --------
@@ -205,34 +163,17 @@ Domain = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Outside:
-    """Gap outside the film's domain, at the nodes of a quadrature.
+    """Gap outside the film's domain, at the nodes of a quadrature."""
 
-    Attributes
-    ----------
-    at : Points
-        Rigid gap and geometry at the nodes, arrays of shape (n,).
-    opening : ndarray, shape (n,)
-        Distance by which deflection and film open the gap [m].
-    area : ndarray, shape (n,)
-        Area of the near body that belongs to each node [m^2].
-    radius : ndarray, shape (n,)
-        Distance of the nodes from the contact [m].
-    """
-
-    at: Points
-    opening: Array
-    area: Array
-    radius: Array
+    at: Points  # rigid gap and geometry at the nodes, arrays of shape (n,)
+    opening: Array  # distance by which deflection and film open the gap [m], shape (n,)
+    area: Array  # area of the near body that belongs to each node [m^2], shape (n,)
+    radius: Array  # distance of the nodes from the contact [m], shape (n,)
 
     def capacitances(self, relative_permittivity: float, coating: float = 0.0) -> Array:
-        """Capacitance of each node [F], shape (n,).
-
-        Parameters
-        ----------
-        relative_permittivity : float
-            Relative permittivity of the medium in the gap, dimensionless.
-        coating : float
-            Thickness of a coating over its relative permittivity [m].
+        """Capacitance of each node [F], shape (n,). ``relative_permittivity``, relative permittivity of the
+        medium in the gap, dimensionless; ``coating``, thickness of a coating over its relative permittivity
+        [m].
         """
         density = self.at.density(self.opening, relative_permittivity * coating)
         capacitances: Array = epsilon_0 * relative_permittivity * density * self.area
@@ -250,27 +191,11 @@ def around_point(
 ) -> tuple[Outside, float]:
     """Gap around the film of a point contact.
 
-    Parameters
-    ----------
-    bodies : Bodies
-        Both bodies.
-    dry : DryContact
-        Dry contact under the same load.
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    film : tuple of ndarray, shapes (nx,), (ny,) and (nx, ny)
-        Nodes x and y of the film, and its thickness [m].
-    width : float, optional
-        Width of the bodies across entrainment, at which the gap ends [m].
-    ring : tuple of float
-        Smallest and largest distance from the contact of the part that is wanted [m].
-
-    Returns
-    -------
-    outside : Outside
-        Gap at nodes outside the domain of the film.
-    mismatch : float
-        Largest relative difference between film thickness and gap at the edge of the domain.
+    ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; ``film``, nodes x and y
+    of the film, and its thickness [m], shapes (nx,); ``width``, width of the bodies across entrainment, at
+    which the gap ends [m]; ``ring``, smallest and largest distance from the contact of the part that is
+    wanted [m]. Returns ``outside``, gap at nodes outside the domain of the film; ``mismatch``, largest
+    relative difference between film thickness and gap at the edge of the domain.
     """
     x, y, thickness = film
     rim = np.ones_like(thickness, dtype=bool)
@@ -305,23 +230,10 @@ def around_line(
 ) -> Outside:
     """Gap before and behind the film of a line contact.
 
-    Parameters
-    ----------
-    bodies : Bodies
-        Both bodies, with no curvature across entrainment.
-    half_width, reduced_radius : float
-        Half-width of the dry contact and reduced radius [m].
-    film : tuple of ndarray, shapes (nx,)
-        Nodes of the film, and its thickness [m].
-    length : float
-        Length of the contact across entrainment [m].
-    ring : tuple of float
-        Smallest and largest distance from the contact of the part that is wanted [m].
-
-    Returns
-    -------
-    Outside
-        Gap at nodes before the inlet and behind the outlet.
+    ``half_width`` and ``reduced_radius``, half-width of the dry contact and reduced radius [m]; ``film``,
+    nodes of the film, and its thickness [m], shapes (nx,); ``length``, length of the contact across
+    entrainment [m]; ``ring``, smallest and largest distance from the contact of the part that is wanted [m].
+    Returns gap at nodes before the inlet and behind the outlet.
     """
     x, thickness = film
     starts = np.abs([x[0], x[-1]])

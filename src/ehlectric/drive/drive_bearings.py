@@ -30,56 +30,36 @@ _at_positions = partial(stored, "position", count="position_count")
 
 @dataclass(frozen=True, eq=False)
 class BearingElement:
-    """Bearing between the shaft and its housing, over the positions of its elements.
-
-    Attributes
-    ----------
-    capacitance : ndarray, shape (p,)
-        Capacitance of the films at each position [F].
-    conductance : float
-        Conductance of the oil of the films, mean over the positions [S].
-    breakdown : ndarray, shape (p,)
-        Voltage across the films at which one element breaks down from ring to ring [V]; infinite for
-        ceramic elements.
-    shape : float
-        Shape of Weibull's law of that voltage; infinite for a voltage without scatter.
-    step : float
-        Time from one position to the next [s].
-    path : Path
-        Coating, and capacitance beside the films.
-    touching : float
-        Share of time in which asperities close the films.
-    touch_resistance : float
-        Resistance of the elements that touch both rings, mean number of them while any does [Ohm]; infinite
-        where the bearing has no resistance of a closed contact.
-    hertz_area : float
-        Sum of the dry contact areas that conduct [m^2].
-    largest_area : float
-        The largest of them [m^2].
-    transit : float
-        Time in which oil passes the most loaded contact with the inner ring [s].
-    real_area : float
-        Real area of contact of all elements that touch both rings, while any does [m^2]; 0 where it is not
-        known, or nothing touches.
-    """
+    """Bearing between the shaft and its housing, over the positions of its elements."""
 
     capacitance: Array = field(
         metadata=stored("position", "F", "positive", name="position_capacitance", count="position_count")
-    )
+    )  # capacitance of the films at each position [F], shape (p,)
+    # Conductance of the oil of the films, mean over the positions [S].
     conductance: float = field(metadata=stored("", "S", "not negative"))
+    # Voltage across the films at which one element breaks down from ring to ring [V]; infinite for ceramic
+    # elements, shape (p,).
     breakdown: Array = field(
         metadata=stored(
             "position", "V", "positive or infinite", name="position_breakdown", count="position_count"
         )
     )
+    # Shape of Weibull's law of that voltage; infinite for a voltage without scatter.
     shape: float = field(metadata=stored("", "", "positive or infinite"))
-    step: float = field(metadata=stored("", "s", "positive"))
-    path: Path
+    step: float = field(metadata=stored("", "s", "positive"))  # time from one position to the next [s]
+    path: Path  # coating, and capacitance beside the films
+    # Share of time in which asperities close the films.
     touching: float = field(metadata=stored("", "", "not negative"))
+    # Resistance of the elements that touch both rings, mean number of them while any does [Ohm]; infinite
+    # where the bearing has no resistance of a closed contact.
     touch_resistance: float = field(metadata=stored("", "ohm", "positive or infinite"))
+    # Sum of the dry contact areas that conduct [m^2].
     hertz_area: float = field(metadata=stored("", "m**2", "not negative"))
-    largest_area: float = field(metadata=stored("", "m**2", "not negative"))
+    largest_area: float = field(metadata=stored("", "m**2", "not negative"))  # the largest of them [m^2]
+    # Time in which oil passes the most loaded contact with the inner ring [s].
     transit: float = field(metadata=stored("", "s", "positive"))
+    # Real area of contact of all elements that touch both rings, while any does [m^2]; 0 where it is not
+    # known, or nothing touches.
     real_area: float = field(default=0.0, metadata=stored("", "m**2", "not negative"))
 
     @property
@@ -89,26 +69,8 @@ class BearingElement:
 
 
 def bearing_element(result: BearingResult, breakdown: Breakdown, end: str) -> BearingElement:
-    """Element of the circuit that a solved bearing is.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Solved bearing.
-    breakdown : Breakdown
-        Table ``breakdown`` of the drive.
-    end : str
-        Table of the bearing in the drive file, for messages.
-
-    Returns
-    -------
-    BearingElement
-        Element.
-
-    Raises
-    ------
-    InputError
-        Where the bearing has no dielectric strength, or touches and has no ``contact_resistance``.
+    """Element of the circuit that a solved bearing is. Raises InputError where the bearing has no dielectric
+    strength, or touches and has no ``contact_resistance``.
     """
     solution = result.solution
     bearing, ceramic = solution.case.bearing, solution.conditions.ceramic

@@ -64,21 +64,12 @@ _LEFT_OUT = (
 
 @dataclass(frozen=True, eq=False)
 class DriveNetlist:
-    """Both bearings of a drive as subcircuits.
-
-    Attributes
-    ----------
-    case : DriveCase
-        Case.
-    bearings : tuple of Subcircuit
-        Subcircuits at the drive end and at the other end; the same one where the bearings are.
-    waveform : Waveform or None
-        Voltage of a measured source.
-    """
+    """Both bearings of a drive as subcircuits."""
 
     case: DriveCase
+    # Subcircuits at the drive end and at the other end; the same one where the bearings are.
     bearings: tuple[Subcircuit, Subcircuit]
-    waveform: Waveform | None
+    waveform: Waveform | None  # voltage of a measured source
 
     @property
     def subcircuits(self) -> tuple[Subcircuit, ...]:
@@ -92,13 +83,7 @@ class DriveNetlist:
             yield from one.lines()
 
     def bench(self, library: str) -> Iterator[str]:
-        """Lines of the test bench, which includes the file of the subcircuits.
-
-        Parameters
-        ----------
-        library : str
-            Path of the file of the subcircuits, relative to the test bench.
-        """
+        """Lines of the test bench, which includes the file of the subcircuits."""
         circuit, source = self.case.circuit, self.case.running_source
         points, step = _points(source, self.waveform)
         yield f"{SIGNATURE}test bench of a drive; ehlectric {__version__}"
@@ -173,12 +158,8 @@ def write_drive_netlist(
 def drive_netlist(
     case: DriveCase, progress: Progress = silent, *, workers: int | None = None
 ) -> DriveNetlist:
-    """Solve the bearings of a drive, and make its netlist.
-
-    Raises
-    ------
-    InputError
-        As ``write_drive_netlist`` raises it.
+    """Solve the bearings of a drive, and make its netlist. Raises InputError as ``write_drive_netlist``
+    raises it.
     """
     first, second = case.bearings
     for end, one in zip(ENDS, (first, second), strict=True):

@@ -28,57 +28,39 @@ KEPT = 200_000
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """Record of a simulated time.
+    """Record of a simulated time."""
 
-    Attributes
-    ----------
-    duration : float
-        Time that was measured [s].
-    events : ndarray, shape (m, 8)
-        The first events of both films, a row for each with the columns above; times from the begin of
-        the measured time.
-    counts : ndarray of int, shape (2, blocks)
-        Number of events of each film in equal blocks of time.
-    sums, largest : ndarray, shape (2, 8)
-        Sums, and largest absolute values, of the columns of the events of each film.
-    edges : ndarray, shape (bins + 1,)
-        Edges of the bins of the histogram [V].
-    histogram : ndarray, shape (2, bins)
-        Time at the voltages of each bin [s].
-    limits : ndarray, shape (l,)
-        Limits of the voltage [V].
-    above : ndarray, shape (2, l)
-        Time above each limit [s].
-    peak, rms : ndarray, shape (2,)
-        Largest and root mean square voltage across each film [V].
-    spectrum : ndarray, shape (lines,)
-        Absolute mean of the shaft voltage, and amplitudes of its lines at whole multiples of one over the
-        duration [V]; empty where a file of version 1.0.0 has none.
-    touching : ndarray, shape (2,)
-        Largest voltage across each film while its asperities touch [V].
-    burning : ndarray, shape (2,)
-        Time for which an arc burnt in each film, with arcs that burnt before and after [s].
-    trace : ndarray, shape (m, 4)
-        Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
-        stretch; straight between the rows.
-    """
-
-    duration: float = field(metadata=stored("", "s", "positive"))
+    duration: float = field(metadata=stored("", "s", "positive"))  # time that was measured [s]
+    # The first events of both films, a row for each with the columns above; times from the begin of the
+    # measured time, shape (m, 8).
     events: Array
+    # Number of events of each film in equal blocks of time, shape (2, blocks).
     counts: np.ndarray = field(metadata=stored("bearing block", None, "whole", name="block_events"))
+    # sums and largest: sums, and largest absolute values, of the columns of the events of each film,
+    # shape (2, 8).
     sums: Array = field(metadata=stored("bearing column", None, "not negative", name="event_sum"))
     largest: Array = field(metadata=stored("bearing column", None, "not negative", name="event_largest"))
+    # Edges of the bins of the histogram [V], shape (bins + 1,).
     edges: Array = field(metadata=stored("edge", "V", "increasing", name="voltage_edge"))
+    # Time at the voltages of each bin [s], shape (2, bins).
     histogram: Array = field(metadata=stored("bearing bin", "s", "not negative", name="time_at_voltage"))
-    limits: Array
+    limits: Array  # limits of the voltage [V], shape (l,)
+    # Time above each limit [s], shape (2, l).
     above: Array = field(metadata=stored("bearing limit", "s", "not negative", name="time_above"))
+    # peak and rms: largest and root mean square voltage across each film [V], shape (2,).
     peak: Array = field(metadata=stored("bearing", "V", "not negative", name="peak_voltage"))
     rms: Array = field(metadata=stored("bearing", "V", "not negative", name="rms_voltage"))
+    # Absolute mean of the shaft voltage, and amplitudes of its lines at whole multiples of one over the
+    # duration [V]; empty where a file of version 1.0.0 has none, shape (lines,).
     spectrum: Array = field(
         metadata=stored("line", "V", "not negative", name="line_amplitude", count="line_count", needed=False)
     )
+    # Largest voltage across each film while its asperities touch [V], shape (2,).
     touching: Array = field(metadata=stored("bearing", "V", "not negative", name="touching_voltage"))
+    # Time for which an arc burnt in each film, with arcs that burnt before and after [s], shape (2,).
     burning: Array = field(metadata=stored("bearing", "s", "not negative", name="burning_time"))
+    # Time [s], voltage of the source without its ringing, and voltage across both films [V], in a short
+    # stretch; straight between the rows, shape (m, 4).
     trace: Array
 
 
@@ -99,22 +81,9 @@ class Rate:
 
 
 def event_rate(counts: Array, duration: float) -> Rate:
-    """Rate of events with bounds of 95 % probability, from their numbers in equal blocks of time.
+    """Rate of events with bounds of 95 % probability, from their numbers in equal blocks of time. ``counts``,
+    numbers of events in the blocks, shape (blocks,); ``duration``, length of all blocks together [s].
 
-    Parameters
-    ----------
-    counts : ndarray of int, shape (blocks,)
-        Numbers of events in the blocks.
-    duration : float
-        Length of all blocks together [s].
-
-    Returns
-    -------
-    Rate
-        Mean and bounds.
-
-    Notes
-    -----
     The bounds are the wider ones of two: those of a Poisson process with this number of events (F. Garwood,
     Biometrika 28 (1936) 437, doi:10.1093/biomet/28.3-4.437), which hold for no event too, and those of
     Student's distribution of the blocks, which hold for events that follow from each other.
@@ -150,14 +119,9 @@ class Spread:
 
 
 def spread(values: Array, mean: float | None, largest: float | None) -> Spread:
-    """Spread of the values of events.
-
-    Parameters
-    ----------
-    values : ndarray, shape (m,)
-        Values of events, or of a part of them, from which the percentiles follow.
-    mean, largest : float or None
-        Mean and largest value of all events; None without an event.
+    """Spread of the values of events. ``values``, values of events, or of a part of them, from which the
+    percentiles follow, shape (m,); ``mean`` and ``largest``, mean and largest value of all events; None
+    without an event.
 
     Examples
     --------
@@ -172,35 +136,19 @@ def spread(values: Array, mean: float | None, largest: float | None) -> Spread:
 
 @dataclass(frozen=True, eq=False)
 class DriveSolution:
-    """Solved drive.
-
-    Attributes
-    ----------
-    case : DriveCase
-        Case that was solved.
-    elements : tuple of BearingElement
-        Bearings at the drive end and at the other end, as elements of the circuit.
-    record : Record
-        What happened over time.
-    divider : tuple of float
-        Voltage across the films of each bearing per volt of the source, right after an edge.
-    highest_source : float
-        Largest absolute voltage of the source [V].
-    converged : bool
-        Whether the films of both bearings are converged.
-    told : tuple of ResultWarning
-        Warnings about the file of a measured source, and of the bearings.
-    bearings : tuple of BearingResult
-        Solved bearings at both ends; none in a loaded result, whose file does not hold them.
-    """
+    """Solved drive."""
 
     case: DriveCase
     elements: tuple[BearingElement, BearingElement]
-    record: Record
+    record: Record  # what happened over time
+    # Voltage across the films of each bearing per volt of the source, right after an edge.
     divider: tuple[float, float] = field(metadata=stored("bearing", "", "not negative"))
+    # Largest absolute voltage of the source [V].
     highest_source: float = field(metadata=stored("", "V", "not negative"))
+    # Whether the films of both bearings are converged.
     converged: bool = field(default=True, metadata=stored("", None, "0 or 1", dtype="i1"))
-    told: tuple[ResultWarning, ...] = ()
+    told: tuple[ResultWarning, ...] = ()  # warnings about the file of a measured source, and of the bearings
+    # Solved bearings at both ends; none in a loaded result, whose file does not hold them.
     bearings: tuple[BearingResult, ...] = field(default=(), compare=False)
 
     def contact_current(self, b: int) -> float:

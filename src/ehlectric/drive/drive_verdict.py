@@ -36,26 +36,8 @@ _ORDER: tuple[Level, ...] = ("green", "yellow", "red")
 
 
 def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterable[ResultWarning]) -> Verdict:
-    """Verdict on a solved drive.
-
-    Parameters
-    ----------
-    case : DriveCase
-        Case of the drive.
-    summary : mapping
-        Summary of the drive, with ``converged`` and the tables of ``drive.summary.drive_summary``.
-    warnings : iterable of ResultWarning
-        Warnings of the drive; a severe one leaves no verdict.
-
-    Returns
-    -------
-    Verdict
-        Red where a bearing discharges at least twenty times in the simulated time, or its films conduct for
-        a fifth of that time after breakdowns. Green where no bearing discharges, none could more than once a
-        minute with a strength that is 20 % lower, by the law of its threshold at the largest voltage, and no
-        warning says that films may break down at lower voltages. Yellow between both, and where a strength
-        that is 20 % higher would end the discharges, as it may where thresholds hardly scatter. Grey where
-        the numbers must not be used. It has no margin.
+    """Verdict on a solved drive. Returns red where a bearing discharges at least twenty times in the
+    simulated time, or its films conduct for a fifth of that time after breakdowns.
     """
     warnings = tuple(warnings)
     codes = {warning.code for warning in warnings}
@@ -99,18 +81,9 @@ def _level(end: Mapping[str, Any], source: float, part: float) -> Level:
 def most_by_law(end: Mapping[str, Any], part: float = 1.0) -> float:
     """Discharges in a second if the largest voltage lasted, by the law of the threshold [1/s].
 
-    Parameters
-    ----------
-    end : mapping
-        Summary of one bearing.
-    part : float
-        Strength over that of the case, dimensionless.
-
-    Returns
-    -------
-    float
-        Upper bound of the rate for films that are renewed: the probability that a new film breaks down at
-        the largest voltage, over the time between new films. 0 or infinite for a threshold without scatter.
+    ``part``, strength over that of the case, dimensionless. Returns upper bound of the rate for films that
+    are renewed: the probability that a new film breaks down at the largest voltage, over the time between new
+    films; 0 or infinite for a threshold without scatter.
 
     Examples
     --------

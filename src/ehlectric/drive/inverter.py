@@ -23,32 +23,16 @@ _COUNTED = 20_000.0
 
 @dataclass(frozen=True, eq=False)
 class Steps:
-    """Steps of a voltage within a time interval.
+    """Steps of a voltage within a time interval."""
 
-    Attributes
-    ----------
-    end : float
-        End of the interval [s]; it begins where the one before ends.
-    time : ndarray, shape (n,)
-        Times at which the steps begin, in order, none of them before the interval [s].
-    step : ndarray, shape (n,)
-        Their heights [V].
-    """
-
-    end: float
-    time: Array
-    step: Array
+    end: float  # end of the interval [s]; it begins where the one before ends
+    time: Array  # times at which the steps begin, in order, none of them before the interval [s], shape (n,)
+    step: Array  # their heights [V], shape (n,)
 
 
 def sinusoidal(angle: Array, index: float) -> Array:
-    """References of the three phases, in halves of the DC link: sines, shape (n, 3).
-
-    Parameters
-    ----------
-    angle : ndarray, shape (n,)
-        Angle of the fundamental [rad].
-    index : float
-        Modulation index, amplitude of the references.
+    """References of the three phases, in halves of the DC link: sines, shape (n, 3). ``angle`` [rad],
+    shape (n,).
 
     Examples
     --------
@@ -89,27 +73,10 @@ def steps_of(source: Source, duration: float, first: float = 0.0) -> tuple[float
     phase switches between both ends of the link. The carrier is a symmetrical triangle, and references are
     sampled in the middle of its periods.
 
-    Parameters
-    ----------
-    source : Source
-        Described source.
-    duration : float
-        Time that the steps cover [s].
-    first : float
-        Time at which an interval ends in any case [s], up to rounding to whole periods of the carrier.
+    ``duration``, time that the steps cover [s]; ``first``, time at which an interval ends in any case [s], up
+    to rounding to whole periods of the carrier. Returns value at time 0 [V], and an iterator of the steps.
+    Raises InputError if the source is a measured one.
 
-    Returns
-    -------
-    tuple
-        Value at time 0 [V], and an iterator of the steps.
-
-    Raises
-    ------
-    InputError
-        If the source is a measured one.
-
-    Notes
-    -----
     The voltage of the middle of the DC link to earth, a few times the mains frequency, is left out. So is the
     dead time of the switches, which shifts edges by a microsecond.
     """
@@ -129,11 +96,6 @@ def edge_rate(source: Source) -> float:
     Steps of two phases at the same time are one, and a phase that stays at an end of the link has none:
     mostly there are six in a period of the carrier, and two at an index of zero. They are counted over the
     periods of the carrier in one of the fundamental, at most 20 000.
-
-    Parameters
-    ----------
-    source : Source
-        Described source.
 
     Examples
     --------

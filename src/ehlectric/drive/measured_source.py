@@ -32,25 +32,10 @@ _SAME_STEP = 1e-9
 def resample(waveform: Waveform, step: float) -> Waveform:
     """Waveform at a larger sampling interval, after a low-pass filter without delay.
 
-    Parameters
-    ----------
-    waveform : Waveform
-        Samples at equal steps.
-    step : float
-        New sampling interval [s], at least that of the waveform. It need not be a multiple of it.
+    ``step``, new sampling interval [s], at least that of the waveform. Returns samples at ``start``,
+    ``start + step`` and so on up to the last time of the waveform. Raises InputError if the new interval is
+    smaller, or leaves fewer than two samples.
 
-    Returns
-    -------
-    Waveform
-        Samples at ``start``, ``start + step`` and so on up to the last time of the waveform.
-
-    Raises
-    ------
-    InputError
-        If the new interval is smaller, or leaves fewer than two samples.
-
-    Notes
-    -----
     The filter is a sinc function with a Kaiser window, evaluated at the distances between new and old samples
     (J. F. Kaiser, Proc. IEEE ISCAS 1974, 20-23). Up to 0.4 of the new sampling rate, amplitudes change by
     less than 0.1 %; from half of it on, they are 1/1000 or less. It is symmetric and shifts no phase. Its
@@ -134,19 +119,9 @@ def _table() -> Array:
 def measured_source(
     source: Source, duration: float | None
 ) -> tuple[Waveform | None, tuple[ResultWarning, ...]]:
-    """Measured waveform and the warnings about its file; None for a described source.
-
-    Parameters
-    ----------
-    source : Source
-        Table ``source`` of the drive.
-    duration : float or None
-        Time that is simulated [s]; None for that of the record.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or resampled; its key begins with ``source``.
+    """Measured waveform and the warnings about its file; None for a described source. ``duration``, time that
+    is simulated [s]; None for that of the record. Raises InputError if the file cannot be read or resampled;
+    its key begins with ``source``.
     """
     if source.file is None:
         return None, ()

@@ -25,17 +25,7 @@ def capacitive_divider(circuit: Circuit, bearings: Sequence[BearingElement]) -> 
     Inductances are left out: they have the whole edge at first, and the capacitances share it later. The
     rolling elements are at their first position.
 
-    Parameters
-    ----------
-    circuit : Circuit
-        Table ``circuit`` of the drive.
-    bearings : sequence of BearingElement
-        Bearings at both ends.
-
-    Returns
-    -------
-    tuple of float
-        Share of each bearing, dimensionless, from 0 to 1.
+    Returns share of each bearing, dimensionless, from 0 to 1.
     """
     plain = circuit.model_copy(update={"common_mode_inductance": None, "ground_inductance": None})
     nodes = film_nodes(bearings)
@@ -52,25 +42,14 @@ FRAME = "frame"
 
 @dataclass(frozen=True)
 class Element:
-    """Element of a circuit between two nodes.
-
-    Attributes
-    ----------
-    kind : str
-        "capacitor", "conductor" or "inductor".
-    first, second : str
-        Names of its nodes; the potential of "frame" is zero.
-    value : float
-        Capacitance [F], conductance [S] or inductance [H].
-    resistance : float
-        Resistance in series with an inductor [Ohm].
-    """
+    """Element of a circuit between two nodes."""
 
     kind: Literal["capacitor", "conductor", "inductor"]
+    # first and second: names of its nodes; the potential of "frame" is zero.
     first: str
     second: str
-    value: float
-    resistance: float = 0.0
+    value: float  # capacitance [F], conductance [S] or inductance [H]
+    resistance: float = 0.0  # resistance in series with an inductor [Ohm]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,26 +58,14 @@ class StateSpace:
 
     The states are those that are continuous where u has a jump: for each free node the potential p + k u, and
     the currents of the inductors.
-
-    Attributes
-    ----------
-    nodes : tuple of str
-        Free nodes, whose potentials p the first states give.
-    rates : ndarray, shape (n, n)
-        Matrix A [1/s].
-    force : ndarray, shape (n,)
-        Vector B.
-    jump : ndarray, shape (n,)
-        Vector k; 0 for the currents of inductors.
-    capacitance : ndarray, shape (n, n)
-        Matrix C of the free nodes, so that C p and the part of the source are the charges of the nodes [F];
-        the inductances for the currents of inductors [H].
     """
 
-    nodes: tuple[str, ...]
-    rates: Array
-    force: Array
-    jump: Array
+    nodes: tuple[str, ...]  # free nodes, whose potentials p the first states give
+    rates: Array  # matrix A [1/s], shape (n, n)
+    force: Array  # vector B, shape (n,)
+    jump: Array  # vector k; 0 for the currents of inductors, shape (n,)
+    # Matrix C of the free nodes, so that C p and the part of the source are the charges of the nodes [F]; the
+    # inductances for the currents of inductors [H], shape (n, n).
     capacitance: Array
 
     def potential(self, node: str) -> Array:
@@ -110,29 +77,9 @@ class StateSpace:
 
 
 def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSpace:
-    """State equations of a circuit.
+    """State equations of a circuit. ``elements``, elements; ``source``, positive and negative node of the
+    voltage source. Raises ValueError if a free node has no path of capacitors.
 
-    Parameters
-    ----------
-    elements : sequence of Element
-        Elements. Every node but "frame" and the positive node of the source needs a path of capacitors to
-        "frame" or to the source.
-    source : tuple of str
-        Positive and negative node of the voltage source. The positive one is no free node: its potential is
-        that of the negative one plus u.
-
-    Returns
-    -------
-    StateSpace
-        Equations.
-
-    Raises
-    ------
-    ValueError
-        If a free node has no path of capacitors.
-
-    Notes
-    -----
     With the potentials v = T p + s u of all nodes, Kirchhoff's current law at the free nodes is
     T'(C v' + G v + N i) = 0 with the inductors' currents i, and L i' = N' v - R i. With
     k = (T'C T)^-1 T'C s the states p + k u have no derivative of u in their equations.
@@ -287,17 +234,7 @@ def bearing_elements(
     one: BearingElement, nodes: tuple[str, str], place: int, conductance: float
 ) -> Iterator[Element]:
     """Elements of a bearing with its elements at a place, and a conductance of its films beside that of oil.
-
-    Parameters
-    ----------
-    one : BearingElement
-        Bearing.
-    nodes : tuple of str
-        Nodes between which its films lie.
-    place : int
-        Number of the position of its elements.
-    conductance : float
-        Conductance of an arc or of touching asperities [S].
+    ``conductance``, conductance of an arc or of touching asperities [S].
     """
     yield Element("capacitor", *nodes, float(one.capacitance[place]))
     if one.conductance + conductance > 0.0:
@@ -311,21 +248,8 @@ def bearing_elements(
 
 
 def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[tuple[float, float]]:
-    """Frequency [Hz] and quality factor of each oscillation of the circuit with films that insulate.
-
-    Parameters
-    ----------
-    circuit : Circuit
-        Table ``circuit`` of the drive.
-    bearings : sequence of BearingElement
-        Bearings at both ends; their elements are at their first position.
-
-    Returns
-    -------
-    list of tuple of float
-        The least damped oscillation first; none in a circuit without inductances. With a rate s of the
-        circuit the frequency is Im s/(2 pi), and the quality factor is abs(s)/(-2 Re s), infinite without
-        damping.
+    """Frequency [Hz] and quality factor of each oscillation of the circuit with films that insulate. Returns
+    the least damped oscillation first; none in a circuit without inductances.
     """
     if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
         return []
@@ -345,23 +269,8 @@ def states_of(
     circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, *, touches: bool
 ) -> list[StateSpace]:
     """State equations of the circuit in all of its states, in the order in which a march numbers them.
-
-    Parameters
-    ----------
-    circuit : Circuit
-        Table ``circuit`` of the drive.
-    bearings : sequence of BearingElement
-        Bearings at both ends.
-    breakdown : Breakdown
-        Table ``breakdown`` of the drive.
-    touches : bool
-        Whether films of a bearing touch, which is a third state of each.
-
-    Returns
-    -------
-    list of StateSpace
-        For each state of the first and the second film, and each position of the first and the second
-        bearing's elements.
+    Returns for each state of the first and the second film, and each position of the first and the second
+    bearing's elements.
     """
     arc = 1.0 / breakdown.arc_resistance
     doing = [[0.0, arc, 1.0 / one.touch_resistance][: 3 if touches else 2] for one in bearings]
@@ -391,39 +300,22 @@ _APART = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class Modes:
-    """Diagonal form of the state equations of several states of a circuit, one after the other.
+    """Diagonal form of the state equations of several states of a circuit, one after the other."""
 
-    Attributes
-    ----------
-    rates : ndarray of complex, shape (states, n)
-        Eigenvalues [1/s]; no real part is above zero.
-    shapes, inverse : ndarray of complex, shape (states, n, n)
-        Eigenvectors and their inverse.
-    force : ndarray of complex, shape (states, n)
-        Force of each mode per volt of the source.
-    films : ndarray of complex, shape (states, films, n)
-        Voltage across each film, and any other voltage that is asked for, per amplitude of each mode [V].
-    films_source : ndarray, shape (states, films)
-        Voltage across each film per volt of the source with all modes at zero.
-    ring_state : ndarray of complex, shape (states, n)
-        States per volt of a source exp(mu t).
-    ring_films : ndarray of complex, shape (states, films)
-        Voltage across each film per volt of a source exp(mu t).
-    jump : ndarray, shape (states, n)
-        Vector k of ``StateSpace``.
-    charge, uncharge : ndarray, shape (states, n, n)
-        Matrix C of ``StateSpace`` and its inverse.
-    """
-
-    rates: Complex
+    rates: Complex  # eigenvalues [1/s]; no real part is above zero, shape (states, n)
+    # shapes and inverse: eigenvectors and their inverse, shape (states, n, n).
     shapes: Complex
     inverse: Complex
-    force: Complex
+    force: Complex  # force of each mode per volt of the source, shape (states, n)
+    # Voltage across each film, and any other voltage that is asked for, per amplitude of each mode [V],
+    # shape (states, films, n).
     films: Complex
+    # Voltage across each film per volt of the source with all modes at zero, shape (states, films).
     films_source: Array
-    ring_state: Complex
-    ring_films: Complex
-    jump: Array
+    ring_state: Complex  # states per volt of a source exp(mu t), shape (states, n)
+    ring_films: Complex  # voltage across each film per volt of a source exp(mu t), shape (states, films)
+    jump: Array  # vector k of ``StateSpace``, shape (states, n)
+    # charge and uncharge: matrix C of ``StateSpace`` and its inverse, shape (states, n, n).
     charge: Array
     uncharge: Array
 
@@ -431,21 +323,8 @@ class Modes:
 def modes_of(
     systems: Sequence[StateSpace], films: Sequence[tuple[str, str]], ring: complex | None = None
 ) -> Modes:
-    """Diagonal form of a circuit in all of its states.
-
-    Parameters
-    ----------
-    systems : sequence of StateSpace
-        State equations, all with the same nodes.
-    films : sequence of tuple of str
-        Upper and lower node of each film.
-    ring : complex, optional
-        Rate mu of the source's ringing [1/s]; without it the source does not ring.
-
-    Returns
-    -------
-    Modes
-        Rates, shapes and what follows from them.
+    """Diagonal form of a circuit in all of its states. ``ring``, rate mu of the source's ringing [1/s];
+    without it the source does not ring. Returns rates, shapes and what follows from them.
     """
     first = systems[0]
     rates = np.array([one.rates for one in systems])

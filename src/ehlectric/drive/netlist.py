@@ -96,19 +96,7 @@ def name_of(text: str) -> str:
 
 @dataclass(frozen=True)
 class Parameter:
-    """Parameter of a netlist.
-
-    Attributes
-    ----------
-    name : str
-        Name in the netlist.
-    value : float
-        Value in ``unit``.
-    unit : str
-        Unit, in ASCII.
-    meaning : str
-        Words for the quantity.
-    """
+    """Parameter of a netlist."""
 
     name: str
     value: float
@@ -137,50 +125,22 @@ State = Literal["films", "ceramic", "metal"]
 
 @dataclass(frozen=True)
 class Equivalent:
-    """Equivalent circuit of what lies between the rings of a bearing, at one speed.
+    """Equivalent circuit of what lies between the rings of a bearing, at one speed."""
 
-    Attributes
-    ----------
-    speed : float
-        Speed of the inner ring [rad/s].
-    state : str
-        "films"; "ceramic" for elements that insulate; "metal" where the surfaces touch.
-    capacitance : float
-        Capacitance with smooth films, mean over the positions of the cage [F].
-    resistance : float or None
-        Resistance parallel to it, of the oil or of contacts of metal [Ohm]; None for oil without a
-        conductivity and for ceramic elements.
-    threshold : float or None
-        Smallest voltage from ring to ring at which an element breaks down [V]; None where there is none.
-    """
-
-    speed: float
-    state: State
-    capacitance: float
+    speed: float  # speed of the inner ring [rad/s]
+    state: State  # "films"; "ceramic" for elements that insulate; "metal" where the surfaces touch
+    capacitance: float  # capacitance with smooth films, mean over the positions of the cage [F]
+    # Resistance parallel to it, of the oil or of contacts of metal [Ohm]; None for oil without a conductivity
+    # and for ceramic elements.
     resistance: float | None
+    # Smallest voltage from ring to ring at which an element breaks down [V]; None where there is none.
     threshold: float | None
 
 
 def equivalent_of(solution: BearingSolution) -> Equivalent:
-    """Equivalent circuit of what lies between the rings of a solved bearing.
+    """Equivalent circuit of what lies between the rings of a solved bearing. Returns values in SI units.
+    Raises InputError where the surfaces touch, and the case has no ``bearing.contact_resistance``.
 
-    Parameters
-    ----------
-    solution : BearingSolution
-        Solved bearing.
-
-    Returns
-    -------
-    Equivalent
-        Values in SI units.
-
-    Raises
-    ------
-    InputError
-        Where the surfaces touch, and the case has no ``bearing.contact_resistance``.
-
-    Notes
-    -----
     Where the surfaces touch, an element conducts while both of its contacts are closed, by two contact
     resistances in series. The conductance is the mean over time of that of all elements.
     """
@@ -228,24 +188,8 @@ _FACTORS = 4
 
 
 def speeds_of(case: BearingCase, text: str) -> tuple[float, ...]:
-    """Speeds of the inner ring from the text of an option.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Case whose speed they replace.
-    text : str
-        Speeds with units, separated by commas, or a range "LOW : HIGH : NUMBER" in a geometric series.
-
-    Returns
-    -------
-    tuple of float
-        Speeds [rad/s].
-
-    Raises
-    ------
-    InputError
-        If a part is no speed that the case takes, or the range is none.
+    """Speeds of the inner ring from the text of an option. Returns speeds [rad/s]. Raises InputError if a
+    part is no speed that the case takes, or the range is none.
     """
     found = _RANGE.fullmatch(text)
     if found is None:
@@ -272,28 +216,9 @@ def _speed(case: BearingCase, text: str) -> float:
 def solve_at_speeds(
     case: BearingCase, speeds: Sequence[float], progress: Progress = silent, *, workers: int | None = None
 ) -> list[BearingResult]:
-    """Solve a bearing at its own speed and at others, all at the same temperature.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing; its ``contacts`` says how it is solved.
-    speeds : sequence of float
-        Other speeds of the inner ring [rad/s].
-    progress : callable, optional
-        Called with the numbers of solved and of all contacts of one speed, and a text.
-    workers : int, optional
-        Number of processes.
-
-    Returns
-    -------
-    list of BearingResult
-        Results at different speeds; the first one is at the speed of the case.
-
-    Raises
-    ------
-    InputError, LostError, ConvergenceError
-        As ``solve_bearing`` raises them.
+    """Solve a bearing at its own speed and at others, all at the same temperature. ``speeds``, other speeds
+    of the inner ring [rad/s]. Returns results at different speeds; the first one is at the speed of the case.
+    Raises InputError, LostError, ConvergenceError as ``solve_bearing`` raises them.
     """
     own = case.bearing.inner_speed
     others = [speed for speed in dict.fromkeys(speeds) if not _same(speed, own)]
@@ -313,12 +238,8 @@ def _same(first: float, second: float) -> bool:
 
 
 def check_table(results: Sequence[BearingResult]) -> None:
-    """Refuse several results that are no table over the speed.
-
-    Raises
-    ------
-    InputError
-        If they differ in more than the speed, two have nearly the same speed, or surfaces touch at some.
+    """Refuse several results that are no table over the speed. Raises InputError if they differ in more than
+    the speed, two have nearly the same speed, or surfaces touch at some.
     """
     if len(results) == 1:
         return
@@ -393,43 +314,22 @@ _CIRCUIT = (
 
 @dataclass(frozen=True)
 class Arc:
-    """Arc across the films of a bearing.
+    """Arc across the films of a bearing."""
 
-    Attributes
-    ----------
-    resistance : float
-        Resistance of the arc [Ohm].
-    extinction : float
-        Voltage across the films below which it goes out [V].
-    """
-
-    resistance: float
-    extinction: float
+    resistance: float  # [Ohm]
+    extinction: float  # voltage across the films below which it goes out [V]
 
 
 @dataclass(frozen=True)
 class Subcircuit:
-    """Subcircuit of a bearing.
+    """Subcircuit of a bearing."""
 
-    Attributes
-    ----------
-    results : tuple of BearingResult
-        Results at one speed or several; the first one is at the speed that is the default.
-    found : tuple of Equivalent
-        Equivalent circuits of the results, by increasing speed.
-    arc : Arc or None
-        Arc across the films; None for a subcircuit without a switch.
-    notes : tuple of str
-        What the circuit leaves out, or stands for.
-    suffix : str
-        End of the name, of one of several bearings in a file.
-    """
-
+    # Results at one speed or several; the first one is at the speed that is the default.
     results: tuple[BearingResult, ...]
-    found: tuple[Equivalent, ...]
-    arc: Arc | None
-    notes: tuple[str, ...]
-    suffix: str = ""
+    found: tuple[Equivalent, ...]  # equivalent circuits of the results, by increasing speed
+    arc: Arc | None  # arc across the films; None for a subcircuit without a switch
+    notes: tuple[str, ...]  # what the circuit leaves out, or stands for
+    suffix: str = ""  # end of the name, of one of several bearings in a file
 
     @property
     def case(self) -> BearingCase:
@@ -589,23 +489,10 @@ def _insulation(path: Path) -> str:
 def subcircuit_of(results: Sequence[BearingResult], arc: Arc | None) -> Subcircuit:
     """Subcircuit of a bearing at one speed, or over several.
 
-    Parameters
-    ----------
-    results : sequence of BearingResult
-        Results of one bearing at different speeds; the speed of the first one is the default.
-    arc : Arc or None
-        Arc across the films; None for a subcircuit without a switch.
-
-    Returns
-    -------
-    Subcircuit
-        Subcircuit with its notes. It has no arc where there is no film that breaks down.
-
-    Raises
-    ------
-    InputError
-        If the results are no table over the speed, the surfaces touch without ``bearing.contact_resistance``,
-        or the arc has no breakdown voltage above that of its extinction.
+    ``arc``, arc across the films; None for a subcircuit without a switch. Returns subcircuit with its notes;
+    it has no arc where there is no film that breaks down. Raises InputError if the results are no table over
+    the speed, the surfaces touch without ``bearing.contact_resistance``, or the arc has no breakdown voltage
+    above that of its extinction.
     """
     check_table(results)
     found = sorted((equivalent_of(result.solution) for result in results), key=lambda one: one.speed)
@@ -619,12 +506,8 @@ def subcircuit_of(results: Sequence[BearingResult], arc: Arc | None) -> Subcircu
 
 
 def check_strength(case: BearingCase) -> None:
-    """Refuse a switch without a dielectric strength, before anything is solved.
-
-    Raises
-    ------
-    InputError
-        If steel elements have no dielectric strength of the film.
+    """Refuse a switch without a dielectric strength, before anything is solved. Raises InputError if steel
+    elements have no dielectric strength of the film.
     """
     known = case.discharge.has_strength or case.discharge.weibull is not None
     if Solid.of(case.bearing.element_material).conducting and not known:
@@ -699,22 +582,9 @@ _ABOUT = (
 
 
 def drive_of(case: BearingCase) -> Motor:
-    """Table ``[motor]`` of a bearing with all that a test bench needs.
-
-    Parameters
-    ----------
-    case : BearingCase
-        Case of the bearing.
-
-    Returns
-    -------
-    Motor
-        Table with a switching frequency and a rise time.
-
-    Raises
-    ------
-    InputError
-        If the case has no motor, a key is missing, or an edge lasts half a period.
+    """Table ``[motor]`` of a bearing with all that a test bench needs. Returns table with a switching
+    frequency and a rise time. Raises InputError if the case has no motor, a key is missing, or an edge lasts
+    half a period.
     """
     motor = case.motor
     if motor is None:
@@ -734,24 +604,8 @@ def drive_of(case: BearingCase) -> Motor:
 
 
 def bench_lines(subcircuit: Subcircuit, library: str) -> Iterator[str]:
-    """Lines of a test bench that simulates some periods of the inverter.
-
-    Parameters
-    ----------
-    subcircuit : Subcircuit
-        Subcircuit of the bearing.
-    library : str
-        Path of its file, relative to the test bench.
-
-    Yields
-    ------
-    str
-        Lines of the file; the first one is its title.
-
-    Raises
-    ------
-    InputError
-        As ``drive_of`` raises it.
+    """Lines of a test bench that simulates some periods of the inverter. Yields lines of the file; the first
+    one is its title. Raises InputError as ``drive_of`` raises it.
     """
     motor, name = drive_of(subcircuit.case), subcircuit.name
     yield f"{SIGNATURE}test bench of {name}; ehlectric {__version__}"

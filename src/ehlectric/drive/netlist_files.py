@@ -93,12 +93,8 @@ def write_netlist(
 
 
 def arc_of(resistance: float | str | None, extinction: float | str | None) -> Arc | None:
-    """Arc of its two inputs; None without both.
-
-    Raises
-    ------
-    InputError
-        If only one of them is given, or a value is out of bounds.
+    """Arc of its two inputs; None without both. Raises InputError if only one of them is given, or a value is
+    out of bounds.
     """
     given = {"arc_resistance": (_RESISTANCE, resistance), "extinction_voltage": (_VOLTAGE, extinction)}
     if resistance is None and extinction is None:
@@ -115,12 +111,8 @@ def arc_of(resistance: float | str | None, extinction: float | str | None) -> Ar
 
 
 def check_targets(path: Path, bench: Path | None) -> None:
-    """Refuse files that cannot be written, before anything is solved.
-
-    Raises
-    ------
-    InputError
-        If both are one file, a folder does not exist, or ehlectric did not write the file that is there.
+    """Refuse files that cannot be written, before anything is solved. Raises InputError if both are one file,
+    a folder does not exist, or ehlectric did not write the file that is there.
     """
     if bench is not None:
         if path.resolve() == bench.resolve():
@@ -140,17 +132,8 @@ def check_targets(path: Path, bench: Path | None) -> None:
 
 
 def write_subcircuit(subcircuit: Subcircuit, path: Path, bench: Path | None) -> list[Path]:
-    """Write the file of a subcircuit, and that of its test bench if there is one.
-
-    Returns
-    -------
-    list of Path
-        Files written.
-
-    Raises
-    ------
-    InputError
-        If the test bench lacks an input, or a file cannot be written.
+    """Write the file of a subcircuit, and that of its test bench if there is one. Raises InputError if the
+    test bench lacks an input, or a file cannot be written.
     """
     return write_lines(subcircuit.lines(), path, partial(bench_lines, subcircuit), bench)
 
@@ -158,23 +141,8 @@ def write_subcircuit(subcircuit: Subcircuit, path: Path, bench: Path | None) -> 
 def write_lines(
     lines: Iterator[str], path: Path, bench_of: Callable[[str], Iterator[str]], bench: Path | None
 ) -> list[Path]:
-    """Write the lines of a library, and those of a test bench that includes it, if there is one.
-
-    Parameters
-    ----------
-    lines : iterator of str
-        Lines of the library.
-    path : Path
-        File of the library.
-    bench_of : callable
-        Lines of the test bench, from the path of the library as the bench names it.
-    bench : Path or None
-        File of the test bench.
-
-    Returns
-    -------
-    list of Path
-        Files written.
+    """Write the lines of a library, and those of a test bench that includes it, if there is one. Returns
+    files written.
     """
     contents = {path: file_text(lines)}
     if bench is not None:
@@ -185,12 +153,8 @@ def write_lines(
 
 
 def _relative(path: Path, bench: Path) -> str:
-    """Path of the subcircuit as the test bench names it: relative to its folder where there is a way.
-
-    Raises
-    ------
-    InputError
-        If a netlist cannot hold the path.
+    """Path of the subcircuit as the test bench names it: relative to its folder where there is a way. Raises
+    InputError if a netlist cannot hold the path.
     """
     try:
         found = Path(os.path.relpath(path.resolve(), bench.resolve().parent)).as_posix()

@@ -25,20 +25,9 @@ _RINGING = "The ringing of the source lifts the voltage above the divider's."
 
 
 def quick_drive(case: DriveCase) -> tuple[DriveCase | None, str]:
-    """Drive with contacts from the atlas of films or by formula.
-
-    Parameters
-    ----------
-    case : DriveCase
-        Drive.
-
-    Returns
-    -------
-    case : DriveCase or None
-        Drive with quick bearings, each with its own speed, temperature and contacts; None where a bearing
-        needs solved contacts.
-    key : str
-        Key that needs them; empty otherwise.
+    """Drive with contacts from the atlas of films or by formula. Returns ``case``, drive with quick bearings,
+    each with its own speed, temperature and contacts; None where a bearing needs solved contacts; ``key``,
+    key that needs them; empty otherwise.
     """
     films = {}
     for end, bearing in zip(ENDS, case.bearings, strict=True):
@@ -53,19 +42,8 @@ def quick_drive(case: DriveCase) -> tuple[DriveCase | None, str]:
 
 def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     """Verdict on a drive that is not simulated: the capacitive divider against the breakdown voltages.
-
-    Parameters
-    ----------
-    case : DriveCase
-        Drive.
-    summary : mapping
-        Tables of ``drive.summary.checked_summary``.
-
-    Returns
-    -------
-    Verdict
-        Of the bearing that breaks down first; its margin is breakdown voltage over bearing voltage at the
-        peak of the source. Grey with a grounding ring or an inductance, which the divider leaves out.
+    Returns of the bearing that breaks down first; its margin is breakdown voltage over bearing voltage at the
+    peak of the source; grey with a grounding ring or an inductance, which the divider leaves out.
     """
     margins = {
         end: summary[end]["breakdown_voltage"] / max(summary[end]["voltage_at_peak"], 1e-30)

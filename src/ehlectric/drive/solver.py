@@ -45,43 +45,20 @@ _TRACED, _SAMPLES = 2.0, 4000.0
 
 @dataclass(frozen=True, eq=False)
 class PreparedDrive:
-    """Drive before its simulation: solved bearings, and the circuit in each of its states.
-
-    Attributes
-    ----------
-    case : DriveCase
-        Case.
-    bearings : tuple of BearingResult
-        Solved bearings at the drive end and at the other end.
-    elements : tuple of BearingElement
-        The same as elements of the circuit.
-    films : Films
-        Thresholds and arcs of the films.
-    modes : Modes
-        Circuit in each of its states.
-    ringing : Ringing or None
-        What the edges of a described source excite.
-    waveform : Waveform or None
-        Voltage of a measured source.
-    highest_source : float
-        Largest absolute voltage of the source [V].
-    settling, duration : float
-        Times that are simulated before and after measuring begins [s].
-    told : tuple of ResultWarning
-        Warnings about the file of a measured source.
-    """
+    """Drive before its simulation: solved bearings, and the circuit in each of its states."""
 
     case: DriveCase
     bearings: tuple[BearingResult, BearingResult]
     elements: tuple[BearingElement, BearingElement]
     films: Films
     modes: Modes
-    ringing: Ringing | None
-    waveform: Waveform | None
-    highest_source: float
+    ringing: Ringing | None  # what the edges of a described source excite
+    waveform: Waveform | None  # voltage of a measured source
+    highest_source: float  # largest absolute voltage of the source [V]
+    # settling and duration: times that are simulated before and after measuring begins [s].
     settling: float
     duration: float
-    told: tuple[ResultWarning, ...]
+    told: tuple[ResultWarning, ...]  # warnings about the file of a measured source
 
     @property
     def divider(self) -> tuple[float, float]:
@@ -90,24 +67,8 @@ class PreparedDrive:
 
 
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
-    """Solve the bearings of a drive, and set up its circuit.
-
-    Parameters
-    ----------
-    case : DriveCase
-        Drive.
-    workers : int, optional
-        Number of processes that solve the contacts of the bearings.
-
-    Returns
-    -------
-    PreparedDrive
-        All that the simulation needs.
-
-    Raises
-    ------
-    InputError
-        Where a bearing cannot be solved, or lacks a value that discharges need.
+    """Solve the bearings of a drive, and set up its circuit. Returns all that the simulation needs. Raises
+    InputError where a bearing cannot be solved, or lacks a value that discharges need.
     """
     first, second = case.bearings
     drive_end = solve_bearing(first, workers=workers)
@@ -127,26 +88,8 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
 
 
 def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:
-    """Solve the bearings of a drive, and simulate it over time.
-
-    Parameters
-    ----------
-    case : DriveCase
-        Drive.
-    progress : callable, optional
-        Called with the simulated part in percent, 100, and a text.
-    workers : int, optional
-        Number of processes that solve the contacts of the bearings.
-
-    Returns
-    -------
-    DriveSolution
-        Bearings, and the record of what happened.
-
-    Raises
-    ------
-    InputError
-        Where a bearing cannot be solved, or lacks a value that discharges need.
+    """Solve the bearings of a drive, and simulate it over time. Returns bearings, and the record of what
+    happened. Raises InputError where a bearing cannot be solved, or lacks a value that discharges need.
     """
     ready = prepare(case, workers=workers)
     whole = ready.settling + ready.duration

@@ -22,21 +22,11 @@ _LEVEL = 1e-9
 
 @dataclass(frozen=True)
 class Ringing:
-    """Damped oscillation at the end of each edge, A sin(omega t) exp(-t/T).
+    """Damped oscillation at the end of each edge, A sin(omega t) exp(-t/T)."""
 
-    Attributes
-    ----------
-    overshoot : float
-        Amplitude A as a part of the height of the edge.
-    frequency : float
-        omega/(2 pi) [Hz].
-    time : float
-        Time constant T [s].
-    """
-
-    overshoot: float
-    frequency: float
-    time: float
+    overshoot: float  # amplitude A as a part of the height of the edge
+    frequency: float  # omega/(2 pi) [Hz]
+    time: float  # time constant T [s]
 
     @property
     def rate(self) -> complex:
@@ -54,23 +44,8 @@ def ringing_of(source: Source) -> Ringing | None:
 def edges(
     start: float, intervals: Iterable[Steps], rise: float, ringing: Ringing | None = None
 ) -> Iterator[Segments]:
-    """Pieces of a voltage whose steps take a rise time each; edges that overlap add up.
-
-    Parameters
-    ----------
-    start : float
-        Voltage at time 0 [V].
-    intervals : iterable of Steps
-        Steps in consecutive intervals.
-    rise : float
-        Rise time of each step, from its begin to its end [s]; 0 for jumps.
-    ringing : Ringing, optional
-        What each edge excites at its end.
-
-    Yields
-    ------
-    Segments
-        Pieces of each interval.
+    """Pieces of a voltage whose steps take a rise time each; edges that overlap add up. ``start``, voltage at
+    time 0 [V]; ``rise``, rise time of each step, from its begin to its end [s]; 0 for jumps.
     """
     now, level, slope = 0.0, start, 0.0
     later = np.empty((0, 4))
@@ -107,20 +82,8 @@ def _knots(interval: Steps, rise: float, ringing: Ringing | None) -> Array:
 
 def sampled(waveform: Waveform, duration: float, rest: float = 0.0) -> Iterator[Segments]:
     """Pieces of a measured voltage, straight from sample to sample; the record is repeated where it is short.
-
-    Parameters
-    ----------
-    waveform : Waveform
-        Evenly sampled voltage.
-    duration : float
-        Time that the pieces of samples cover [s].
-    rest : float
-        Time before them, for which the voltage is that of the first sample [s].
-
-    Yields
-    ------
-    Segments
-        The rest, and pieces of one chunk of samples.
+    ``duration``, time that the pieces of samples cover [s]; ``rest``, time before them, for which the voltage
+    is that of the first sample [s]. Yields the rest, and pieces of one chunk of samples.
     """
     if rest:
         none = np.zeros(1)

@@ -100,12 +100,8 @@ def dataset_of(solution: DriveSolution, remedies: Remedies, seconds: float, vers
 
 
 def parts_of(dataset: xr.Dataset) -> tuple[DriveSolution, Remedies, float, str]:
-    """Solution, remedies, computing time [s] and version of a dataset that ``dataset_of`` made.
-
-    Raises
-    ------
-    UnfitError
-        Where a variable or an attribute is missing, or is not as it was written.
+    """Solution, remedies, computing time [s] and version of a dataset that ``dataset_of`` made. Raises
+    UnfitError where a variable or an attribute is missing, or is not as it was written.
     """
     attributes = dataset.attrs
     case = case_of(attributes, DriveCase.from_dict)
@@ -140,12 +136,8 @@ def _solution_of(values: Mapping[str, Array], k: int, **given: Any) -> DriveSolu
 
 
 def check(dataset: xr.Dataset, variants: int) -> None:
-    """Check the variables of a drive.nc with a number of variants before any of them is used.
-
-    Raises
-    ------
-    UnfitError
-        Where a variable is missing, or is not as it was written.
+    """Check the variables of a drive.nc with a number of variants before any of them is used. Raises
+    UnfitError where a variable is missing, or is not as it was written.
     """
     check_parts(dataset, _PARTS, {"limit": Rule(("limit",), "increasing", "V")})
     sizes = dataset.sizes

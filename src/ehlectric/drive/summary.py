@@ -200,20 +200,8 @@ def whole_summary(
     seconds: float,
     version: str,
 ) -> dict[str, Any]:
-    """Whole summary: what is said of the result, its tables, and those of its remedies.
-
-    Parameters
-    ----------
-    solution : DriveSolution
-        Solved drive.
-    remedies : sequence of tuple
-        Title, changes and tables of each remedy.
-    warnings : sequence of ResultWarning
-        Warnings.
-    seconds : float
-        Computing time [s].
-    version : str
-        Version of ehlectric.
+    """Whole summary: what is said of the result, its tables, and those of its remedies. ``seconds``,
+    computing time [s].
     """
     tables = drive_summary(solution)
     verdict = drive_verdict(solution.case, {"converged": solution.converged, **tables}, warnings)

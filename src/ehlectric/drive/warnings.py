@@ -36,18 +36,7 @@ _DRAINED, _TOGETHER = 5.0, 0.1
 
 
 def drive_warnings(solution: DriveSolution) -> Iterator[ResultWarning]:
-    """Warnings of both bearings, each with its end, and those of the simulation.
-
-    Parameters
-    ----------
-    solution : DriveSolution
-        Solved drive.
-
-    Yields
-    ------
-    ResultWarning
-        Warning with its code.
-    """
+    """Warnings of both bearings, each with its end, and those of the simulation."""
     yield from solution.told
     yield from machine_warnings(solution.case, solution.elements)
     yield from _of_threshold(solution)

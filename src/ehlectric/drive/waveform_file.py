@@ -34,15 +34,6 @@ from ehlectric.runtime.sizes import check_memory_for, check_size
 class Waveform:
     """Voltage at equal steps of time.
 
-    Attributes
-    ----------
-    start : float
-        Time of the first sample [s].
-    step : float
-        Sampling interval [s], above 0.
-    values : ndarray, shape (n,)
-        Voltages [V].
-
     Examples
     --------
     >>> import numpy as np
@@ -51,9 +42,9 @@ class Waveform:
     0.001
     """
 
-    start: float
-    step: float
-    values: Array
+    start: float  # time of the first sample [s]
+    step: float  # sampling interval [s], above 0
+    values: Array  # voltages [V], shape (n,)
 
     @property
     def duration(self) -> float:
@@ -85,19 +76,8 @@ _SEAM, _BEYOND = 0.05, 1e-3
 
 
 def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
-    """Warnings about clipped, coarse and badly resolved waveforms.
-
-    Parameters
-    ----------
-    source : str
-        Name of the file, for the texts.
-    waveform : Waveform
-        Samples that are not constant.
-
-    Yields
-    ------
-    ResultWarning
-        "waveform-clipped", "waveform-coarse" and "edges-unresolved", each at most once.
+    """Warnings about clipped, coarse and badly resolved waveforms. Yields "waveform-clipped",
+    "waveform-coarse" and "edges-unresolved", each at most once.
     """
     values = waveform.values
     clipped = [f"{count} samples at exactly {level:.6g} V" for level, count in clipped_levels(values).items()]
@@ -118,15 +98,7 @@ def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]
 
 
 def edge_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
-    """Warning "edges-unresolved" about steep edges with too few samples.
-
-    Parameters
-    ----------
-    source : str
-        Name of the file, for the text.
-    waveform : Waveform
-        Samples that are not constant.
-    """
+    """Warning "edges-unresolved" about steep edges with too few samples."""
     unresolved, edges = unresolved_edges(waveform.values)
     if unresolved:
         yield ResultWarning(
@@ -139,15 +111,7 @@ def edge_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
 
 def repeat_warnings(source: str, waveform: Waveform, duration: float | None) -> Iterator[ResultWarning]:
     """Warning "record-repeated" about a record that is repeated, and does not end where it begins.
-
-    Parameters
-    ----------
-    source : str
-        Name of the file, for the text.
-    waveform : Waveform
-        Samples that are not constant.
-    duration : float or None
-        Time that is simulated [s]; None for that of the record.
+    ``duration``, time that is simulated [s]; None for that of the record.
     """
     if duration is None or duration <= (1.0 + _BEYOND) * waveform.duration:
         return
@@ -168,15 +132,8 @@ def clipped_levels(values: Array) -> dict[float, int]:
     of its two extremes and a few samples between them is taken for a computed square wave, not for a clipped
     one.
 
-    Parameters
-    ----------
-    values : ndarray, shape (n,)
-        Voltages, not constant.
-
-    Returns
-    -------
-    dict of float to int
-        Number of samples by voltage; empty for a waveform that is not clipped.
+    ``values``, voltages, not constant, shape (n,). Returns number of samples by voltage; empty for a waveform
+    that is not clipped.
 
     Examples
     --------
@@ -233,17 +190,8 @@ def few_levels(values: Array) -> int | None:
 
 def unresolved_edges(values: Array) -> tuple[int, int]:
     """Number of steep edges with fewer than three samples between 10 and 90 % of their height, and of all.
-
-    Parameters
-    ----------
-    values : ndarray, shape (n,)
-        Voltages.
-
-    Returns
-    -------
-    unresolved, edges : int
-        Edges that move by a fifth of the range or more between two samples; slower ones are resolved. Of more
-        than 100 000 edges, the first ones count.
+    ``values``, voltages, shape (n,). Returns edges that move by a fifth of the range or more between two
+    samples; slower ones are resolved; of more than 100 000 edges, the first ones count.
 
     Examples
     --------

@@ -40,58 +40,41 @@ class GapField(Values):
     The two walls are the surfaces of the contact; both are conductors of constant potential. Values of
     columns have the shape (nx,) in a line contact and (nx, ny) in a point contact; values in the gap have a
     last axis across it, of length ns.
-
-    Attributes
-    ----------
-    x, s : ndarray, shapes (nx,), (ns,)
-        Position along the gap [m]; height above the lower wall over the gap, from 0 to 1.
-    permittivity, potential : ndarray, shape (..., ns)
-        Relative permittivity and potential [V].
-    field_x, field_y, strength : ndarray, shape (..., ns)
-        Components of E = -grad V and its magnitude [V/m].
-    middle_strength : ndarray
-        abs(E) at s = 1/2 [V/m].
-    thin_gap_strength : ndarray
-        Voltage over the gap of each column [V/m].
-    capacitance_density : ndarray
-        Charge of wall 2 per area and voltage [F/m^2]. Its integral is ``capacitance_by_charge``: by the
-        trapezoidal rule over x, or its sum weighted with ``node_areas``.
-    voltage : float
-        Magnitude of the potential difference of the walls [V].
-    capacitance, capacitance_by_charge : float
-        Capacitance [F], of a line contact per length [F/m], from the energy of the field and from the charge
-        of wall 2. Free charge in the gap is left out. The two values agree, unless potentials are prescribed
-        on the end faces.
-    thin_gap_capacitance : float
-        Integral of eps0 eps/h over the columns [F or F/m].
-    strength_error : float or None
-        Estimated relative error of the largest field strength; None if it is not known, which it is only for
-        a permittivity that is constant across the gap, without charge and without prescribed potentials of
-        the end faces.
-    sufficient_degree : int or None
-        Polynomial degree across the gap at which its part of that error is below 0.5 %; None if it is not
-        known.
     """
 
+    # x and s: position along the gap [m]; height above the lower wall over the gap, from 0 to 1,
+    # shapes (nx,).
     x: Array = field(metadata=stored("x_field", "m", "increasing", _POSITION, name="x_field"))
     s: Array = field(metadata=stored("s", "1", "increasing", _FRACTION))
+    # permittivity and potential: relative permittivity and potential [V], shape (..., ns).
     permittivity: Array = field(metadata=stored("columns s", "1", "positive", "relative permittivity"))
     potential: Array = field(metadata=stored("columns s", "V", "finite", "electric potential"))
+    # field_x, field_y and strength: components of E = -grad V and its magnitude [V/m], shape (..., ns).
     field_x: Array = field(metadata=stored("columns s", "V/m", "finite", "electric field along x"))
     field_y: Array = field(metadata=stored("columns s", "V/m", "finite", "electric field along y"))
     strength: Array = field(metadata=stored("columns s", "V/m", "not negative", _STRENGTH))
     middle_strength: Array = field(
         metadata=stored("columns", "V/m", "not negative", f"{_STRENGTH} at mid-film")
-    )
+    )  # abs(E) at s = 1/2 [V/m]
     thin_gap_strength: Array = field(
         metadata=stored("columns", "V/m", "positive", "voltage / film thickness")
-    )
+    )  # voltage over the gap of each column [V/m]
+    # Charge of wall 2 per area and voltage [F/m^2].
     capacitance_density: Array = field(metadata=stored("columns", "F/m^2", "finite", "capacitance per area"))
+    # Magnitude of the potential difference of the walls [V].
     voltage: float = field(metadata=number("positive"))
+    # capacitance and capacitance_by_charge: capacitance [F], of a line contact per length [F/m], from the
+    # energy of the field and from the charge of wall 2
     capacitance: float = field(metadata=number("positive"))
     capacitance_by_charge: float = field(metadata=number("finite"))
+    # Integral of eps0 eps/h over the columns [F or F/m].
     thin_gap_capacitance: float = field(metadata=number("positive"))
+    # Estimated relative error of the largest field strength; None if it is not known, which it is only for a
+    # permittivity that is constant across the gap, without charge and without prescribed potentials of the
+    # end faces.
     strength_error: float | None = field(default=None, metadata=number())
+    # Polynomial degree across the gap at which its part of that error is below 0.5 %; None if it is not
+    # known.
     sufficient_degree: int | None = field(default=None, metadata=number())
 
     @property
@@ -177,38 +160,19 @@ class GapProblem(Protocol):
 
 @dataclass(frozen=True)
 class Place:
-    """Place where the field may be largest.
-
-    Attributes
-    ----------
-    column : tuple of int
-        Indices of its column.
-    strength : float
-        Largest field strength of the solution within half a gap [V/m].
-    missing : float
-        Relative rise by which the field of first order exceeds ``strength``, at least 0.
-    """
+    """Place where the field may be largest."""
 
     column: tuple[int, ...]
-    strength: float
-    missing: float
+    strength: float  # largest field strength of the solution within half a gap [V/m]
+    missing: float  # relative rise by which the field of first order exceeds ``strength``, at least 0
 
 
 def places(problem: GapProblem, strength: Array) -> list[Place]:
     """Places where the field may be largest; the first has the largest field of the solution.
 
-    Parameters
-    ----------
-    problem : FieldProblem or PointFieldProblem
-        Problem that was solved.
-    strength : ndarray, shape (nx,) or (nx, ny)
-        Largest field strength of each column of the solution [V/m].
-
-    Returns
-    -------
-    list of Place
-        The others are local maxima of the higher of ``strength`` and the field of first order, which has a
-        surcharge for terms of higher order. They are sorted by this bound, the highest first.
+    ``strength``, largest field strength of each column of the solution [V/m], shape (nx,) or (nx, ny).
+    Returns the others are local maxima of the higher of ``strength`` and the field of first order, which has
+    a surcharge for terms of higher order; they are sorted by this bound, the highest first.
     """
     first_order = first_order_strength(problem, strength)
     return [
@@ -254,22 +218,10 @@ def around(
 
 
 def first_order_strength(problem: GapProblem, strength: Array) -> Array:
-    """Larger field strength of both walls to first order in their heights [V/m].
+    """Larger field strength of both walls to first order in their heights [V/m]. ``strength``, field strength
+    of each column of a solution [V/m], shape (nx,) or (nx, ny). Returns 0 where the thin-gap field is below
+    half the largest ``strength``, shape (nx,) or (nx, ny).
 
-    Parameters
-    ----------
-    problem : FieldProblem or PointFieldProblem
-        Problem with the walls.
-    strength : ndarray, shape (nx,) or (nx, ny)
-        Field strength of each column of a solution [V/m].
-
-    Returns
-    -------
-    ndarray, shape (nx,) or (nx, ny)
-        0 where the thin-gap field is below half the largest ``strength``.
-
-    Notes
-    -----
     Waves ``a cos kx`` on the lower wall and ``b cos kx`` on the upper wall of a gap h change the field at the
     lower wall by the factor ``1 + a k coth kh - b k / sinh kh``. The change of the thin-gap field accounts
     for ``(a - b)/h``. The Fourier transforms of the rest are integrals over the differences of height from
@@ -368,22 +320,15 @@ FieldT = TypeVar("FieldT", bound=GapField)
 
 @dataclass(frozen=True)
 class StrengthError:
-    """Estimated relative error of the largest field strength of a gap.
+    """Estimated relative error of the largest field strength of a gap."""
 
-    Attributes
-    ----------
-    by_degree, by_columns : float
-        Part from the polynomial degree across the gap, and part from the spacing of the columns.
-    degree : int
-        Polynomial degree at which the first part is below ``TOLERANCE``, as far as the estimate can tell.
-    total_there : float
-        Both parts at that degree.
-    """
-
+    # by_degree and by_columns: part from the polynomial degree across the gap, and part from the spacing of
+    # the columns.
     by_degree: float
     by_columns: float
+    # Polynomial degree at which the first part is below ``TOLERANCE``, as far as the estimate can tell.
     degree: int
-    total_there: float
+    total_there: float  # both parts at that degree
 
     @property
     def total(self) -> float:
@@ -394,24 +339,10 @@ class StrengthError:
 def strength_error(
     problem: ProblemT, strength: Array, solve: Callable[[ProblemT], GapField]
 ) -> StrengthError | None:
-    """Estimate the error of the largest field strength of a solved field problem.
+    """Estimate the error of the largest field strength of a solved field problem. ``strength``, largest field
+    strength of each column of the solution [V/m], shape (nx,) or (nx, ny). Returns the estimate; None if a
+    finer solution in a window does not converge.
 
-    Parameters
-    ----------
-    problem : FieldProblem or PointFieldProblem
-        Problem that is ``plain``.
-    strength : ndarray, shape (nx,) or (nx, ny)
-        Largest field strength of each column of the solution [V/m].
-    solve : callable
-        Function that solves a field problem.
-
-    Returns
-    -------
-    StrengthError or None
-        The estimate; None if a finer solution in a window does not converge.
-
-    Notes
-    -----
     In a window, the degree is raised until the field settles; then the distances of the columns are halved.
     The magnitudes of both changes are added. The first window lies around the largest field. The next one
     lies where the field of first order, which does not depend on the degree, promises the highest field.
@@ -558,20 +489,9 @@ def _peak_error(
 
 
 def with_error(problem: ProblemT, solve: Callable[[ProblemT], FieldT]) -> FieldT:
-    """Solve a field problem with as high a degree as its largest field needs, and estimate the error.
-
-    Parameters
-    ----------
-    problem : FieldProblem or PointFieldProblem
-        Problem to solve; its ``most_degree`` bounds the degree.
-    solve : callable
-        Function that solves a field problem of a given degree.
-
-    Returns
-    -------
-    GapField
-        The field with its ``strength_error`` and ``sufficient_degree``. Both are None for a problem that is
-        not ``plain``, and where the estimate did not converge.
+    """Solve a field problem with as high a degree as its largest field needs, and estimate the error. Returns
+    the field with its ``strength_error`` and ``sufficient_degree``; both are None for a problem that is not
+    ``plain``, and where the estimate did not converge.
     """
     field = solve(problem)
     if not problem.plain:

@@ -39,19 +39,9 @@ def neighbour_offsets(ny: int) -> IntArray:
 
 
 def gap_modes(across: Across) -> tuple[Array, Array]:
-    """Eigenmodes of -d2/ds2 across the gap that vanish on both walls.
-
-    Parameters
-    ----------
-    across : Across
-        Nodes, weights and differentiation across the gap.
-
-    Returns
-    -------
-    eigenvalues : ndarray, shape (ns - 2,)
-        Eigenvalues of -d2/ds2, ascending.
-    modes : ndarray, shape (ns, ns - 2)
-        Modes at the nodes, orthonormal with the weights of the quadrature.
+    """Eigenmodes of -d2/ds2 across the gap that vanish on both walls. Returns ``eigenvalues``, eigenvalues of
+    -d2/ds2, ascending, shape (ns - 2,); ``modes``, modes at the nodes, orthonormal with the weights of the
+    quadrature, shape (ns, ns - 2).
 
     Examples
     --------
@@ -196,17 +186,10 @@ def _diagonals(matrix: sparse.csr_array, offsets: IntArray) -> Array:
 class GapMultigrid:
     """Preconditioner of the field problem: one V-cycle over all modes, symmetric and positive definite.
 
-    Parameters
-    ----------
-    x, y : ndarray, shapes (nx,), (ny,)
-        Positions of the columns [m].
-    across, along : ndarray, shape (9, nx * ny)
-        Couplings of each column with its neighbours, summed over the gap, from the derivatives across the gap
-        and from the derivatives along x and y. They are stored as in a SciPy sparse matrix of diagonals.
-    fixed : ndarray of bool, shape (nx, ny)
-        Columns with a prescribed potential.
-    of_gap : Across
-        Nodes, weights and differentiation across the gap.
+    ``x`` and ``y``, positions of the columns [m], shapes (nx,); ``across`` and ``along``, couplings of each
+    column with its neighbours, summed over the gap, from the derivatives across the gap and from the
+    derivatives along x and y, shape (9, nx * ny); ``fixed``, columns with a prescribed potential,
+    shape (nx, ny).
     """
 
     def __init__(

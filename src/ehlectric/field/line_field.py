@@ -53,19 +53,10 @@ def columns_within(nodes: Array, ends: Sequence[float], number: int | None) -> A
 def thinned(columns: Array, kept: Sequence[float]) -> Array:
     """Every second column, or third and so on, so that not many more than ``ENOUGH`` are left.
 
-    Parameters
-    ----------
-    columns : ndarray, shape (n,)
-        Increasing positions of all columns [m].
-    kept : sequence of float
-        Positions of columns that stay, such as that of the smallest film [m]; both ends stay too, and so does
-        the middle one.
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        Positions of the columns that are left. Of symmetric columns with a symmetric ``kept`` they are
-        symmetric.
+    ``columns``, increasing positions of all columns [m], shape (n,); ``kept``, positions of columns that
+    stay, such as that of the smallest film [m]; both ends stay too, and so does the middle one. Returns
+    positions of the columns that are left, shape (m,); of symmetric columns with a symmetric ``kept`` they
+    are symmetric.
 
     Examples
     --------
@@ -87,14 +78,9 @@ class Field(GapField):
     """Electric potential and field strength in the gap of a line contact, in SI units.
 
     The class adds the attribute below to those of ``GapField``, whose columns have the shape (nx,).
-
-    Attributes
-    ----------
-    y : ndarray, shape (nx, ns)
-        Height [m].
     """
 
-    y: Array = field(metadata=stored("x_field s", "m", "increasing", "height"))
+    y: Array = field(metadata=stored("x_field s", "m", "increasing", "height"))  # height [m], shape (nx, ns)
     capacitance_density: Array = field(
         metadata=stored("columns", "F/m^2", "finite", "capacitance per length and width")
     )
@@ -149,17 +135,8 @@ class Field(GapField):
         return stop - start
 
     def strength_at(self, height: float) -> Array:
-        """Field strength along a straight line of constant height.
-
-        Parameters
-        ----------
-        height : float
-            Position y of the line [m].
-
-        Returns
-        -------
-        ndarray, shape (nx,)
-            abs(E) [V/m]; NaN where the line is outside the gap.
+        """Field strength along a straight line of constant height. ``height``, position y of the line [m].
+        Returns abs(E) [V/m]; NaN where the line is outside the gap, shape (nx,).
         """
         lower, upper = self.y[:, 0], self.y[:, -1]
         at = ((height - lower) / (upper - lower))[:, np.newaxis]
@@ -172,20 +149,9 @@ class Field(GapField):
 
 
 def solve_field(problem: FieldProblem) -> Field:
-    """Solve Poisson's equation between the two conducting walls of a line contact.
+    """Solve Poisson's equation between the two conducting walls of a line contact. Returns potential, field
+    strength and capacitance.
 
-    Parameters
-    ----------
-    problem : FieldProblem
-        Geometry, permittivity, potentials and charge, in SI units.
-
-    Returns
-    -------
-    Field
-        Potential, field strength and capacitance.
-
-    Notes
-    -----
     Eq. (15) of Morris et al. (2022), doi:10.3390/lubricants10050087, with prescribed potentials of the walls
     (Dirichlet conditions). The charge of a wall is the residual at its nodes. With this definition, energy
     and charge give the same capacitance.
@@ -255,21 +221,9 @@ def field_from_potential(
 ) -> Field:
     """Field strength of a potential by differentiation, with the estimates for a thin gap.
 
-    Parameters
-    ----------
-    problem : FieldProblem
-        Problem that the potential solves.
-    potential : ndarray, shape (nx, degree + 1)
-        Potential relative to wall 1 at the nodes [V].
-    capacitance : float
-        Capacitance per length from the energy of the field [F/m].
-    capacitance_density : ndarray, shape (nx,)
-        Charge of wall 2 per area and voltage [F/m^2].
-
-    Returns
-    -------
-    Field
-        Potential, field strength and capacitance.
+    ``potential``, potential relative to wall 1 at the nodes [V], shape (nx, degree + 1); ``capacitance``,
+    capacitance per length from the energy of the field [F/m]; ``capacitance_density``, charge of wall 2 per
+    area and voltage [F/m^2], shape (nx,).
     """
     across = Across.of_degree(problem.degree)
     x, s = problem.x, across.nodes

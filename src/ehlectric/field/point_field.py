@@ -33,20 +33,14 @@ class PointField(GapField):
     """Electric potential and field strength in the gap of a point contact, in SI units.
 
     The class adds the attributes below to those of ``GapField``, whose columns have the shape (nx, ny).
-
-    Attributes
-    ----------
-    y : ndarray, shape (ny,)
-        Positions across the gap [m].
-    z, field_z : ndarray, shape (nx, ny, ns)
-        Height [m], and component of E across the gap [V/m].
-    iterations : int
-        Number of conjugate-gradient iterations for the potential without free charge.
     """
 
+    # Positions across the gap [m], shape (ny,).
     y: Array = field(metadata=stored("y_field", "m", "increasing", _POSITION, name="y_field"))
+    # z and field_z: height [m], and component of E across the gap [V/m], shape (nx, ny, ns).
     z: Array = field(metadata=stored("columns s", "m", "increasing", "height"))
     field_z: Array = field(metadata=stored("columns s", "V/m", "finite", "electric field along z"))
+    # Number of conjugate-gradient iterations for the potential without free charge.
     iterations: int = field(metadata=number())
 
     @property
@@ -97,19 +91,8 @@ class PointField(GapField):
         return area_above(self.x, self.y, self.middle_strength, level)
 
     def capacitance_of(self, zone: Zone) -> float:
-        """Capacitance of a part of the map.
-
-        Parameters
-        ----------
-        zone : callable
-            Function of two arrays x, y [m] that tells which points are inside. Cells on the boundary of the
-            zone count in part.
-
-        Returns
-        -------
-        float
-            Charge of wall 2 inside the zone, divided by the voltage [F]. For zones that cover the map without
-            overlap the values add up to ``capacitance_by_charge``, except for rounding.
+        """Capacitance of a part of the map. ``zone``, function of two arrays x, y [m] that tells which points
+        are inside. Returns charge of wall 2 inside the zone, divided by the voltage [F].
         """
         return float(np.vdot(zone_areas(self.x, self.y, zone), self.capacitance_density))
 
@@ -126,15 +109,8 @@ class PointField(GapField):
 
         The half must have been solved without flux through the plane of symmetry y = 0.
 
-        Returns
-        -------
-        PointField
-            Field on 2 ny - 1 columns along y, with twice the capacitances.
-
-        Raises
-        ------
-        InputError
-            If y does not start at 0.
+        Returns field on 2 ny - 1 columns along y, with twice the capacitances. Raises InputError if y does
+        not start at 0.
         """
         if self.y[0] != 0.0:
             raise InputError("y", got=f"a field from {self.y[0]:g} m on;", takes="one that starts at y = 0")
@@ -166,27 +142,10 @@ class PointField(GapField):
 
 
 def solve_point_field(problem: PointFieldProblem) -> PointField:
-    """Solve Poisson's equation between the two conducting walls of a point contact.
+    """Solve Poisson's equation between the two conducting walls of a point contact. Returns potential, field
+    strength and capacitance. Raises InputError if there are fewer than three columns along x or y;
+    ConvergenceError if the conjugate gradients do not converge.
 
-    Parameters
-    ----------
-    problem : PointFieldProblem
-        Geometry, permittivity, potentials and charge, in SI units.
-
-    Returns
-    -------
-    PointField
-        Potential, field strength and capacitance.
-
-    Raises
-    ------
-    InputError
-        If there are fewer than three columns along x or y.
-    ConvergenceError
-        If the conjugate gradients do not converge. This happens where the walls have slopes far above one.
-
-    Notes
-    -----
     Eq. (15) of Morris et al. (2022), doi:10.3390/lubricants10050087, with the third dimension added and
     prescribed potentials of the walls (Dirichlet conditions). The charge of a wall is the residual at its
     nodes. With this definition, energy and charge give the same capacitance.

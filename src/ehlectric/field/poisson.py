@@ -38,25 +38,16 @@ def lobatto_nodes(degree: int) -> Array:
 
 @dataclass(frozen=True)
 class Across:
-    """Polynomial across the gap: nodes, quadrature weights, differentiation and element matrices.
+    """Polynomial across the gap: nodes, quadrature weights, differentiation and element matrices."""
 
-    Attributes
-    ----------
-    nodes, weights : ndarray, shape (ns,)
-        Gauss-Lobatto-Legendre nodes s on [0, 1], and the weights of their quadrature.
-    derivative : ndarray, shape (ns, ns)
-        Matrix of d/ds at the nodes.
-    at_middle : ndarray, shape (ns,)
-        Weights of the interpolation to s = 1/2.
-    slope, mixed, mass : ndarray, shape (ns, ns, ns)
-        Products of two shape functions at each quadrature point, the first axis: both differentiated, the
-        second differentiated, none differentiated.
-    """
-
+    # nodes and weights: Gauss-Lobatto-Legendre nodes s on [0, 1], and the weights of their quadrature,
+    # shape (ns,).
     nodes: Array
     weights: Array
-    derivative: Array
-    at_middle: Array
+    derivative: Array  # matrix of d/ds at the nodes, shape (ns, ns)
+    at_middle: Array  # weights of the interpolation to s = 1/2, shape (ns,)
+    # slope, mixed and mass: products of two shape functions at each quadrature point, the first axis: both
+    # differentiated, the second differentiated, none differentiated, shape (ns, ns, ns).
     slope: Array
     mixed: Array
     mass: Array
@@ -92,25 +83,14 @@ class Across:
 class FieldProblem:
     """Problem of the electric field between the two conducting walls of a line contact, in SI units.
 
-    Parameters
-    ----------
-    x : ndarray, shape (nx,)
-        Positions along the gap [m], increasing, any spacing.
-    lower, upper : ndarray, shape (nx,)
-        Heights y1(x) < y2(x) of the walls [m]. They have the potentials ``potential_1`` and ``potential_2``.
-    permittivity : ndarray, shape (nx,) or (nx, degree + 1)
-        Relative permittivity, one value per column or one per node.
-    potential_1, potential_2 : float
-        Potentials of the walls [V]; they must differ.
-    degree : int
-        Polynomial degree across the gap, at least 2.
-    most_degree : int, optional
-        Degree up to which ``solve_field`` may raise the degree, where the largest field would else be more
-        than 0.5 % off; ``degree`` by default.
-    charge_density : ndarray, shape (nx, degree + 1), optional
-        Density of free charge [C/m^3] at the nodes s = ``lobatto_nodes(degree)``; no charge by default.
-    end_potentials : pair of ndarray, shape (degree + 1,), optional
-        Potentials on the end faces x[0] and x[-1] [V]. By default no flux passes through the end faces.
+    ``x``, positions along the gap [m], increasing, any spacing, shape (nx,); ``lower`` and ``upper``, heights
+    y1(x) < y2(x) of the walls [m], shape (nx,); ``permittivity``, relative permittivity, one value per column
+    or one per node, shape (nx,) or (nx, degree + 1); ``potential_1`` and ``potential_2``, potentials of the
+    walls [V]; they must differ; ``degree``, polynomial degree across the gap, at least 2; ``most_degree``,
+    degree up to which ``solve_field`` may raise the degree, where the largest field would else be more than
+    0.5 % off; ``degree`` by default; ``charge_density``, density of free charge [C/m^3] at the nodes s =
+    ``lobatto_nodes(degree)``; no charge by default, shape (nx, degree + 1); ``end_potentials``, potentials on
+    the end faces x[0] and x[-1] [V], shape (degree + 1,).
     """
 
     x: Array
@@ -138,18 +118,12 @@ class FieldProblem:
 
 @dataclass(frozen=True)
 class Elements:
-    """Element matrices, one set per element between two neighbouring columns of nodes.
+    """Element matrices, one set per element between two neighbouring columns of nodes."""
 
-    Attributes
-    ----------
-    left, right : ndarray, shape (nx - 1, ns, ns)
-        Coupling of the left column, or of the right column, with itself.
-    cross : ndarray, shape (nx - 1, ns, ns)
-        Coupling of the left column (rows) with the right column (columns).
-    """
-
+    # left and right: coupling of the left column, or of the right column, with itself,
+    # shape (nx - 1, ns, ns).
     left: Array
-    cross: Array
+    cross: Array  # coupling of the left column (rows) with the right column (columns), shape (nx - 1, ns, ns)
     right: Array
 
     def apply(self, v: Array) -> Array:
@@ -168,30 +142,15 @@ def _rows(matrices: Array, vectors: Array) -> Array:
 
 @dataclass(frozen=True)
 class Quadrature:
-    """Geometry and permittivity at the quadrature points of the ne = nx - 1 elements.
-
-    Attributes
-    ----------
-    across : Across
-        Polynomial across the gap.
-    dx : ndarray, shape (ne,)
-        Lengths of the elements [m].
-    shapes : ndarray, shape (2, 2)
-        Linear shape functions of the two columns (rows) at the two Gauss points (columns).
-    gap : ndarray, shape (ne, 2)
-        Gap at the Gauss points [m].
-    slope : ndarray, shape (ne, ns)
-        Slope dy/dx of the lines of constant s.
-    permittivity : ndarray, shape (ne, 2, ns)
-        Relative permittivity at the Gauss points.
-    """
+    """Geometry and permittivity at the quadrature points of the ne = nx - 1 elements."""
 
     across: Across
-    dx: Array
+    dx: Array  # lengths of the elements [m], shape (ne,)
+    # Linear shape functions of the two columns (rows) at the two Gauss points (columns), shape (2, 2).
     shapes: Array
-    gap: Array
-    slope: Array
-    permittivity: Array
+    gap: Array  # gap at the Gauss points [m], shape (ne, 2)
+    slope: Array  # slope dy/dx of the lines of constant s, shape (ne, ns)
+    permittivity: Array  # relative permittivity at the Gauss points, shape (ne, 2, ns)
 
     @classmethod
     def of(cls, problem: FieldProblem) -> Quadrature:
@@ -286,15 +245,7 @@ def mean_permittivity(permittivity: Array) -> Array:
 
 
 class BandedSolver:
-    """Direct solver for the potential at the interior nodes, by a banded Cholesky factorisation.
-
-    Parameters
-    ----------
-    elements : Elements
-        Element matrices.
-    fixed_ends : bool
-        Whether the potentials of the two end columns are prescribed.
-    """
+    """Direct solver for the potential at the interior nodes, by a banded Cholesky factorisation."""
 
     def __init__(self, elements: Elements, *, fixed_ends: bool) -> None:
         inner = slice(1, -1)

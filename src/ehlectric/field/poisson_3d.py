@@ -42,27 +42,15 @@ SidePotentials = tuple[Array | None, Array | None, Array | None, Array | None]
 class PointFieldProblem:
     """Problem of the electric field between the two conducting walls of a point contact, in SI units.
 
-    Parameters
-    ----------
-    x, y : ndarray, shapes (nx,), (ny,)
-        Positions along the gap [m], increasing, any spacing, at least three each.
-    lower, upper : ndarray, shape (nx, ny)
-        Heights z1(x, y) < z2(x, y) of the walls [m]. They have the potentials ``potential_1`` and
-        ``potential_2``.
-    permittivity : ndarray, shape (nx, ny) or (nx, ny, degree + 1)
-        Relative permittivity, one value per column or one per node.
-    potential_1, potential_2 : float
-        Potentials of the walls [V]; they must differ.
-    degree : int
-        Polynomial degree across the gap, at least 2.
-    most_degree : int, optional
-        Degree up to which ``solve_point_field`` may raise the degree, where the largest field would else be
-        more than 0.5 % off; ``degree`` by default.
-    charge_density : ndarray, shape (nx, ny, degree + 1), optional
-        Density of free charge [C/m^3] at the nodes s = ``lobatto_nodes(degree)``; no charge by default.
-    side_potentials : tuple of four ndarray or None, optional
-        Potentials [V] on the faces x[0] and x[-1], shape (ny, degree + 1), and on the faces y[0] and y[-1],
-        shape (nx, degree + 1). No flux passes through a face whose entry is None.
+    ``x`` and ``y``, positions along the gap [m], increasing, any spacing, at least three each, shapes (nx,);
+    ``lower`` and ``upper``, heights z1(x, y) < z2(x, y) of the walls [m], shape (nx, ny); ``permittivity``,
+    relative permittivity, one value per column or one per node, shape (nx, ny) or (nx, ny, degree + 1);
+    ``potential_1`` and ``potential_2``, potentials of the walls [V]; they must differ; ``degree``, polynomial
+    degree across the gap, at least 2; ``most_degree``, degree up to which ``solve_point_field`` may raise the
+    degree, where the largest field would else be more than 0.5 % off; ``degree`` by default;
+    ``charge_density``, density of free charge [C/m^3] at the nodes s = ``lobatto_nodes(degree)``; no charge
+    by default, shape (nx, ny, degree + 1); ``side_potentials``, potentials [V] on the faces x[0] and x[-1],
+    shape (ny, degree + 1), and on the faces y[0] and y[-1], shape (nx, degree + 1).
     """
 
     x: Array
@@ -128,24 +116,15 @@ class Operator:
 
     W is the test function. With the matrix D that differentiates each column across the gap, the matrix is
     D^T A D + D^T M + M^T D + C. Each of A, M and C couples only nodes of equal s.
-
-    Attributes
-    ----------
-    derivative : ndarray, shape (ns, ns)
-        D, the derivative d/ds at the nodes of one column.
-    across : sparse array
-        A, the product of the derivatives of W and V across the gap.
-    mixed, transposed : sparse array
-        M, the product of the derivative of W across the gap and the derivative of V along it; and M^T.
-    along : sparse array
-        C, the product of the derivatives of W and V along the gap.
     """
 
-    derivative: Array
-    across: sparse.dia_array
+    derivative: Array  # D, the derivative d/ds at the nodes of one column, shape (ns, ns)
+    across: sparse.dia_array  # A, the product of the derivatives of W and V across the gap
+    # mixed and transposed: M, the product of the derivative of W across the gap and the derivative of V along
+    # it; and M^T.
     mixed: sparse.dia_array
     transposed: sparse.dia_array
-    along: sparse.dia_array
+    along: sparse.dia_array  # C, the product of the derivatives of W and V along the gap
 
     def __call__(self, v: Array) -> Array:
         """Product of the matrix and nodal values, shape (nx, ny, ns)."""
@@ -163,28 +142,19 @@ class Quadrature:
 
     The quadrature points of a cell are its four Gauss points over (x, y), each with the ns nodes across the
     gap.
-
-    Attributes
-    ----------
-    across : Across
-        Polynomial across the gap.
-    dx, dy : ndarray, shapes (nx - 1, 1, 1), (ny - 1, 1)
-        Lengths of the cells along x and y [m].
-    gap : list of 4 ndarray, shape (nx - 1, ny - 1, 1)
-        Gap at each Gauss point [m].
-    slope_x, slope_y : list of 4 ndarray, shape (nx - 1, ny - 1, ns)
-        Slopes dz/dx and dz/dy of the surfaces of constant s at each Gauss point. The slope along x is
-        constant along x within a cell, and the slope along y is constant along y.
-    weight : list of 4 ndarray, shape (nx - 1, ny - 1, ns)
-        Relative permittivity times the quadrature weight, an area [m^2], at each Gauss point.
     """
 
     across: Across
+    # dx and dy: lengths of the cells along x and y [m], shapes (nx - 1, 1, 1).
     dx: Array
     dy: Array
-    gap: list[Array]
+    gap: list[Array]  # gap at each Gauss point [m], shape (nx - 1, ny - 1, 1)
+    # slope_x and slope_y: slopes dz/dx and dz/dy of the surfaces of constant s at each Gauss point,
+    # shape (nx - 1, ny - 1, ns).
     slope_x: list[Array]
     slope_y: list[Array]
+    # Relative permittivity times the quadrature weight, an area [m^2], at each Gauss point,
+    # shape (nx - 1, ny - 1, ns).
     weight: list[Array]
 
     @classmethod
@@ -347,27 +317,11 @@ def conjugate_gradients(
 ) -> tuple[Array, int]:
     """Solve a linear system by preconditioned conjugate gradients, with the initial guess zero.
 
-    Parameters
-    ----------
-    operator, preconditioner : callable
-        Matrix and approximate inverse, both applied to an array; symmetric and positive definite.
-    right : ndarray
-        Right side.
-    scale : float
-        Square of the energy norm that ``TOLERANCE`` refers to, unless the energy norm of the solution is
-        larger.
-
-    Returns
-    -------
-    solution : ndarray
-        Solution, with a relative error of at most about ``TOLERANCE`` in the energy norm.
-    iterations : int
-        Number of iterations.
-
-    Raises
-    ------
-    ConvergenceError
-        If the error is above ``TOLERANCE`` after ``MAX_ITERATIONS`` iterations.
+    ``operator`` and ``preconditioner``, matrix and approximate inverse, both applied to an array; symmetric
+    and positive definite; ``scale``, square of the energy norm that ``TOLERANCE`` refers to, unless the
+    energy norm of the solution is larger. Returns ``solution``, solution, with a relative error of at most
+    about ``TOLERANCE`` in the energy norm; ``iterations``, number of iterations. Raises ConvergenceError if
+    the error is above ``TOLERANCE`` after ``MAX_ITERATIONS`` iterations.
     """
     solution = np.zeros_like(right)
     residual = right.copy()

@@ -31,17 +31,8 @@ def areas(axes: Axes, within: Axes | None = None) -> Array:
 
     They are the weights of the trapezoidal rule.
 
-    Parameters
-    ----------
-    axes : tuple of ndarray
-        Nodes along each axis [m].
-    within : tuple of ndarray, optional
-        Positions along each axis [m]. Only the part of the domain between their first and last values counts.
-
-    Returns
-    -------
-    ndarray, shape (nx,) or (nx, ny)
-        Widths [m] or areas [m^2].
+    ``axes``, nodes along each axis [m]; ``within``, positions along each axis [m]. Returns widths [m] or
+    areas [m^2], shape (nx,) or (nx, ny).
 
     Examples
     --------
@@ -60,15 +51,9 @@ def contact_zones(semi_axis_x: float, semi_axis_y: float) -> dict[str, Zone]:
     Inlet and outlet are the strip before and behind the ellipse, as wide as the ellipse. The sides lie beyond
     this strip. Together the zones cover the plane without overlap.
 
-    Parameters
-    ----------
-    semi_axis_x, semi_axis_y : float
-        Semi-axes of the Hertz ellipse [m], b along and a across entrainment.
-
-    Returns
-    -------
-    dict of callable
-        Zones "hertz", "inlet", "outlet" and "sides": functions of points x, y [m] that tell which are inside.
+    ``semi_axis_x`` and ``semi_axis_y``, semi-axes of the Hertz ellipse [m], b along and a across entrainment.
+    Returns zones "hertz", "inlet", "outlet" and "sides": functions of points x, y [m] that tell which are
+    inside.
 
     Examples
     --------
@@ -118,17 +103,8 @@ def part_widths(x: Array, start: float, stop: float) -> Array:
     The sum of nodal values times these widths is the integral of their linear interpolant from ``start`` to
     ``stop``.
 
-    Parameters
-    ----------
-    x : ndarray, shape (nx,)
-        Positions of the nodes, increasing [m].
-    start, stop : float
-        Ends of the interval [m]. The parts of it beyond the nodes do not count.
-
-    Returns
-    -------
-    ndarray, shape (nx,)
-        Widths [m].
+    ``x``, positions of the nodes, increasing [m], shape (nx,); ``start`` and ``stop``, ends of the interval
+    [m]. Returns widths [m], shape (nx,).
 
     Examples
     --------
@@ -144,19 +120,10 @@ def part_widths(x: Array, start: float, stop: float) -> Array:
 
 
 def interval_above(x: Array, values: Array, level: float) -> tuple[float, float]:
-    """Ends of the contiguous interval around the maximum where values are at least ``level``.
-
-    Parameters
-    ----------
-    x, values : ndarray, shape (nx,)
-        Positions of the nodes [m], and values there, in any unit. Between nodes the values are linear.
-    level : float
-        Level in the unit of ``values``, at most their maximum.
-
-    Returns
-    -------
-    start, stop : float
-        Ends of the interval, interpolated between nodes [m].
+    """Ends of the contiguous interval around the maximum where values are at least ``level``. ``x`` and
+    ``values``, positions of the nodes [m], and values there, in any unit, shape (nx,); ``level``, level in
+    the unit of ``values``, at most their maximum. Returns ends of the interval, interpolated between nodes
+    [m].
 
     Examples
     --------
@@ -201,21 +168,9 @@ def zone_areas(x: Array, y: Array, zone: Zone) -> Array:
 
     The sum of nodal values times these areas approximates the integral over the zone.
 
-    Parameters
-    ----------
-    x, y : ndarray, shapes (nx,), (ny,)
-        Positions of the nodes [m].
-    zone : callable
-        Function of two arrays x, y [m] of one shape. It returns an array of that shape, true at the points
-        inside the zone.
+    ``x`` and ``y``, positions of the nodes [m], shapes (nx,); ``zone``, function of two arrays x, y [m] of
+    one shape. Returns areas [m^2], shape (nx, ny).
 
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Areas [m^2].
-
-    Notes
-    -----
     Each cell is sampled at 8 x 8 points, and the area of a sample inside the zone is shared among the four
     corners by bilinear weights. For zones that cover the plane without overlap the areas add up to
     ``node_areas``, except for rounding.
@@ -246,24 +201,10 @@ def zone_areas(x: Array, y: Array, zone: Zone) -> Array:
 
 
 def area_above(x: Array, y: Array, values: Array, level: float) -> float:
-    """Area where the values of a map are at least ``level``.
+    """Area where the values of a map are at least ``level``. ``x`` and ``y``, positions of the nodes [m],
+    shapes (nx,); ``values``, values of the map at the nodes, in any unit, shape (nx, ny); ``level``, level in
+    the unit of ``values``, at most their maximum. Returns area [m^2].
 
-    Parameters
-    ----------
-    x, y : ndarray, shapes (nx,), (ny,)
-        Positions of the nodes [m].
-    values : ndarray, shape (nx, ny)
-        Values of the map at the nodes, in any unit.
-    level : float
-        Level in the unit of ``values``, at most their maximum.
-
-    Returns
-    -------
-    float
-        Area [m^2].
-
-    Notes
-    -----
     Each cell is divided into four triangles between its sides and its middle, and the map is linear in each
     of them. The area converges with the square of the grid spacing.
 
@@ -290,21 +231,10 @@ def area_above(x: Array, y: Array, values: Array, level: float) -> float:
 
 
 def lobe_above(x: Array, y: Array, values: Array, level: float) -> float:
-    """Area of the connected region around the maximum of a map where its values are at least ``level``.
-
-    Parameters
-    ----------
-    x, y : ndarray, shapes (nx,), (ny,)
-        Positions of the nodes [m].
-    values : ndarray, shape (nx, ny)
-        Values of the map at the nodes, in any unit.
-    level : float
-        Level in the unit of ``values``, at most their maximum.
-
-    Returns
-    -------
-    float
-        Area [m^2].
+    """Area of the connected region around the maximum of a map where its values are at least ``level``. ``x``
+    and ``y``, positions of the nodes [m], shapes (nx,); ``values``, values of the map at the nodes, in any
+    unit, shape (nx, ny); ``level``, level in the unit of ``values``, at most their maximum. Returns area
+    [m^2].
 
     Examples
     --------

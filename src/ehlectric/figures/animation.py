@@ -63,21 +63,12 @@ _SIZE = (5.2, 6.6)
 
 @dataclass(frozen=True)
 class Frames:
-    """Figure of a transient run that can show any of its recorded instants.
+    """Figure of a transient run that can show any of its recorded instants."""
 
-    Attributes
-    ----------
-    figure : Figure
-        Figure, which first shows the first recorded instant.
-    show : callable
-        Function of the number of a recorded instant, which makes the figure show this instant.
-    colours : tuple of str
-        Names of the colour maps in the figure.
-    """
-
-    figure: Figure
+    figure: Figure  # figure, which first shows the first recorded instant
+    # Function of the number of a recorded instant, which makes the figure show this instant.
     show: Callable[[int], None]
-    colours: tuple[str, ...] = ()
+    colours: tuple[str, ...] = ()  # names of the colour maps in the figure
 
 
 def time_text(run: MotionRun, frame: int) -> str:
@@ -91,16 +82,7 @@ def time_text(run: MotionRun, frame: int) -> str:
 
 def line_frames(run: MotionRun) -> Frames:
     """Draw film, pressure, field and roughness over x; dotted lines show the values before the motion.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run of a line contact.
-
-    Returns
-    -------
-    Frames
-        Frames that show the first recorded instant.
+    Returns frames that show the first recorded instant.
     """
     axes = new_panels(4, 1, _SIZE)
     parts = [_film(run, axes[0]), _pressure(run, axes[1]), _field(run, axes[2]), _roughness(run, axes[3])]
@@ -228,17 +210,8 @@ class _Contact:
 
 
 def map_frames(run: MotionRun) -> Frames:
-    """Draw maps of film thickness and field strength, at the nodes at which the field was solved.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run of a point contact.
-
-    Returns
-    -------
-    Frames
-        Frames that show the first recorded instant.
+    """Draw maps of film thickness and field strength, at the nodes at which the field was solved. Returns
+    frames that show the first recorded instant.
     """
     known = np.isfinite(run.dataset["strength"].isel(frame=0).values)
     nodes = np.flatnonzero(known.any(axis=1)), np.flatnonzero(known.any(axis=0))
@@ -332,26 +305,9 @@ def save_animation(
     dpi: int = 130,
     progress: Progress = silent,
 ) -> None:
-    """Draw the recorded instants of a transient run as an animation.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Dataset of a run, complete or not, from ``read_motion``.
-    path : str or Path
-        File to write, .gif or .mp4. An .mp4 needs ffmpeg.
-    fps : float
-        Frames per second, from 0.1 to 50; each frame shows one recorded instant.
-    dpi : int
-        Pixels per inch; the figure of a line contact is 5.2 by 6.6 inches.
-    progress : callable, optional
-        Called with the number of frames drawn, the number of all frames, and a text.
-
-    Raises
-    ------
-    InputError
-        If the file has another suffix, ffmpeg is missing or fails, the dataset is not a transient run, or
-        ``fps`` is out of range.
+    """Draw the recorded instants of a transient run as an animation. ``fps``, frames per second, from 0.1 to
+    50; each frame shows one recorded instant. Raises InputError if the file has another suffix, ffmpeg is
+    missing or fails, the dataset is not a transient run, or ``fps`` is out of range.
     """
     path = Path(path)
     if not _SLOWEST <= fps <= _FASTEST:

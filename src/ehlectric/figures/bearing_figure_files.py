@@ -296,26 +296,7 @@ def bearing_figures_of(result: BearingResult) -> dict[str, tuple[Draw, ...]]:
 
 
 def figure(result: BearingResult, name: str) -> Figure:
-    """Figure of a bearing.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of the bearing.
-    name : str
-        Name of its file, such as "bearing_loads.png" or "capacitance_over_speed.png". For a figure over
-        speed, the bearing is computed with quick contacts at other speeds.
-
-    Returns
-    -------
-    Figure
-        The figure, with its title.
-
-    Raises
-    ------
-    InputError
-        Where the bearing has no figure of this name.
-    """
+    """Figure of a bearing. Raises InputError where the bearing has no figure of this name."""
     drawings = bearing_figures_of(result)
     (name,) = in_formats([name])
     if name in SPEED_FIGURES:
@@ -335,28 +316,9 @@ def figure(result: BearingResult, name: str) -> Figure:
 
 
 def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | None = None) -> Figure:
-    """Figure of a bearing over the speed of its shaft.
-
-    Parameters
-    ----------
-    points : sequence of (float, dict)
-        Speed of the inner ring [rad/s], and the summary at this speed.
-    name : str
-        Name of its file, such as "capacitance_over_speed.png".
-    title : str, optional
-        Lines of the title below its first one, which states the finding.
-    own : (float, dict), optional
-        A bearing to mark beside them, such as one with solved contacts.
-
-    Returns
-    -------
-    Figure
-        The figure, with its title.
-
-    Raises
-    ------
-    InputError
-        Where there is no figure of this name, or the bearing has no breakdown voltage at any speed.
+    """Figure of a bearing over the speed of its shaft. ``points``, speed of the inner ring [rad/s], and the
+    summary at this speed. Raises InputError where there is no figure of this name, or the bearing has no
+    breakdown voltage at any speed.
     """
     drawing = drawing_of(_speed_drawings(points), name)
     curves = curves_of(points, own)
@@ -370,22 +332,7 @@ def speed_figure(points: Speeds, name: str, title: str = "", *, own: Speed | Non
 def save_bearing_figures(
     result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
 ) -> list[Path]:
-    """Draw the figures of a bearing at its own speed as files.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of the bearing.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    list of Path
-        Files written: those of ``bearing_figures_of``.
-    """
+    """Draw the figures of a bearing at its own speed as files."""
     return [
         file
         for name in bearing_figures_of(result)
@@ -402,27 +349,8 @@ def save_speed_figures(
     formats: Sequence[str] = ("png",),
     at: Mapping[str, str] | None = None,
 ) -> list[Path]:
-    """Draw capacitance and, where there are any, breakdown voltages over the speed as files.
-
-    Parameters
-    ----------
-    points : sequence of (float, dict)
-        Speed of the inner ring [rad/s], and the summary at this speed.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-    title : str, optional
-        Lines of the titles below the first ones, which state the findings.
-    own : (float, dict), optional
-        A bearing to mark beside them, such as one with solved contacts.
-    at : mapping of str to str, optional
-        Values of further varied keys of a sweep, for the names of the files.
-
-    Returns
-    -------
-    list of Path
-        Files written.
+    """Draw capacitance and, where there are any, breakdown voltages over the speed as files. ``points``,
+    speed of the inner ring [rad/s], and the summary at this speed.
     """
     return [
         file
@@ -436,22 +364,8 @@ def save_over_speed(
     result: BearingResult, folder: Path, formats: Sequence[str] = ("png",)
 ) -> tuple[list[Path], list[ResultWarning]]:
     """Compute a bearing with quick contacts at speeds around its own, and draw it over speed as files.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of the bearing at its own speed.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    files : list of Path
-        Files written; none where its quick contacts have no speed.
-    left_out : list of ResultWarning
-        Speeds that are left out, and why.
+    Returns ``files``, files written; none where its quick contacts have no speed; ``left_out``, speeds that
+    are left out, and why.
     """
     points, left_out = over_speed(result.case)
     if not points:

@@ -52,15 +52,7 @@ def volts(value: float) -> str:
 
 
 def label_ends(ax: Axes, ends: Sequence[tuple[float, str, str]]) -> None:
-    """Write the names of lines beside the right edge of the axes, at their heights and without overlap.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes whose limits are final.
-    ends : sequence of (float, str, str)
-        Height of each line at the right edge in the unit of the axis, its name, and its colour.
-    """
+    """Write the names of lines beside the right edge of the axes, at their heights and without overlap."""
     figure = ax.get_figure(root=True)
     assert figure is not None
     line = _LINE / (figure.get_figheight() * ax.get_position().height)
@@ -111,20 +103,8 @@ def new_polar(columns: int, size: tuple[float, float]) -> list[Axes]:
 
 
 def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the load of both contacts of the elements around the shaft.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of the bearing to draw.
-    ax : Axes, optional
-        Polar axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Polar axes on which the radial load on the inner ring points down. Markers show the elements at the
-        first position of the cage, and lines connect the elements at all positions.
+    """Draw the load of both contacts of the elements around the shaft. ``ax``, polar axes to draw on; axes of
+    a new figure if omitted. Returns polar axes on which the radial load on the inner ring points down.
     """
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]
@@ -140,22 +120,8 @@ def load_around(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def film_around(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the minimum film thickness of the loaded contacts of the elements around the shaft.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of the bearing to draw.
-    ax : Axes, optional
-        Polar axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Polar axes on which the radial load points down. Sectors in which a ring does not load the elements
-        are shaded: there is a gap in place of a film, which the legend states. Circles show the film
-        thicknesses at lambda
-        ratios of 1, below which surfaces touch, and 3. The radius is logarithmic if films differ widely.
+    """Draw the minimum film thickness of the loaded contacts of the elements around the shaft. ``ax``, polar
+    axes to draw on; axes of a new figure if omitted. Returns polar axes on which the radial load points down.
     """
     ax = _polar_or_new(result, ax)
     states = [(position.inner, position.outer) for position in result.solution.positions]
@@ -303,19 +269,9 @@ _NUMBERED, _WIDTH = 16, 6.0
 
 
 def contact_capacitances(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the capacitance of both contacts of every element, with the cage at its first position.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of the bearing to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes that state the capacitance of the bearing at this position of the cage.
+    """Draw the capacitance of both contacts of every element, with the cage at its first position. ``ax``,
+    axes to draw on; axes of a new figure if omitted. Returns axes that state the capacitance of the bearing
+    at this position of the cage.
     """
     ax = axes_or_new(ax)
     fill = result.solution.case.bearing.fill
@@ -342,19 +298,8 @@ def breakdown_voltages(result: BearingResult, ax: Axes | None = None) -> Axes:
 
     With a coating on a ring it is the shaft voltage, of which the coating has a part.
 
-    Parameters
-    ----------
-    result : BearingResult
-        Result of a bearing that has breakdown voltages.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the contacts at the first position of the cage. First and ring-to-ring breakdown are the
-        smallest voltages over all positions. The range below the shaft voltage is shaded: a contact that
-        lies in it breaks down.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the contacts at the first
+    position of the cage.
     """
     ax = axes_or_new(ax)
     circuit, position = result.solution.circuits()[0], result.solution.positions[0]
@@ -451,19 +396,9 @@ def variation(values: Array) -> float:
 
 
 def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the capacitance of the bearing while the cage turns by one pitch of the elements.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of the bearing to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the difference from the mean in per cent, for oil and for air around the films.
+    """Draw the capacitance of the bearing while the cage turns by one pitch of the elements. ``ax``, axes to
+    draw on; axes of a new figure if omitted. Returns axes with the difference from the mean in per cent, for
+    oil and for air around the films.
     """
     ax = axes_or_new(ax)
     for fill, look in (("oil", {"color": BLUE}), ("air", {"color": GREY, "ls": "--"})):
@@ -479,19 +414,9 @@ def capacitance_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axe
 
 
 def breakdown_over_pitch(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw first and ring-to-ring breakdown while the cage turns by one pitch of the elements.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of a bearing that has breakdown voltages.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes that also show the shaft voltage if there is one.
+    """Draw first and ring-to-ring breakdown while the cage turns by one pitch of the elements. ``ax``, axes
+    to draw on; axes of a new figure if omitted. Returns axes that also show the shaft voltage if there is
+    one.
     """
     ax = axes_or_new(ax)
     first = first_breakdowns(result)
@@ -535,21 +460,9 @@ _CONSTANT = 2.0
 
 
 def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the magnitude of the bearing's impedance over the frequency.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of a bearing whose oil has a conductivity.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with two logarithmic scales, from 1 kHz or a decade below the corner frequency. The band of a
-        common inverter is shaded. The corner frequency of the oil alone, 1/(2 pi tau), is marked if it is in
-        the range. With air around the films, the corner frequency of the bearing is lower.
+    """Draw the magnitude of the bearing's impedance over the frequency. ``ax``, axes to draw on; axes of a
+    new figure if omitted. Returns axes with two logarithmic scales, from 1 kHz or a decade below the corner
+    frequency.
     """
     ax = axes_or_new(ax)
     frequency, magnitude, _ = _shown(_impedance(result))
@@ -589,19 +502,8 @@ def impedance_magnitude(result: BearingResult, ax: Axes | None = None) -> Axes:
 
 
 def impedance_phase(result: BearingResult, ax: Axes | None = None) -> Axes:
-    """Draw the phase of the bearing's impedance over the frequency.
-
-    Parameters
-    ----------
-    result : BearingResult
-        Result of a bearing whose oil has a conductivity.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes from -90 degrees (a capacitor) to 0 (a resistor).
+    """Draw the phase of the bearing's impedance over the frequency. ``ax``, axes to draw on; axes of a new
+    figure if omitted. Returns axes from -90 degrees (a capacitor) to 0 (a resistor).
     """
     ax = axes_or_new(ax)
     frequency, _, phase = _shown(_impedance(result))

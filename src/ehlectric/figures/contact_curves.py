@@ -73,24 +73,9 @@ _SHOWN = 2.2
 def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> float:
     """Draw the dielectric strength as a labelled line, and return the height of the drawn line.
 
-    Parameters
-    ----------
-    ax : Axes
-        Axes with field strengths.
-    x : ndarray, shape (n,)
-        Positions, in the unit of the axis.
-    limit : ndarray, shape (n,)
-        Dielectric strength, in the unit of the axis.
-    largest : float
-        Maximum field strength, in the unit of the axis.
-    unit : str
-        Unit of the axis.
-
-    Returns
-    -------
-    float
-        Largest drawn strength, or ``largest`` where the strength is so far above the field that an arrow at
-        the upper edge names it instead.
+    ``x``, positions, in the unit of the axis, shape (n,); ``limit``, dielectric strength, in the unit of the
+    axis, shape (n,). Returns largest drawn strength, or ``largest`` where the strength is so far above the
+    field that an arrow at the upper edge names it instead.
     """
     near = limit[np.argmin(np.abs(x))]
     values = f"{near:.3g}" if np.ptp(limit) < 1e-9 * near else f"{np.min(limit):.3g} to {np.max(limit):.3g}"
@@ -126,12 +111,8 @@ def limit_line(ax: Axes, x: Array, limit: Array, largest: float, unit: str) -> f
 
 
 def breakdown_voltages(result: AnyContact) -> Array:
-    """Local breakdown voltage of the columns of the film [V]: applied voltage times strength / field.
-
-    Raises
-    ------
-    ValueError
-        Where the case gives no dielectric strength.
+    """Local breakdown voltage of the columns of the film [V]: applied voltage times strength / field. Raises
+    ValueError where the case gives no dielectric strength.
     """
     limit = strength_limit(result)
     if limit is None:
@@ -146,18 +127,8 @@ def breakdown(result: AnyContact, axes: Sequence[Axes] | Axes | None = None) -> 
     The local breakdown voltage is the one at which the field at this place reaches the dielectric strength.
     Its minimum, the breakdown voltage of the film, is marked.
 
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of a contact whose case gives a dielectric strength.
-    axes : Axes or sequence of Axes, optional
-        Axes to draw on, two of them for a point contact; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        The first axes. The voltage axis ends where breakdown is far above the applied voltage. Where the line
-        lies below the applied voltage, the film breaks down, and the range between them is shaded.
+    ``axes``, axes to draw on, two of them for a point contact; axes of a new figure if omitted. Returns the
+    first axes.
     """
     if axes is None:
         rows = 2 if isinstance(result, PointResult) else 1
@@ -231,19 +202,9 @@ def _voltage_line(result: AnyContact, ax: Axes, at: Array, voltages: Array) -> N
 
 
 def probability(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the probability of breakdown by a Weibull law over the voltage, and the applied voltage.
-
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of a contact whose case gives a Weibull law.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the probability in per cent. The range of voltages from 5 % to 95 % is shaded.
+    """Draw the probability of breakdown by a Weibull law over the voltage, and the applied voltage. ``ax``,
+    axes to draw on; axes of a new figure if omitted. Returns axes with the probability in per cent; the range
+    of voltages from 5 % to 95 % is shaded.
     """
     ax = new_panels(1, 1, (6.3, 3.4))[0] if ax is None else ax
     discharge, found, applied = result.case.discharge, result.discharge, result.field.voltage
@@ -277,18 +238,9 @@ def breakdown_figures_of(result: AnyContact) -> dict[str, Callable[..., Axes]]:
 def meter(result: AnyContact, ax: Axes | None = None) -> Axes:
     """Draw the capacitance between the bodies up to a distance from the contact.
 
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of a contact whose case has a table ``meter``.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the sum over distance, with the gap outside the film's domain filled as the case says, and
-        between air and oil. Lines mark the edge of the Hertz zone and the nearest edge of the domain.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the sum over distance, with
+    the gap outside the film's domain filled as the case says, and between air and oil; lines mark the edge of
+    the Hertz zone and the nearest edge of the domain.
     """
     ax = new_panels(1, 1, (6.3, 3.6))[0] if ax is None else ax
     assert isinstance(result.case, Case) and result.meter is not None
@@ -346,21 +298,9 @@ _LEAST_RANGE = 0.1
 
 
 def temperature(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress.
-
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of a contact with a thermal film.
-    ax : Axes, optional
-        Axes to draw the temperature across the film on, alone; axes of a new figure with all panels if
-        omitted.
-
-    Returns
-    -------
-    Axes
-        Axes of the map, over x/b and height with the outline of the film; of a point contact along y = 0.
-        Below it, in a new figure, the temperatures at mid-film and of both surfaces, and the shear stress.
+    """Draw the temperature across the film, at its middle and on both surfaces, and the shear stress. ``ax``,
+    axes to draw the temperature across the film on, alone; axes of a new figure with all panels if omitted.
+    Returns axes of the map, over x/b and height with the outline of the film; of a point contact along y = 0.
     """
     if ax is not None:
         return _map(result, ax)
@@ -372,20 +312,9 @@ def temperature(result: AnyContact, ax: Axes | None = None) -> Axes:
 
 
 def shear_stress(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the shear stress at mid-film over x/b, with the pressure times the traction coefficient.
-
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of a contact whose case has a table ``film``.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the shear stress, of a point contact along y = 0. Both curves have the same mean over the
-        contact; their difference shows where the traction comes from.
+    """Draw the shear stress at mid-film over x/b, with the pressure times the traction coefficient. ``ax``,
+    axes to draw on; axes of a new figure if omitted. Returns axes with the shear stress, of a point contact
+    along y = 0.
     """
     return _panel(result, contact_profiles.shear_stress, axes_or_new(ax))
 

@@ -29,25 +29,7 @@ def drawings_of(result: Result | PointResult) -> dict[str, Callable[..., Axes]]:
 
 
 def figure(result: Result | PointResult, name: str) -> Figure:
-    """Figure of a contact.
-
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of the contact.
-    name : str
-        Name of its file, such as "film.png".
-
-    Returns
-    -------
-    Figure
-        The figure, with its title.
-
-    Raises
-    ------
-    InputError
-        Where the result has no figure of this name.
-    """
+    """Figure of a contact. Raises InputError where the result has no figure of this name."""
     draw = drawing_of(drawings_of(result), name)
     with style():
         ax = draw(result)
@@ -59,22 +41,7 @@ def figure(result: Result | PointResult, name: str) -> Figure:
 
 
 def save_figures(result: Result | PointResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Draw all figures of a contact as files.
-
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result of the contact.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    list of Path
-        Files written.
-    """
+    """Draw all figures of a contact as files."""
     return [
         file
         for name in drawings_of(result)

@@ -51,22 +51,10 @@ def refined(
     Between nodes, lines of equal value are smooth instead of a chain of cells. A spline through a pressure
     spike may swing by some per cent of the spike on its flanks.
 
-    Parameters
-    ----------
-    position : tuple of ndarray
-        Positions x, shape (nx,), and y, shape (ny,), of the nodes [m].
-    values : ndarray, shape (nx, ny)
-        Values at the nodes.
-    window : tuple of tuple of float
-        Ranges of x and of y that are shown [m].
-
-    Returns
-    -------
-    position : tuple of ndarray
-        Positions x, shape (mx,), and y, shape (my,), on the finer grid [m]. It contains all nodes of the
-        window and the next ones around it.
-    values : ndarray, shape (mx, my)
-        Values on the finer grid.
+    ``position``, positions x, shape (nx,), and y, shape (ny,), of the nodes [m]; ``values``, values at the
+    nodes, shape (nx, ny); ``window``, ranges of x and of y that are shown [m]. Returns ``position``,
+    positions x, shape (mx,), and y, shape (my,), on the finer grid [m]; it contains all nodes of the window
+    and the next ones around it; ``values``, values on the finer grid, shape (mx, my).
     """
     columns, rows = (_around(axis, ends) for axis, ends in zip(position, window, strict=True))
     x, y = position[0][columns], position[1][rows]
@@ -161,22 +149,6 @@ def map_panels(
     """Axes of a new figure for maps of the same window, beside or below each other.
 
     The maps fill the figure.
-
-    Parameters
-    ----------
-    result : OfPointContact
-        Result of a point contact.
-    number : int
-        Number of maps.
-    window : tuple of tuple of float
-        Ranges of x/b and of y/b.
-    rows : int
-        Rows of a legend above the maps.
-
-    Returns
-    -------
-    list of Axes
-        Axes of the maps.
     """
     shape, _ = _shape(result, number, window)
     more = _ABOVE + _ROW * rows
@@ -233,29 +205,8 @@ def draw_map(
     Both axes have the same scale, except for long ellipses: their narrow axis is stretched, and its label
     says so.
 
-    Parameters
-    ----------
-    result : OfPointContact
-        Result of a point contact.
-    ax : Axes
-        Axes to draw on.
-    position : tuple of ndarray
-        Positions x, shape (nx,), and y, shape (ny,), of the nodes [m].
-    values : ndarray, shape (nx, ny)
-        Values at the nodes.
-    colours : str or Colormap
-        Colour map, or its name.
-    limits : tuple of float
-        Values at the two ends of the colour scale.
-    window : tuple of tuple of float
-        Ranges of x/b and of y/b that are shown.
-    number : int
-        Number of maps in the figure.
-
-    Returns
-    -------
-    QuadMesh
-        The coloured mesh, from which a colour bar can be made.
+    ``position``, positions x, shape (nx,), and y, shape (ny,), of the nodes [m]; ``values``, values at the
+    nodes, shape (nx, ny). Returns the coloured mesh, from which a colour bar can be made.
     """
     mesh = ax.pcolormesh(
         *on_page(result, *position),
@@ -306,30 +257,7 @@ def colour_bar(
     ticks: Array,
     extend: str = "neither",
 ) -> Colorbar:
-    """Add one colour bar for the maps on ``axes``: beside them, or below them if they are low.
-
-    Parameters
-    ----------
-    result : OfPointContact
-        Result of a point contact.
-    mappable : ScalarMappable
-        One of the maps, whose colours the bar shows.
-    axes : sequence of Axes
-        Axes of all maps.
-    label : str
-        Label of the bar, with its unit.
-    window : tuple of tuple of float
-        Ranges of x/b and of y/b of the maps.
-    ticks : ndarray
-        Values with ticks; those beyond the ends of the colour scale are left out.
-    extend : str
-        Ends of the bar that point to values beyond it: "neither", "min", "max" or "both".
-
-    Returns
-    -------
-    Colorbar
-        Colour bar of all maps.
-    """
+    """Add one colour bar for the maps on ``axes``: beside them, or below them if they are low."""
     place: dict[str, Any] = {"pad": 0.02}
     if on_low_page(result, len(axes), window):
         place = {"location": "bottom", "aspect": 60, "pad": 0.03, "shrink": 0.8}
@@ -485,20 +413,9 @@ _LINE_WINDOW = (-1.4, 1.4)
 
 
 def spots(result: AnyContact, ax: Axes | None = None) -> Axes:
-    """Draw the film of a contact whose surfaces touch, and mark the nodes that touch.
-
-    Parameters
-    ----------
-    result : Result or PointResult
-        Result whose surfaces touch.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes of the map of a point contact, or of the profile of a line contact. Thicker films than those of
-        95 % of the Hertz zone have the last colour, or are cut off.
+    """Draw the film of a contact whose surfaces touch, and mark the nodes that touch. ``ax``, axes to draw
+    on; axes of a new figure if omitted. Returns axes of the map of a point contact, or of the profile of a
+    line contact; thicker films than those of 95 % of the Hertz zone have the last colour, or are cut off.
     """
     return _map(result, ax) if isinstance(result, PointResult) else _profile(result, ax)
 

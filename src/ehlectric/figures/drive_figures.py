@@ -206,19 +206,9 @@ _BINS = 3
 
 
 def time_at_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the share of time at the voltages across the films of both bearings.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of the drive to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with a logarithmic share, and with the breakdown voltages where they are near.
+    """Draw the share of time at the voltages across the films of both bearings. ``ax``, axes to draw on; axes
+    of a new figure if omitted. Returns axes with a logarithmic share, and with the breakdown voltages where
+    they are near.
     """
     ax = axes_or_new(ax)
     record = result.solution.record
@@ -245,18 +235,7 @@ def time_at_voltage(result: DriveResult, ax: Axes | None = None) -> Axes:
 
 def time_above(result: DriveResult, ax: Axes | None = None) -> Axes:
     """Draw the share of time above a voltage, whatever its sign, with the limits of the summary as dots.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of the drive to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with a logarithmic share.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with a logarithmic share.
     """
     ax = axes_or_new(ax)
     record = result.solution.record
@@ -285,14 +264,9 @@ def time_above(result: DriveResult, ax: Axes | None = None) -> Axes:
 
 
 def shares_above(result: DriveResult) -> tuple[Array, Array]:
-    """Voltages from 0 on [V], and the share of time in which each film has a larger one [%].
-
-    Returns
-    -------
-    edges : ndarray, shape (m,)
-        Edges of the bins that are not negative.
-    shares : ndarray, shape (2, m)
-        Share of time above each edge, in either direction.
+    """Voltages from 0 on [V], and the share of time in which each film has a larger one [%]. Returns
+    ``edges``, edges of the bins that are not negative, shape (m,); ``shares``, share of time above each edge,
+    in either direction, shape (2, m).
     """
     record = result.solution.record
     half = record.histogram.shape[1] // 2
@@ -331,19 +305,9 @@ _POINTS, _LEAST = 400, 1e-6
 
 
 def shaft_spectrum(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the amplitude spectrum of the shaft voltage, without the line at 0 Hz.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of the drive to draw, with a spectrum.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes of both logarithms. Where lines are too close to be seen apart, the largest one is drawn.
+    """Draw the amplitude spectrum of the shaft voltage, without the line at 0 Hz. ``ax``, axes to draw on;
+    axes of a new figure if omitted. Returns axes of both logarithms; where lines are too close to be seen
+    apart, the largest one is drawn.
     """
     ax = axes_or_new(ax)
     frequencies, amplitudes = highest_lines(result)
@@ -373,13 +337,8 @@ def has_spectrum(result: DriveResult) -> bool:
 
 
 def highest_lines(result: DriveResult) -> tuple[Array, Array]:
-    """Largest line of the spectrum in each of many parts of a decade of frequency.
-
-    Returns
-    -------
-    frequencies, amplitudes : ndarray, shape (m,)
-        Frequency [Hz] and amplitude [V] of each of these lines, in the order of frequency. Amplitudes below
-        a millionth of the largest one are raised to it, so that a logarithmic axis has them.
+    """Largest line of the spectrum in each of many parts of a decade of frequency. Returns frequency [Hz] and
+    amplitude [V] of each of these lines, in the order of frequency, shape (m,).
     """
     amplitudes = result.solution.record.spectrum
     lines = np.arange(1, amplitudes.size)
@@ -406,20 +365,9 @@ def variants(result: DriveResult) -> Iterator[tuple[str, list[dict[str, Any]]]]:
 
 
 def rates(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the discharges per second of the drive and its remedies, with bounds of 95 %.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of a drive with remedies.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with a row for the drive as it is and for each remedy. An arrow is an upper bound where no
-        discharge happened.
+    """Draw the discharges per second of the drive and its remedies, with bounds of 95 %. ``ax``, axes to draw
+    on; axes of a new figure if omitted. Returns axes with a row for the drive as it is and for each remedy;
+    an arrow is an upper bound where no discharge happened.
     """
     ax = axes_or_new(ax)
     rows = list(variants(result))
@@ -446,19 +394,8 @@ def rates(result: DriveResult, ax: Axes | None = None) -> Axes:
 
 
 def energies(result: DriveResult, ax: Axes | None = None) -> Axes:
-    """Draw the mean energy of a discharge of the drive and its remedies.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of a drive with remedies.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with a row for the drive as it is and for each remedy.
+    """Draw the mean energy of a discharge of the drive and its remedies. ``ax``, axes to draw on; axes of a
+    new figure if omitted. Returns axes with a row for the drive as it is and for each remedy.
     """
     ax = axes_or_new(ax)
     rows = list(variants(result))
@@ -566,25 +503,7 @@ def drive_figures_of(result: DriveResult) -> dict[str, _Drawing]:
 
 
 def figure(result: DriveResult, name: str) -> Figure:
-    """Figure of a drive.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of the drive.
-    name : str
-        Name of its file, such as "drive_voltages.png".
-
-    Returns
-    -------
-    Figure
-        The figure, with its title.
-
-    Raises
-    ------
-    InputError
-        Where the drive has no figure of this name.
-    """
+    """Figure of a drive. Raises InputError where the drive has no figure of this name."""
     drawing = drawing_of(drive_figures_of(result), name)
     lines = [drawing.finding(result), *case_lines(result)]
     if drawing.finding is discharges:
@@ -600,22 +519,7 @@ def figure(result: DriveResult, name: str) -> Figure:
 
 
 def save_drive_figures(result: DriveResult, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Draw the figures of a drive as files.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of the drive.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    list of Path
-        Files written: those of ``drive_figures_of``.
-    """
+    """Draw the figures of a drive as files."""
     names = drive_figures_of(result)
     return [file for name in names for file in save_figure(figure(result, name), folder / name, formats)]
 
@@ -741,22 +645,8 @@ _NARROW = 0.05
 
 
 def distribution(result: DriveResult, ax: Axes | None = None, *, quantity: int = 0) -> Axes:
-    """Draw how a quantity of the discharges of both bearings is distributed.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of a drive with discharges.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    quantity : int
-        Number of the quantity in ``QUANTITIES``.
-
-    Returns
-    -------
-    Axes
-        Axes with the share of the discharges of each bearing. Bins have equal ratios where the values differ
-        by more than a factor of 20; the outer ones hold what lies beyond.
+    """Draw how a quantity of the discharges of both bearings is distributed. ``ax``, axes to draw on; axes of
+    a new figure if omitted. Returns axes with the share of the discharges of each bearing.
     """
     ax = axes_or_new(ax)
     name, column = QUANTITIES[quantity]
@@ -796,12 +686,8 @@ def _label(result: DriveResult, b: int) -> str:
 
 
 def bins_of(values: Array) -> tuple[Array, bool]:
-    """Edges of the bins of a distribution of positive values, and whether they have equal ratios.
-
-    Parameters
-    ----------
-    values : ndarray, shape (n,)
-        Values of all discharges, of which the rarest are left out.
+    """Edges of the bins of a distribution of positive values, and whether they have equal ratios. ``values``,
+    values of all discharges, of which the rarest are left out, shape (n,).
     """
     low, high = np.percentile(values[values > 0.0] if np.any(values) else [1.0], _SHOWN)
     log = is_wide(np.array([low, high]))

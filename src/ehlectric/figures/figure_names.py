@@ -89,18 +89,6 @@ SENSITIVITY_FIGURE = "sensitivity.png"
 def map_files(value: str, at: Mapping[str, str] | None = None) -> tuple[str, str]:
     """Names of the files of the map and of the lines of a value of a sweep.
 
-    Parameters
-    ----------
-    value : str
-        Dotted key of the summary.
-    at : mapping of str to str, optional
-        Values of the varied keys that are held, as texts: two cuts of a sweep have two names.
-
-    Returns
-    -------
-    tuple of str
-        Names of the PNG files.
-
     Examples
     --------
     >>> map_files("discharge.breakdown_voltage")
@@ -153,24 +141,7 @@ def _of_file_name(text: str) -> str:
 
 
 def in_formats(files: Iterable[str], formats: Sequence[str] = ("png",)) -> tuple[str, ...]:
-    """Names of the files of figures in some formats.
-
-    Parameters
-    ----------
-    files : iterable of str
-        Names, with or without the ending of a format.
-    formats : sequence of str
-        Formats, each of ``FORMATS``. A format that is given twice counts once.
-
-    Returns
-    -------
-    tuple of str
-        Names of the files, figure by figure.
-
-    Raises
-    ------
-    InputError
-        Where there is no format of this name.
+    """Names of the files of figures in some formats. Raises InputError where there is no format of this name.
 
     Examples
     --------

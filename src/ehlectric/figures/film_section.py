@@ -41,32 +41,11 @@ def draw_section(
 ) -> ContourSet:
     """Draw a section through the film, coloured by a value, with the bodies below and above it.
 
-    Parameters
-    ----------
-    ax : Axes
-        Axes to draw on.
-    x : ndarray, shape (nx,)
-        Position along the section, in the unit of its axis.
-    heights : ndarray, shape (nx, ns)
-        Heights of the nodes, from the lower to the upper wall, in the unit of its axis.
-    values : ndarray, shape (nx, ns)
-        Values at the nodes that the colours show.
-    limits : tuple of float
-        Values at the two ends of the colours. Values beyond them have the colour of the nearer end.
-    potentials : tuple of float
-        Potentials of surfaces 1 and 2 [V], written on the bodies.
-    colours : str
-        Name of the colour map.
-    under : bool
-        Whether values below the limits are grey instead.
-    units : tuple of float, optional
-        Lengths that the unit of each axis stands for [m]. With them, the section says how many times its
-        heights are enlarged.
-
-    Returns
-    -------
-    ContourSet
-        The filled contours, from which a colour bar can be made.
+    ``x``, position along the section, in the unit of its axis, shape (nx,); ``heights``, heights of the
+    nodes, from the lower to the upper wall, in the unit of its axis, shape (nx, ns); ``values``, values at
+    the nodes that the colours show, shape (nx, ns); ``potentials``, potentials of surfaces 1 and 2 [V],
+    written on the bodies; ``units``, lengths that the unit of each axis stands for [m]. Returns the filled
+    contours, from which a colour bar can be made.
     """
     filled = _fill(ax, x, heights, values, limits=limits, colours=colours, under=under)
     ax.set_xlim(x[0], x[-1])

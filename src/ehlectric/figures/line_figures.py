@@ -44,19 +44,8 @@ from ehlectric.quantities.units import unit_for
 
 
 def potential(result: Result, ax: Axes | None = None) -> Axes:
-    """Draw a map of the electric potential in the film, with ten equipotential lines.
-
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the map, and a colour bar beside them.
+    """Draw a map of the electric potential in the film, with ten equipotential lines. ``ax``, axes to draw
+    on; axes of a new figure if omitted. Returns axes with the map, and a colour bar beside them.
     """
     field, electric = result.field, result.case.electric
     low, high = sorted((electric.potential_1, electric.potential_2))
@@ -69,26 +58,10 @@ def potential(result: Result, ax: Axes | None = None) -> Axes:
 
 
 def field_strength(result: Result, ax: Axes | None = None, *, largest: float | None = None) -> Axes:
-    """Draw a map of the field strength in the film, and enlarged around its maximum, which is marked.
+    """Draw a map of the field strength in the film, and enlarged around its maximum, which is marked. ``ax``,
+    axes to draw on; axes of a new figure if omitted; ``largest``, draws the dimensionless field strength
+    abs(E) h_min/V12 instead, from 0 to this value. Returns axes with the map, and a colour bar beside them.
 
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    largest : float, optional
-        Draws the dimensionless field strength abs(E) h_min/V12 instead, from 0 to this value.
-
-    Returns
-    -------
-    Axes
-        Axes with the map, and a colour bar beside them. The colours span the field strengths inside the
-        Hertz zone; smaller ones are grey. In a new figure, a second panel enlarges the film around the
-        maximum.
-
-    Notes
-    -----
     The dimensionless field strength is drawn as Figures 5 and 6 of Morris et al. (2022),
     doi:10.3390/lubricants10050087.
     """
@@ -189,18 +162,9 @@ def _map(
 def pressure_and_film(result: Result, ax: Axes | None = None) -> Axes:
     """Draw pressure and film thickness over x/b around the contact, with the Hertz pressure behind them.
 
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes of the pressure; the film thickness is on a twin of them, with an axis on the right. Both axes
-        have their ticks at the same heights. The minimum film is marked.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes of the pressure; the film thickness
+    is on a twin of them, with an axis on the right; both axes have their ticks at the same heights. The
+    minimum film is marked.
     """
     ax, line = axes_or_new(ax), _line(result)
     above, below = pressure(line), film_thickness(line)
@@ -249,19 +213,9 @@ def _align(ax: Axes, twin: Axes, pressure: float, film: float) -> None:
 
 
 def film_change(result: Result, ax: Axes | None = None) -> Axes:
-    """Draw the change that the roughness makes to the film: rough film minus smooth film over x/b.
-
-    Parameters
-    ----------
-    result : Result
-        Result of a rough line contact that was also solved with smooth surfaces.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the change of the film, and the change that undeformed roughness would make to it.
+    """Draw the change that the roughness makes to the film: rough film minus smooth film over x/b. ``ax``,
+    axes to draw on; axes of a new figure if omitted. Returns axes with the change of the film, and the change
+    that undeformed roughness would make to it.
     """
     ax = axes_or_new(ax)
     assert result.smooth is not None
@@ -280,18 +234,7 @@ def film_change(result: Result, ax: Axes | None = None) -> Axes:
 
 def film(result: Result, ax: Axes | None = None) -> Axes:
     """Draw pressure and film; below them, the change by roughness where the smooth contact was solved too.
-
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
-    ax : Axes, optional
-        Axes to draw pressure and film on; axes of a new figure, with both panels, if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes of the pressure.
+    ``ax``, axes to draw pressure and film on; axes of a new figure, with both panels, if omitted.
     """
     if ax is not None or result.smooth is None:
         return pressure_and_film(result, ax)
@@ -311,19 +254,8 @@ def field_profiles(result: Result, ax: Axes | None = None) -> Axes:
 
     The zone of high field is where the field at mid-film is above 95 % of its maximum.
 
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the field strength in V/m, prefixed, on the left, and abs(E) h_min/V12 on the right. The
-        dielectric strength is a line, if the case has one. Where walls and mid-film agree within a per cent,
-        they are one line. Of a rough contact, only the field strengths of the Hertz zone are shown.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the field strength in V/m,
+    prefixed, on the left, and abs(E) h_min/V12 on the right.
     """
     ax, field, panel = axes_or_new(ax), result.field, strength_panel(_line(result))
     zone = in_half_widths(result, np.array(field.high_field_zone))
@@ -368,21 +300,9 @@ def _merged(sections: Sequence[Curve], apart: float = np.inf) -> list[Curve]:
 
 
 def field_deviation(result: Result, ax: Axes | None = None) -> Axes:
-    """Draw the deviation of the field strength from the thin-gap estimate V12/h over x/b.
-
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the deviations in per mille of V12/h, on both walls and at mid-film. Below them, in a new
-        figure, a second panel shows the surroundings of the largest. The ends of the field domain are left
-        out: within some gap heights, the end faces disturb the field.
+    """Draw the deviation of the field strength from the thin-gap estimate V12/h over x/b. ``ax``, axes to
+    draw on; axes of a new figure if omitted. Returns axes with the deviations in per mille of V12/h, on both
+    walls and at mid-film.
     """
     if ax is not None:
         _deviations(result, ax)
@@ -432,17 +352,8 @@ def roughness(result: Result, ax: Axes | None = None) -> Axes:
     Peaks, which make the film thinner, point up for both surfaces. Where the case cuts off the heights, both
     ends are drawn.
 
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes over the range of x/b of the figure of pressure and film thickness.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes over the range of x/b of the figure
+    of pressure and film thickness.
     """
     ax = axes_or_new(ax)
     x = in_half_widths(result, result.film.x)

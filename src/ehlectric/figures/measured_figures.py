@@ -52,25 +52,9 @@ def measured_figures_of(_factors: FilmFactors) -> list[str]:
 
 
 def figure(factors: FilmFactors, name: str) -> Figure:
-    """Figure of a measurement beside computed values.
-
-    Parameters
-    ----------
-    factors : FilmFactors
-        Film factors of the measurement.
-    name : str
-        Name of its file, "measured_and_computed.png".
-
-    Returns
-    -------
-    Figure
-        Above measured values with error bars, and computed lines at film factor 1 and at the mean with its
-        95 % band; below the film factor of every row.
-
-    Raises
-    ------
-    InputError
-        Where there is no figure of this name.
+    """Figure of a measurement beside computed values. Returns above measured values with error bars, and
+    computed lines at film factor 1 and at the mean with its 95 % band; below the film factor of every row.
+    Raises InputError where there is no figure of this name.
     """
     drawing_of({MEASURED_FIGURE: figure}, in_formats([name])[0])
     with style():
@@ -92,17 +76,7 @@ def figure(factors: FilmFactors, name: str) -> Figure:
 def save_measured_figures(
     factors: FilmFactors, folder: Path, formats: Sequence[str] = ("png",)
 ) -> list[Path]:
-    """Draw the figure of a measurement as files.
-
-    Parameters
-    ----------
-    factors : FilmFactors
-        Film factors of the measurement.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-    """
+    """Draw the figure of a measurement as files."""
     return save_figure(figure(factors, MEASURED_FIGURE), folder / MEASURED_FIGURE, formats)
 
 

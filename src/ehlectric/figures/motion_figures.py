@@ -132,19 +132,8 @@ _MOVED = 0.02
 
 
 def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the minimum film thickness over time, and compare it with stationary roughness.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes over time. Horizontal lines show the value before the motion, and with stationary roughness.
+    """Draw the minimum film thickness over time, and compare it with stationary roughness. ``ax``, axes to
+    draw on; axes of a new figure if omitted.
     """
     ax = axes_or_new(ax)
     factor, unit = film_unit(run)
@@ -164,20 +153,9 @@ def least_film(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def largest_field(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the largest field strength over time, with its value for stationary roughness.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes over time, with the voltage divided by the minimum film thickness at every step. Times at which
-        the field is above 90 % of its maximum are shaded (see ``FieldHistory``), unless they are all times.
+    """Draw the largest field strength over time, with its value for stationary roughness. ``ax``, axes to
+    draw on; axes of a new figure if omitted. Returns axes over time, with the voltage divided by the minimum
+    film thickness at every step.
     """
     ax = axes_or_new(ax)
     factor, unit = field_unit(run)
@@ -222,20 +200,8 @@ def _high(run: MotionRun, ax: Axes) -> Line2D:
 
 
 def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the shares of asperities in the load and of the real contact in the Hertz zone over time.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw, whose surfaces touch at one time step or more.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes over time. The legend states the mean load share, and for which share of the time steps the
-        surfaces touch.
+    """Draw the shares of asperities in the load and of the real contact in the Hertz zone over time. ``ax``,
+    axes to draw on; axes of a new figure if omitted.
     """
     ax = axes_or_new(ax)
     found = TouchHistory.of(run)
@@ -252,19 +218,9 @@ def asperities(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def places(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw where the field is strongest and where the film is thinnest over time.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes over time; for a point contact also with the position across entrainment.
+    """Draw where the field is strongest and where the film is thinnest over time. ``ax``, axes to draw on;
+    axes of a new figure if omitted. Returns axes over time; for a point contact also with the position across
+    entrainment.
     """
     ax = axes_or_new(ax)
     b = run.conditions.half_width
@@ -336,19 +292,9 @@ _SIZE = (7.2, 5.4)
 
 
 def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the film thickness over position and time.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with a colour bar that fits the Hertz zone; thicker films, as in the inlet, are grey.
+    """Draw the film thickness over position and time. ``ax``, axes to draw on; axes of a new figure if
+    omitted. Returns axes with a colour bar that fits the Hertz zone; thicker films, as in the inlet, are
+    grey.
     """
     factor, unit = film_unit(run)
     values = factor * run.along("thickness")
@@ -359,19 +305,8 @@ def film_map(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the pressure over position and time.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with a colour bar up to the largest pressure.
+    """Draw the pressure over position and time. ``ax``, axes to draw on; axes of a new figure if omitted.
+    Returns axes with a colour bar up to the largest pressure.
     """
     values = run.along("pressure")
     factor, unit = unit_for(float(np.max(values)), "Pa")
@@ -381,20 +316,9 @@ def pressure_map(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the largest field strength across the film over position and time.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with a colour bar that fits the Hertz zone; weaker fields are grey, and light grey where the
-        field was not solved.
+    """Draw the largest field strength across the film over position and time. ``ax``, axes to draw on; axes
+    of a new figure if omitted. Returns axes with a colour bar that fits the Hertz zone; weaker fields are
+    grey, and light grey where the field was not solved.
     """
     factor, unit = field_unit(run)
     values = factor * run.along("strength")
@@ -405,17 +329,8 @@ def field_map(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def map_figure(run: MotionRun) -> Axes:
-    """Draw film, pressure and field over position and time side by side, with lines of the speeds.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run with at least two recorded instants.
-
-    Returns
-    -------
-    Axes
-        First of the three panels.
+    """Draw film, pressure and field over position and time side by side, with lines of the speeds. ``run``,
+    run with at least two recorded instants. Returns first of the three panels.
     """
     axes = new_panels(1, 3, _SIZE)
     for draw, ax in zip((film_map, pressure_map, field_map), axes, strict=True):
@@ -506,19 +421,9 @@ def sampling_text(run: MotionRun) -> str:
 
 
 def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the film thickness with moving and with stationary roughness, and before the motion.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run with a recorded instant of largest difference.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes whose range fits the film in the Hertz zone; outside the zone the film is thicker.
+    """Draw the film thickness with moving and with stationary roughness, and before the motion. ``ax``, axes
+    to draw on; axes of a new figure if omitted. Returns axes whose range fits the film in the Hertz zone;
+    outside the zone the film is thicker.
     """
     ax, lines = _three(run, ax, "thickness", film_unit(run), ("film thickness $h$", "min.", np.nanmin))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -526,19 +431,8 @@ def film_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the pressure with moving and with stationary roughness, and before the motion.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run with a recorded instant of largest difference.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes whose range begins at zero pressure.
+    """Draw the pressure with moving and with stationary roughness, and before the motion. ``ax``, axes to
+    draw on; axes of a new figure if omitted. Returns axes whose range begins at zero pressure.
     """
     unit = unit_for(max(_extremes(run, "pressure", np.nanmax)), "Pa")
     ax, lines = _three(run, ax, "pressure", unit, ("pressure $p$", "max.", np.nanmax))
@@ -547,19 +441,9 @@ def pressure_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
 
 
 def field_beside(run: MotionRun, ax: Axes | None = None) -> Axes:
-    """Draw the field strength with moving and with stationary roughness, and before the motion.
-
-    Parameters
-    ----------
-    run : MotionRun
-        Run with a recorded instant of largest difference.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes whose range fits the field in the Hertz zone; outside the zone the field is smaller.
+    """Draw the field strength with moving and with stationary roughness, and before the motion. ``ax``, axes
+    to draw on; axes of a new figure if omitted. Returns axes whose range fits the field in the Hertz zone;
+    outside the zone the field is smaller.
     """
     ax, lines = _three(run, ax, "strength", field_unit(run), ("field $|E|$", "max.", np.nanmax))
     ax.set_ylim(*fitted(*(in_contact(run, line) for line in lines)))
@@ -576,23 +460,9 @@ def roughness_at(
 ) -> Axes:
     """Draw the heights of the rough surfaces along entrainment at a recorded instant.
 
-    Parameters
-    ----------
-    run : MotionRun
-        Run to draw.
-    frame : int
-        Number of the recorded instant.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    unit : (float, str), optional
-        Factor and unit of the heights; by default they suit the heights at this instant.
-    stationary : int, optional
-        Number of the instant at which the surfaces are where stationary roughness is, to draw them too.
-
-    Returns
-    -------
-    Axes
-        Axes with the same range of x as the axes of the film. Peaks of both surfaces point up.
+    ``ax``, axes to draw on; axes of a new figure if omitted; ``stationary``, number of the instant at which
+    the surfaces are where stationary roughness is, to draw them too. Returns axes with the same range of x as
+    the axes of the film; peaks of both surfaces point up.
     """
     ax = axes_or_new(ax)
     heights = {k: run.along(f"roughness_{k}", frame) for k in run.speeds}
@@ -614,11 +484,8 @@ def compared_frame(run: MotionRun) -> int | None:
 
     Instants before the roughness fills the contact do not count, unless the run ends before.
 
-    Returns
-    -------
-    int or None
-        Number of the instant; None without a film of stationary roughness, and where the run does not reach
-        the instant at which the surfaces are at their positions in the case.
+    Returns number of the instant; None without a film of stationary roughness, and where the run does not
+    reach the instant at which the surfaces are at their positions in the case.
     """
     if coincident_frame(run) is None:
         return None
@@ -685,17 +552,8 @@ _WIDTH, _HEIGHT, _TITLE = 7.2, 2.1, 0.75
 
 
 def history(run: MotionRun) -> Axes:
-    """Draw minimum film thickness, maximum field strength and their places over time, and asperities.
-
-    Parameters
-    ----------
-    run : MotionRun
-        The run to draw.
-
-    Returns
-    -------
-    Axes
-        The first of three panels, or of two where the places do not change; one more where surfaces touch.
+    """Draw minimum film thickness, maximum field strength and their places over time, and asperities. Returns
+    the first of three panels, or of two where the places do not change; one more where surfaces touch.
     """
     touching = (asperities,) if TouchHistory.of(run) is not None else ()
     panels = (least_film, *touching, largest_field, *((places,) if places_vary(run) else ()))
@@ -708,17 +566,8 @@ def history(run: MotionRun) -> Axes:
 
 
 def maps(run: MotionRun) -> Axes:
-    """Draw film, pressure and field over position and time.
-
-    Parameters
-    ----------
-    run : MotionRun
-        A run with at least two recorded instants.
-
-    Returns
-    -------
-    Axes
-        The first of three panels.
+    """Draw film, pressure and field over position and time. ``run``, a run with at least two recorded
+    instants. Returns the first of three panels.
     """
     ax = map_figure(run)
     name_run(ax, run, of_maps(run), sampling_text(run))
@@ -727,17 +576,7 @@ def maps(run: MotionRun) -> Axes:
 
 def beside_stationary(run: MotionRun) -> Axes:
     """Compare moving with stationary roughness at the instant of the largest difference in minimum film.
-
-    Parameters
-    ----------
-    run : MotionRun
-        A run that reaches the instant at which the surfaces are at their positions in the case, with film and
-        field of stationary roughness.
-
-    Returns
-    -------
-    Axes
-        The first of four panels: film, pressure, field and roughness.
+    Returns the first of four panels: film, pressure, field and roughness.
     """
     axes = _stack(4)
     for draw, ax in zip((film_beside, pressure_beside, field_beside), axes[:3], strict=True):
@@ -769,51 +608,15 @@ def drawings_of(run: MotionRun) -> dict[str, Callable[[MotionRun], Axes]]:
 
 
 def figure(run: MotionRun, name: str) -> Figure:
-    """Figure of a transient run.
-
-    Parameters
-    ----------
-    run : MotionRun
-        The run to draw.
-    name : str
-        Name of its file, such as "motion_history.png".
-
-    Returns
-    -------
-    Figure
-        The figure, with its title.
-
-    Raises
-    ------
-    InputError
-        Where the run has no figure of this name.
-    """
+    """Figure of a transient run. Raises InputError where the run has no figure of this name."""
     draw = drawing_of(drawings_of(run), name)
     with figure_style():
         return figure_of(draw(run))
 
 
 def save_motion_figures(dataset: xr.Dataset, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Draw all figures of a transient run as files.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        A run, complete or not, as ``read_motion`` gives it.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    list of Path
-        Files written: those of ``drawings_of``, in each format.
-
-    Raises
-    ------
-    InputError
-        Where the dataset is not a run of moving roughness.
+    """Draw all figures of a transient run as files. Returns files written: those of ``drawings_of``, in each
+    format. Raises InputError where the dataset is not a run of moving roughness.
     """
     run = MotionRun.of(dataset)
     return [

@@ -87,20 +87,9 @@ _NAMES: Mapping[str, str] = MappingProxyType(
 
 
 def over_pressure(report: OilReport) -> list[Axes]:
-    """Draw the properties of an oil over pressure, a curve for each temperature.
-
-    Parameters
-    ----------
-    report : OilReport
-        Report on an oil, with its temperatures and pressures.
-
-    Returns
-    -------
-    list of Axes
-        Axes of a new figure: viscosity, density (or its ratio to that at ambient pressure), permittivity, and
-        thermal properties that change with pressure. A curve is dotted beyond the range of its law, where a
-        dot marks the end of the range, and ends at a pole. Lines mark the pressures of the report. Properties
-        that are not known have no axes.
+    """Draw the properties of an oil over pressure, a curve for each temperature. Returns axes of a new
+    figure: viscosity, density (or its ratio to that at ambient pressure), permittivity, and thermal
+    properties that change with pressure.
     """
     highest = max(_PRESSURE, _ROOM * max(report.pressures, default=0.0))
     pressure = np.linspace(0.0, highest, _NODES)
@@ -188,19 +177,9 @@ def _beyond(ax: Axes, panel: _Panel, oil: KnownOil, curve: tuple[Array, Array], 
 
 
 def over_temperature(report: OilReport) -> list[Axes]:
-    """Draw the properties of an oil at ambient pressure over its range of temperatures.
-
-    Parameters
-    ----------
-    report : OilReport
-        Report on an oil whose viscosity depends on temperature.
-
-    Returns
-    -------
-    list of Axes
-        Axes of a new figure: viscosity, both pressure-viscosity coefficients, density, permittivity,
-        conductivity and thermal properties as far as they are known. Dots mark the temperatures of the
-        report.
+    """Draw the properties of an oil at ambient pressure over its range of temperatures. Returns axes of a new
+    figure: viscosity, both pressure-viscosity coefficients, density, permittivity, conductivity and thermal
+    properties as far as they are known; dots mark the temperatures of the report.
     """
     table = report.named.table
     known = [kelvin for kelvin in report.temperatures if kelvin is not None]
@@ -301,21 +280,8 @@ def _legend(ax: Axes, report: OilReport, *, ends: bool) -> None:
 
 
 def save_oil(report: OilReport, folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Write the figures of an oil as files, one of each format.
-
-    Parameters
-    ----------
-    report : OilReport
-        Report on an oil.
-    folder : Path
-        Folder of the files.
-    formats : sequence of str
-        Formats, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    list of Path
-        Files written; an oil whose viscosity does not depend on temperature has no figure over it.
+    """Write the figures of an oil as files, one of each format. Returns files written; an oil whose viscosity
+    does not depend on temperature has no figure over it.
     """
     drawn: list[tuple[str, Callable[[OilReport], list[Axes]]]] = [(OIL_FIGURE_FILES[0], over_pressure)]
     if depends_on_temperature(report.named.table):

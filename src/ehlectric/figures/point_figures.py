@@ -57,20 +57,8 @@ _LOOKS = ((BLUE, "-"), (ORANGE, (0, (4.0, 1.2))))
 
 def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw the pressure on two cuts, through the centre and through the minimum film, and the Hertz pressure.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    along : str
-        Direction of the cuts: "x", along entrainment, or "y", across it.
-
-    Returns
-    -------
-    Axes
-        Axes with the pressure over x/b or y/b, and a legend above them.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the pressure over x/b or y/b,
+    and a legend above them.
     """
     ax = axes_or_new(ax)
     film, conditions = result.film, result.conditions
@@ -90,20 +78,9 @@ def pressure_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x
 def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw the film thickness on two cuts, through the centre and through the minimum film.
 
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    along : str
-        Direction of the cuts: "x", along entrainment, or "y", across it.
-
-    Returns
-    -------
-    Axes
-        Axes with the film up to twice the central or the mean film thickness, whichever is larger. A dotted
-        line shows the film with smooth surfaces, if it was solved for a rough contact.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the film up to twice the
+    central or the mean film thickness, whichever is larger; a dotted line shows the film with smooth
+    surfaces, if it was solved for a rough contact.
     """
     ax, film = axes_or_new(ax), result.film
     factor, unit = film_unit(result)
@@ -121,21 +98,8 @@ def film_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -
 
 def field_cut(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw the field strength at mid-film on two cuts, through the centre and through the maximum field.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    along : str
-        Direction of the cuts: "x", along entrainment, or "y", across it.
-
-    Returns
-    -------
-    Axes
-        Axes with the field strength as lines, and the thin-gap estimate V12/h as wide bands behind them. The
-        ends of the field domain are left out, because its side faces disturb the field there.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the field strength as lines,
+    and the thin-gap estimate V12/h as wide bands behind them.
     """
     ax, field = axes_or_new(ax), result.field
     factor, unit = unit_for(field.max_strength, "V/m")
@@ -202,17 +166,8 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
     The cuts run through the centre and through the minimum film, or for the field through its maximum.
 
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    axes : sequence of Axes, optional
-        Six axes to draw on, in three rows of two; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        The first axes, with the pressure along entrainment.
+    ``axes``, six axes to draw on, in three rows of two; axes of a new figure if omitted. Returns the first
+    axes, with the pressure along entrainment.
     """
     axes = new_panels(3, 2, (7.0, 6.6)) if axes is None else axes
     for number, draw in enumerate((pressure_cut, film_cut, field_cut)):
@@ -226,21 +181,7 @@ def cuts(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
 
 def field_section(result: PointResult, ax: Axes | None = None, *, along: str = "x") -> Axes:
     """Draw a section of the film through the maximum field: field strength as colours, and equipotentials.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    along : str
-        Direction of the section: "x", along entrainment, or "y", across it.
-
-    Returns
-    -------
-    Axes
-        Axes with the section and a colour bar. Heights are measured from the middle between the smooth
-        surfaces, because the middle surface itself is curved if the two bodies are unequal.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the section and a colour bar.
     """
     ax, field, electric = axes_or_new(ax), result.field, result.case.electric
     cut = Cut.near(along, field.max_strength_position, field.x, field.y)
@@ -298,17 +239,8 @@ def field_sections(result: PointResult, axes: Sequence[Axes] | None = None) -> A
 
     The colours show the field strength. Both sections have the same scale of heights.
 
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    axes : sequence of Axes, optional
-        Two axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        The first axes, with the section along entrainment.
+    ``axes``, two axes to draw on; axes of a new figure if omitted. Returns the first axes, with the section
+    along entrainment.
     """
     axes = new_panels(2, 1, (6.3, 5.6)) if axes is None else axes
     for ax, along in zip(axes, "xy", strict=True):
@@ -338,20 +270,8 @@ _CAVITATED = "#e3e6ea"
 
 
 def film_map(result: PointResult, ax: Axes | None = None) -> Axes:
-    """Draw a map of the film thickness with lines of equal thickness, and mark the minimum.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the map. The colours cover the films inside the Hertz ellipse; the thicker film around it is
-        grey. Rough films have no lines of equal thickness.
+    """Draw a map of the film thickness with lines of equal thickness, and mark the minimum. ``ax``, axes to
+    draw on; axes of a new figure if omitted.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
@@ -393,20 +313,8 @@ def _in_metres(result: PointResult, window: tuple[Range, Range]) -> tuple[Range,
 
 
 def pressure_map(result: PointResult, ax: Axes | None = None) -> Axes:
-    """Draw a map of the pressure with lines of equal pressure, and the cavitated region hatched.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the map, and a colour bar beside them. Where the pressure spike is the maximum, the colours
-        are smoothed over one spacing of the nodes; the marked value is not.
+    """Draw a map of the pressure with lines of equal pressure, and the cavitated region hatched. ``ax``, axes
+    to draw on; axes of a new figure if omitted. Returns axes with the map, and a colour bar beside them.
     """
     film, window = result.film, film_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
@@ -455,20 +363,8 @@ def _cavitated(result: PointResult, ax: Axes) -> Patch:
 
 def field_map(result: PointResult, ax: Axes | None = None, *, section: str = "mid-film") -> Axes:
     """Draw a map of the field strength on a wall or at mid-film, with the zone of high field and the maximum.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-    section : str
-        Section of the film that is drawn: "mid-film", "surface 1" or "surface 2".
-
-    Returns
-    -------
-    Axes
-        Axes with the map and its colour bar, which ends at the largest field of all three sections.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the map and its colour bar,
+    which ends at the largest field of all three sections.
     """
     field, window = result.field, field_window(result)
     ax = map_panels(result, 1, window, rows=1)[0] if ax is None else ax
@@ -512,18 +408,7 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
 
     The maps are of both walls and of mid-film; one map serves both walls where they are alike.
 
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    axes : sequence of Axes, optional
-        Three axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        The first axes. The deviations are in per mille of V12/h, with zero in white, and shown inside the
-        Hertz ellipse only: near the side faces of the field domain, the faces disturb the field.
+    ``axes``, three axes to draw on; axes of a new figure if omitted. Returns the first axes.
     """
     field, window = result.field, field_window(result)
     panels = {name: 1e3 * (_strength(result, name) / field.thin_gap_strength - 1.0) for name in SECTIONS}
@@ -541,21 +426,8 @@ def field_deviation(result: PointResult, axes: Sequence[Axes] | None = None) -> 
 
 def roughness(result: PointResult, axes: Sequence[Axes] | None = None) -> Axes:
     """Draw maps of the sum of the roughness of both surfaces, and of the change it makes to the film.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of a point contact.
-    axes : sequence of Axes, optional
-        Two axes to draw on, or one if the smooth contact was not solved; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        The first axes, with the heights; peaks of either surface are positive. The second axes have the rough
-        film minus the smooth film, with the same colours. If the contact does not flatten the roughness, this
-        change is the height with its sign reversed. The second map is left out if the smooth contact was
-        not solved.
+    ``axes``, two axes to draw on, or one if the smooth contact was not solved; axes of a new figure if
+    omitted. Returns the first axes, with the heights; peaks of either surface are positive.
     """
     window, film, heights = film_window(result), result.film, result.roughness.sum(axis=0)
     factor, unit = unit_for(float(np.max(np.abs(heights))), "m", least=1.0)

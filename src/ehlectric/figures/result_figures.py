@@ -51,21 +51,8 @@ _VALUES = ("film.minimum_thickness", "bearing.capacitance")
 
 
 def default_figure(result: Any, **options: Any) -> _Default:
-    """Name and options of the figure that tells most about a result.
-
-    Parameters
-    ----------
-    result : Result, PointResult, BearingResult, MotionResult or SweepResults
-        Result.
-    **options
-        Options of a sweep that are given: ``value``, ``x`` and ``y`` are not chosen then.
-
-    Returns
-    -------
-    name : str
-        Name of the figure.
-    options : dict
-        Options of ``figure``; empty for results other than sweeps.
+    """Name and options of the figure that tells most about a result. Returns ``name``, name of the figure;
+    ``options``, options of ``figure``; empty for results other than sweeps.
     """
     choose = next(choice for kind, choice in _CHOICES.items() if isinstance(result, kind))
     return choose(result, options)
@@ -108,19 +95,8 @@ def _of_sweep(results: SweepResults, options: Mapping[str, Any]) -> _Default:
 
 
 def default_axes(results: SweepResults, options: Mapping[str, Any]) -> dict[str, str]:
-    """Varied keys along the axes of a figure: those that are given, else the first ones with numbers.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep.
-    options : mapping
-        Options of the figure, of which ``x`` and ``y`` are kept.
-
-    Returns
-    -------
-    dict of str to str
-        ``x``, and ``y`` where there is a second key; empty where no key has numbers.
+    """Varied keys along the axes of a figure: those that are given, else the first ones with numbers. Returns
+    ``x``, and ``y`` where there is a second key; empty where no key has numbers.
     """
     x, y = options.get("x"), options.get("y")
     at = options.get("at") or {}
@@ -166,18 +142,10 @@ AnyResult = (
 
 @dataclass(frozen=True)
 class Drawn:
-    """Figures of a result as files.
-
-    Attributes
-    ----------
-    files : tuple of Path
-        Files written.
-    warnings : tuple of ResultWarning
-        Warnings about what the figures leave out.
-    """
+    """Figures of a result as files."""
 
     files: tuple[Path, ...]
-    warnings: tuple[ResultWarning, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()  # warnings about what the figures leave out
 
 
 def figure(result: AnyResult, name: str, *, style: str = "screen", **options: Any) -> Figure:
@@ -250,28 +218,10 @@ def draw_figures(
 ) -> Drawn:
     """Draw all figures of a result as files.
 
-    Parameters
-    ----------
-    result : Result, PointResult, BearingResult, DriveResult, Dataset, MotionRun, SweepResults or FilmFactors
-        Result of a contact, bearing, drive, transient contact, sweep or measurement.
-    folder : str or Path
-        Folder of the files; it is made if it does not exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-    style : str
-        "screen", or "journal": as wide as one or two columns of a journal (84 or 174 mm), in small type,
-        without the title, which the metadata of the files have in any style.
-
-    Returns
-    -------
-    Drawn
-        Files, and warnings about speeds that the figures of a bearing leave out. There are no figures of a
-        sweep here: they need the keys of their axes.
-
-    Raises
-    ------
-    InputError
-        Where there is no such format or style, the folder cannot be used, or another command draws into it.
+    ``folder``, folder of the files; it is made if it does not exist. Returns files, and warnings about speeds
+    that the figures of a bearing leave out; there are no figures of a sweep here: they need the keys of their
+    axes. Raises InputError where there is no such format or style, the folder cannot be used, or another
+    command draws into it.
     """
     in_formats((), formats)
     with alone_in(folder, locks=[FIGURE_LOCK]) as folder, styled(style):
@@ -372,12 +322,8 @@ def _check_options(result: AnyResult, draws: _Draws, options: Mapping[str, Any])
 
 
 def _with_axes(results: SweepResults, name: str, options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options of a figure of a sweep, with the default axes where none are given.
-
-    Raises
-    ------
-    InputError
-        If the name is not that of a figure but that of a value.
+    """Options of a figure of a sweep, with the default axes where none are given. Raises InputError if the
+    name is not that of a figure but that of a value.
     """
     stem = _stem(name)
     if stem in known_values(results):

@@ -59,24 +59,13 @@ _WITHOUT_DATE: Mapping[str, dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class _Look:
-    """Look of figures: settings of matplotlib, and how large they are on the page.
-
-    Attributes
-    ----------
-    settings : dict
-        Settings of matplotlib.
-    titled : bool
-        Whether titles are drawn. They are in the metadata of the file in any case.
-    columns : tuple of float, optional
-        Widths of a figure in one column and across two columns of a page [inches]; as drawn if None.
-    height : float
-        Ratio of the height of a figure in one column to its height on the screen.
-    """
+    """Look of figures: settings of matplotlib, and how large they are on the page."""
 
     settings: Mapping[str, Any]
-    titled: bool = True
+    titled: bool = True  # whether titles are drawn. They are in the metadata of the file in any case
+    # Widths of a figure in one column and across two columns of a page [inches]; as drawn if None.
     columns: tuple[float, float] | None = None
-    height: float = 1.0
+    height: float = 1.0  # ratio of the height of a figure in one column to its height on the screen
 
 
 _SCREEN: dict[str, Any] = {
@@ -142,16 +131,8 @@ def style(name: str | None = None) -> Iterator[None]:
     The settings of matplotlib belong to the whole process and are restored at the end. Threads that draw
     take turns, so that none restores the settings of another.
 
-    Parameters
-    ----------
-    name : str, optional
-        Name of the style, "screen" or "journal"; the style of the context around this one if omitted, which
-        is "screen" outside of any.
-
-    Raises
-    ------
-    InputError
-        Where there is no style of this name.
+    ``name``, name of the style, "screen" or "journal"; the style of the context around this one if omitted,
+    which is "screen" outside of any. Raises InputError where there is no style of this name.
     """
     name = _style.get() if name is None else name
     if name not in _LOOKS:
@@ -179,22 +160,8 @@ def page_size(size: tuple[float, float]) -> tuple[float, float]:
 
 
 def new_panels(rows: int, columns: int, size: tuple[float, float], *, exact: bool = False) -> list[Axes]:
-    """Axes of a new figure, row by row.
-
-    Parameters
-    ----------
-    rows, columns : int
-        Rows and columns of the panels.
-    size : tuple of float
-        Width and height of the figure on the screen [inches]; in the style "journal" it is as wide as one or
-        two columns.
-    exact : bool
-        Whether the size is that of the figure in any style.
-
-    Returns
-    -------
-    list of Axes
-        Axes of the panels.
+    """Axes of a new figure, row by row. ``size``, width and height of the figure on the screen [inches]; in
+    the style "journal" it is as wide as one or two columns.
     """
     figure = Figure(figsize=size if exact else page_size(size))
     FigureCanvasAgg(figure)
@@ -218,15 +185,6 @@ def name_over(ax: Axes, text: str, *, converged: bool = True) -> None:
 
     In the style "journal" the title is not drawn, because a caption says it. The metadata of the file has it
     in every style. Where the result is not converged, its first line is drawn in every style.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes of one of the panels.
-    text : str
-        Lines of the title. Long lines are broken.
-    converged : bool
-        Whether the result is converged. If it is not, the first line is bold and red.
     """
     figure = figure_of(ax)
     text = "\n".join(map(printable, text.split("\n")))
@@ -271,22 +229,7 @@ def _broken(figure: Figure, line: str, size: float) -> list[str]:
 
 
 def titled(ax: Axes, title: str, *, converged: bool) -> Figure:
-    """Figure of axes with a title over all of its panels, whose first line says if it is not converged.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes of one of the panels.
-    title : str
-        Lines of the title; a converged result may have none.
-    converged : bool
-        Whether the result is converged.
-
-    Returns
-    -------
-    Figure
-        The figure.
-    """
+    """Figure of axes with a title over all of its panels, whose first line says if it is not converged."""
     text = title if converged else f"NOT CONVERGED\n{title}"
     if text:
         name_over(ax, text, converged=converged)
@@ -302,26 +245,9 @@ def share_below(axes: Sequence[Axes]) -> None:
 
 
 def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Write a figure as a file of each format; an interrupted write leaves no partial file.
-
-    Parameters
-    ----------
-    figure : Figure
-        Figure to write.
-    path : Path
-        Path of the PNG file; the other files have its name with the ending of their format.
-    formats : sequence of str
-        Formats, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    list of Path
-        Files written. The title of the figure is in their metadata, and no date.
-
-    Raises
-    ------
-    InputError
-        Where there is no format of this name, or a file cannot be written, as on a full disk.
+    """Write a figure as a file of each format; an interrupted write leaves no partial file. Returns files
+    written; the title of the figure is in their metadata, and no date. Raises InputError where there is no
+    format of this name, or a file cannot be written, as on a full disk.
     """
     files = [path.parent / name for name in in_formats([path.name], formats)]
     for file in files:
@@ -335,12 +261,8 @@ def save_figure(figure: Figure, path: Path, formats: Sequence[str] = ("png",)) -
 
 
 def drawing_of(drawings: Mapping[str, D], name: str) -> D:
-    """Entry of a table of drawings by its name, with or without the ending of a format.
-
-    Raises
-    ------
-    InputError
-        Where the result has no figure of this name.
+    """Entry of a table of drawings by its name, with or without the ending of a format. Raises InputError
+    where the result has no figure of this name.
 
     Examples
     --------
@@ -359,18 +281,9 @@ def legend_above(
 ) -> None:
     """Place a legend above the axes, of the given artists, or of all that have a label.
 
-    Parameters
-    ----------
-    ax : Axes
-        Axes of the legend.
-    handles : sequence of Artist or tuple of Artist, optional
-        Artists in the legend, those of a tuple drawn over each other; all that have a label if omitted.
-    columns : int
-        Columns of the legend; fewer where the page is too narrow for them.
-    lift : float
-        Height of the legend above the axes [pt], which leaves room for an axis on top of them.
-    **options
-        Further options of a legend of matplotlib.
+    ``handles``, artists in the legend, those of a tuple drawn over each other; all that have a label if
+    omitted; ``columns``, columns of the legend; fewer where the page is too narrow for them; ``lift``, height
+    of the legend above the axes [pt], which leaves room for an axis on top of them.
     """
     entries: list[Any] = ax.get_legend_handles_labels()[0] if handles is None else list(handles)
     labels = options.get("labels") or [str(entry.get_label()) for entry in entries]
@@ -423,19 +336,7 @@ _MANY = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)
 
 
 def scale_axis(axis: Axis, text: str, *, values: Array, log: bool) -> None:
-    """Label an axis; where ``log`` is set, make it logarithmic with ticks at round numbers.
-
-    Parameters
-    ----------
-    axis : Axis
-        The x or y axis.
-    text : str
-        Label of the axis.
-    values : ndarray
-        Values drawn along the axis, in its unit. Values that are not finite are ignored.
-    log : bool
-        Whether the axis is logarithmic.
-    """
+    """Label an axis; where ``log`` is set, make it logarithmic with ticks at round numbers."""
     axis.set_label_text(text)
     if not log:
         return
@@ -502,18 +403,8 @@ def by_logarithm(values: Array, *, log_axis: bool) -> bool:
     Film thickness and breakdown voltage are nearly powers of speed and load. On a logarithmic axis of speed
     or load, linear interpolation of the values themselves would overstate them between the points.
 
-    Parameters
-    ----------
-    values : ndarray
-        Values at the points. Values that are not finite are ignored.
-    log_axis : bool
-        Whether an axis that the values are drawn over is logarithmic.
-
-    Returns
-    -------
-    bool
-        True where all finite values are positive, and an axis is logarithmic or they differ by more than the
-        ratio ``WIDE``.
+    Returns True where all finite values are positive, and an axis is logarithmic or they differ by more than
+    the ratio ``WIDE``.
 
     Examples
     --------
@@ -526,14 +417,8 @@ def by_logarithm(values: Array, *, log_axis: bool) -> bool:
 
 
 def levels_of(values: Array, *, log: bool) -> Array:
-    """Round levels that enclose all finite values.
-
-    Parameters
-    ----------
-    values : ndarray
-        Values, of which at least one is finite; all positive where ``log``.
-    log : bool
-        Whether the levels are spaced evenly in their logarithm.
+    """Round levels that enclose all finite values. ``values``, of which at least one is finite; all positive
+    where ``log``.
 
     Examples
     --------

@@ -20,19 +20,8 @@ _BEYOND = 0.1
 
 
 def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
-    """Draw the heights of a profile about their mean, with Rq, Ra, Rsk and Rku in the title.
-
-    Parameters
-    ----------
-    drawn : Profile
-        Profile to draw.
-    ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the profile. The units of height and of position are chosen to suit the values.
+    """Draw the heights of a profile about their mean, with Rq, Ra, Rsk and Rku in the title. ``ax``, axes to
+    draw on; those of a new figure if omitted.
     """
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)
@@ -49,20 +38,9 @@ def profile(drawn: Profile, ax: Axes | None = None) -> Axes:
 
 
 def height_map(drawn: Map, ax: Axes | None = None) -> Axes:
-    """Draw the heights of a map about their mean as colours, with Sq beside the colour bar.
-
-    Parameters
-    ----------
-    drawn : Map
-        Map to draw.
-    ax : Axes, optional
-        Axes to draw on; those of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the map, x and y to the same scale, and a colour bar. The lowest and the highest 0.1 % of
-        the heights lie beyond the ends of the colours.
+    """Draw the heights of a map about their mean as colours, with Sq beside the colour bar. ``ax``, axes to
+    draw on; those of a new figure if omitted. Returns axes with the map, x and y to the same scale, and a
+    colour bar; the lowest and the highest 0.1 % of the heights lie beyond the ends of the colours.
     """
     ax = axes_or_new(ax)
     heights = drawn.heights - np.mean(drawn.heights)

@@ -151,19 +151,8 @@ def distribution(results: SweepResults, analysis: Sensitivity, ax: Axes | None =
 
     For a breakdown voltage or a margin, the applied voltage is drawn too.
 
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep of the design "sobol".
-    analysis : Sensitivity
-        Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the share of samples below each value. The samples are the solved points of A and B.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the share of samples below
+    each value; the samples are the solved points of A and B.
     """
     ax = axes_or_new(ax)
     samples = np.sort(_drawn(results, analysis.value))
@@ -205,20 +194,8 @@ def _applied(results: SweepResults, analysis: Sensitivity, ax: Axes, scale: Scal
 
 def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) -> Axes:
     """Draw the first-order and the total sensitivity index of each input with their confidence intervals.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep of the design "sobol".
-    analysis : Sensitivity
-        Its analysis, from ``ehlectric.sweep.sensitivity.sensitivity``.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the indices as bars, the input with the largest total index on top.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the indices as bars, the input
+    with the largest total index on top.
     """
     ax = axes_or_new(ax)
     ordered = sorted(analysis.indices, key=lambda index: index.total)
@@ -250,20 +227,7 @@ def parts(results: SweepResults, analysis: Sensitivity, ax: Axes | None = None) 
 
 
 def sensitivity_figure(results: SweepResults, analysis: Sensitivity) -> Figure:
-    """Figure of the distribution of a value beside the sensitivity indices of the inputs.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep of the design "sobol".
-    analysis : Sensitivity
-        Sensitivity of the results, as ``sensitivity`` gives it.
-
-    Returns
-    -------
-    Figure
-        The figure, with its title.
-    """
+    """Figure of the distribution of a value beside the sensitivity indices of the inputs."""
     with style():
         high = max(3.4, 1.6 + 0.42 * len(analysis.indices))
         left, right = new_panels(1, 2, (8.4, high))
@@ -301,33 +265,8 @@ def figure(
     value: str = "",
     at: Mapping[str, str] | None = None,
 ) -> Figure:
-    """Figure of a sweep.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of the sweep.
-    name : str
-        Name of its file: "map_KEY.png" or "lines_KEY.png" with a dotted key of the summary, or
-        "sensitivity.png".
-    x : str, optional
-        Varied key along the horizontal axis of a map or of lines.
-    y : str, optional
-        Second varied key; a map needs it.
-    value : str, optional
-        Dotted key of the summary whose sensitivity is drawn; by default a breakdown voltage.
-    at : mapping of str to str, optional
-        Values of the other varied keys.
-
-    Returns
-    -------
-    Figure
-        The figure, with its title.
-
-    Raises
-    ------
-    InputError
-        Where there is no figure of this name, or as ``take`` and ``sensitivity`` raise it.
+    """Figure of a sweep. Raises InputError where there is no figure of this name, or as ``take`` and
+    ``sensitivity`` raise it.
     """
     (name,) = in_formats([name])
     if name == SENSITIVITY_FIGURE:
@@ -357,35 +296,7 @@ def save_maps(
     at: Mapping[str, str] | None = None,
     formats: Sequence[str] = ("png",),
 ) -> list[Path]:
-    """Draw a value of a sweep as a map and as lines, as files.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of the sweep.
-    x : str
-        Varied key whose values are numbers.
-    y : str or None
-        Second varied key. There is no map without it, or where its values are texts.
-    value : str
-        Dotted key of the summary.
-    folder : Path
-        Folder of the files; it must exist.
-    at : mapping of str to str, optional
-        Values of the other varied keys.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-
-    Returns
-    -------
-    list of Path
-        Files written.
-
-    Raises
-    ------
-    InputError
-        As ``take`` raises it.
-    """
+    """Draw a value of a sweep as a map and as lines, as files. Raises InputError as ``take`` raises it."""
     numeric = take(results, x, y, value, at).numeric
     pairs = zip(map_files(value), map_files(value, at), strict=True)
     wanted = [pair for pair in pairs if (y is not None and numeric) or pair[0].startswith("lines_")]
@@ -404,25 +315,8 @@ def save_speeds(
     *,
     at: Mapping[str, str] | None = None,
 ) -> list[Path]:
-    """Draw capacitance and breakdown voltages of bearings over the speed, as files.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of the sweep.
-    taken : Slice
-        Points to draw. Points that are not solved or must not be used are left out.
-    folder : Path
-        Folder of the files; it must exist.
-    formats : sequence of str
-        Formats of the files, of "png", "svg" and "pdf".
-    at : mapping of str to str, optional
-        Values of the other varied keys, for the names of the files.
-
-    Returns
-    -------
-    list of Path
-        Files written; none where the slice is not over the speed of a bearing alone.
+    """Draw capacitance and breakdown voltages of bearings over the speed, as files. Returns files written;
+    none where the slice is not over the speed of a bearing alone.
     """
     if taken.x != _SPEED or taken.y is not None or taken.free:
         return []

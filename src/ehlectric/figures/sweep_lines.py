@@ -149,32 +149,9 @@ def value_lines(
 ) -> Axes:
     """Draw a value of the summaries over one varied key, with a line for each value of a second key.
 
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep.
-    x : str
-        Varied key along the horizontal axis; its values are numbers.
-    y : str or None
-        Second varied key, of numbers or texts; None for a single line.
-    value : str
-        Dotted key of the summary that is drawn.
-    at : mapping, optional
-        Fixed value of each further varied key, as text.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the lines, interpolated between points as in a map. A line is interrupted where a point has
-        no value; such points are marked in a strip at the bottom. Points of a "sobol" design are not joined
-        by lines. A breakdown voltage is drawn with the applied voltage, a margin with the value 1.
-
-    Raises
-    ------
-    InputError
-        If ``ehlectric.sweep.slices.take`` refuses the keys or values.
+    ``y``, second varied key, of numbers or texts; None for a single line; ``ax``, axes to draw on; axes of a
+    new figure if omitted. Returns axes with the lines, interpolated between points as in a map. Raises
+    InputError if ``ehlectric.sweep.slices.take`` refuses the keys or values.
     """
     selection = take(results, x, y, value, at)
     ax = axes_or_new(ax)

@@ -71,33 +71,14 @@ def value_map(
 ) -> Axes:
     """Draw a map of a value of the summaries over two varied keys.
 
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep.
-    x, y : str
-        Varied keys along the horizontal and the vertical axis; their values are numbers.
-    value : str
-        Dotted key of the summary that is drawn.
-    at : mapping, optional
-        Fixed value of each further varied key, as text.
-    ax : Axes, optional
-        Axes to draw on; axes of a new figure if omitted.
-
-    Returns
-    -------
-    Axes
-        Axes with the map and a colour bar. Cells are coloured if all of their corner points have a value;
-        points without one are marked in a hole of the map. Between points the value, or the logarithm of
-        positive values if an axis is logarithmic, is linear in the axes as they are drawn. Maps of
-        ``discharge`` values and of a bearing's breakdown voltages have a line on which the breakdown voltage
-        equals the applied voltage; the side that breaks down is hatched. Maps of the share of time in which
-        a bearing conducts have the colours of its regimes and lines at 1, 10, 50 and 99 %.
-
-    Raises
-    ------
-    InputError
-        If ``ehlectric.sweep.slices.take`` refuses the keys or values, or values of ``y`` are not numbers.
+    ``ax``, axes to draw on; axes of a new figure if omitted. Returns axes with the map and a colour bar;
+    cells are coloured if all of their corner points have a value; points without one are marked in a hole of
+    the map. Between points the value, or the logarithm of positive values if an axis is logarithmic, is
+    linear in the axes as they are drawn. Maps of ``discharge`` values and of a bearing's breakdown voltages
+    have a line on which the breakdown voltage equals the applied voltage; the side that breaks down is
+    hatched. Maps of the share of time in which a bearing conducts have the colours of its regimes and lines
+    at 1, 10, 50 and 99 %. Raises InputError if ``ehlectric.sweep.slices.take`` refuses the keys or values, or
+    values of ``y`` are not numbers.
     """
     selection = take(results, x, y, value, at)
     selection.check_numeric()
@@ -128,27 +109,13 @@ def value_map(
 
 @dataclass(frozen=True)
 class _Between:
-    """Interpolation between the points of a slice over two keys.
-
-    Attributes
-    ----------
-    results : SweepResults
-        The sweep.
-    selection : Slice
-        The slice that is drawn.
-    surface : Surface
-        Nodes and triangles between its points.
-    log_axis : bool
-        Whether one of the axes is logarithmic.
-    scales : tuple of Scale
-        Units of the horizontal and the vertical axis.
-    """
+    """Interpolation between the points of a slice over two keys."""
 
     results: SweepResults
     selection: Slice
-    surface: Surface
-    log_axis: bool
-    scales: tuple[Scale, Scale]
+    surface: Surface  # nodes and triangles between its points
+    log_axis: bool  # whether one of the axes is logarithmic
+    scales: tuple[Scale, Scale]  # units of the horizontal and the vertical axis
 
     def values(self) -> tuple[Array, Mask]:
         """Drawn values at the nodes, in SI units, and mask of the triangles with values throughout."""
@@ -337,20 +304,7 @@ def _dots(
 
     Of a discharge, triangles mark points whose breakdown voltage is below the applied voltage.
 
-    Parameters
-    ----------
-    selection : Slice
-        The slice.
-    ax : Axes
-        Axes to draw on.
-    at : tuple of ndarray
-        Horizontal and vertical positions of all points of the slice, in the units of the axes.
-    some : ndarray of bool, shape (points,)
-        The points that are drawn.
-    look : mapping
-        Colours and size of the dots, as for ``Axes.scatter``.
-    beside : bool
-        Whether the figure has a coloured map too; the legend then calls these points "alone".
+    ``some``, the points that are drawn, shape (points,).
     """
     parts = {"": (some, "o")}
     if selection.of_discharge and np.any(np.isfinite(selection.margin[some])):

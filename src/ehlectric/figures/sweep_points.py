@@ -54,25 +54,9 @@ _TRIED = 200
 
 
 def label_lines(ax: Axes, lines: ContourSet, taken: Array, texts: Sequence[str], **look: Any) -> Array:
-    """Write one label on each line of equal value, where it is farthest from everything else.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes with the lines and with the scales of both axes.
-    lines : ContourSet
-        Lines of equal value.
-    taken : ndarray, shape (n, 2)
-        Positions of marks and of other labels, in the units of the axes.
-    texts : sequence of str
-        Label of each level. A line without a free place has none.
-    **look
-        Properties of the labels.
-
-    Returns
-    -------
-    ndarray, shape (n + m, 2)
-        The positions that are taken now, with those of the m labels.
+    """Write one label on each line of equal value, where it is farthest from everything else. ``taken``,
+    positions of marks and of other labels, in the units of the axes, shape (n, 2). Returns the positions that
+    are taken now, with those of the m labels, shape (n + m, 2).
     """
     ax.autoscale_view()
     for path, text in zip(lines.get_paths(), texts, strict=True):
@@ -154,23 +138,9 @@ def share_of(quantile: Array) -> Array:
 
 
 def fill_regimes(mesh: Triangulation, quantiles: Array, taken: Array, ax: Axes) -> list[Artist]:
-    """Colour the regimes of a map, and draw lines at 1, 10, 50 and 99 % of the time.
-
-    Parameters
-    ----------
-    mesh : Triangulation
-        Triangles with values throughout, in the units of the axes.
-    quantiles : ndarray, shape (nodes,)
-        Quantiles of the shares at the nodes.
-    taken : ndarray, shape (n, 2)
-        Positions of the points, which labels keep away from.
-    ax : Axes
-        Axes to draw on.
-
-    Returns
-    -------
-    list of Artist
-        Legend entries.
+    """Colour the regimes of a map, and draw lines at 1, 10, 50 and 99 % of the time. ``quantiles``, quantiles
+    of the shares at the nodes, shape (nodes,); ``taken``, positions of the points, which labels keep away
+    from, shape (n, 2). Returns legend entries.
     """
     levels = ndtri(_LINES)
     shown = quantiles[mesh.get_masked_triangles()]

@@ -19,18 +19,12 @@ _POINTS = 32
 
 @dataclass(frozen=True)
 class Across:
-    """Polynomial across the film, on Gauss-Lobatto nodes zeta from surface 1 (zeta = 0) to 2 (zeta = 1).
+    """Polynomial across the film, on Gauss-Lobatto nodes zeta from surface 1 (zeta = 0) to 2 (zeta = 1)."""
 
-    Attributes
-    ----------
-    zeta, weights : ndarray, shape (nz,)
-        Nodes and weights of the quadrature from 0 to 1.
-    cumulative : ndarray, shape (nz, nz)
-        Matrix of the integral from 0 to each node, exact for the polynomial through the nodes.
-    """
-
+    # zeta and weights: nodes and weights of the quadrature from 0 to 1, shape (nz,).
     zeta: Array
     weights: Array
+    # Matrix of the integral from 0 to each node, exact for the polynomial through the nodes, shape (nz, nz).
     cumulative: Array
 
     @classmethod
@@ -73,14 +67,9 @@ def integrals(nodes: Array, ends: Array) -> Array:
 
 @dataclass(frozen=True)
 class Quadrature:
-    """Gauss points across the film.
+    """Gauss points across the film."""
 
-    Attributes
-    ----------
-    offset, weights : ndarray, shape (nq,)
-        Positions zeta - 1/2 and weights.
-    """
-
+    # offset and weights: positions zeta - 1/2 and weights, shape (nq,).
     offset: Array
     weights: Array
 
@@ -98,14 +87,9 @@ GAUSS = Quadrature.gauss()
 
 @cache
 def to_points(degree: int, number: int = _POINTS) -> tuple[Array, Array]:
-    """Matrices from the nodes of ``Across.of(degree)`` to some Gauss points, each of shape (nq, nz).
-
-    Returns
-    -------
-    values : ndarray, shape (nq, nz)
-        Interpolation.
-    below : ndarray, shape (nq, nz)
-        Integral of the values from zeta = 0 to the point, less half the integral over the film.
+    """Matrices from the nodes of ``Across.of(degree)`` to some Gauss points, each of shape (nq, nz). Returns
+    ``values``, interpolation, shape (nq, nz); ``below``, integral of the values from zeta = 0 to the point,
+    less half the integral over the film, shape (nq, nz).
     """
     across, quadrature = Across.of(degree), Quadrature.gauss(number)
     zeta = quadrature.offset + 0.5
@@ -120,16 +104,10 @@ def over_columns(values: Array, like: Array) -> Array:
 
 @dataclass(frozen=True)
 class Properties:
-    """Viscosity and density of the oil across the film, each of shape (nz, nx, ny).
+    """Viscosity and density of the oil across the film, each of shape (nz, nx, ny)."""
 
-    Attributes
-    ----------
-    log_ratio, log_ratio_p : ndarray
-        ln of the viscosity over that of ``Fluid.log_viscosity``, and its derivative by P.
-    density, density_p : ndarray
-        rho/rho_0 and its derivative by P.
-    """
-
+    # log_ratio and log_ratio_p: ln of the viscosity over that of ``Fluid.log_viscosity``, and its derivative
+    # by P.
     log_ratio: Array
     log_ratio_p: Array
     density: Array
@@ -137,13 +115,7 @@ class Properties:
 
 
 class Profile(Protocol):
-    """Temperature across the film, which the flow takes as fixed, with the properties of the oil at it.
-
-    Attributes
-    ----------
-    across : Across
-        Nodes across the film.
-    """
+    """Temperature across the film, which the flow takes as fixed, with the properties of the oil at it."""
 
     @property
     def across(self) -> Across:
@@ -159,19 +131,9 @@ class Profile(Protocol):
 
 
 def on_mesh(values: Array, of: Mesh, mesh: Mesh) -> Array:
-    """Values across the film on another mesh of the same contact, by linear interpolation.
-
-    Parameters
-    ----------
-    values : ndarray, shape (nz, nx, ny)
-        Values on the mesh ``of``.
-    of, mesh : Mesh
-        Mesh of the values, and the mesh to interpolate to.
-
-    Returns
-    -------
-    ndarray, shape (nz, nx', ny')
-        Values on ``mesh``; the given array if both meshes have the same nodes.
+    """Values across the film on another mesh of the same contact, by linear interpolation. ``values``, values
+    on the mesh ``of``, shape (nz, nx, ny). Returns values on ``mesh``; the given array if both meshes have
+    the same nodes, shape (nz, nx', ny').
 
     Examples
     --------

@@ -33,28 +33,12 @@ def full_film_nodes(
 ) -> Mask:
     """Mask of the nodes with a full film, where (P - P_amb) - c r >= 0.
 
-    Parameters
-    ----------
-    excess : ndarray, shape (nx, ny)
-        Excess pressure P - P_amb of the iterate.
-    residual : ndarray, shape (nx, ny)
-        Residual r of the Reynolds equation at the iterate.
-    poiseuille : ndarray, shape (nx, ny)
-        Diagonal of the Poiseuille term.
-    rate : float
-        Size of the coefficient of the wedge term, 1/dX, or 1/dT of a transient film.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H, dimensionless.
-    inner : ndarray of bool, shape (nx, ny)
-        Nodes inside the domain; the nodes on its edges are at ambient pressure.
+    ``excess``, excess pressure P - P_amb of the iterate, shape (nx, ny); ``residual``, residual r of the
+    Reynolds equation at the iterate, shape (nx, ny); ``poiseuille``, diagonal of the Poiseuille term,
+    shape (nx, ny); ``thickness``, film thickness H, dimensionless, shape (nx, ny); ``inner``, nodes inside
+    the domain; the nodes on its edges are at ambient pressure, shape (nx, ny). Returns True where the film is
+    full, False where it is cavitated and on the edges, shape (nx, ny).
 
-    Returns
-    -------
-    ndarray of bool, shape (nx, ny)
-        True where the film is full, False where it is cavitated and on the edges.
-
-    Notes
-    -----
     1/c is the larger of the Poiseuille diagonal and 20 H times ``rate``.
 
     Examples
@@ -80,20 +64,10 @@ def with_refilled_nodes(full_film: Mask, residual: Array) -> Mask:
     node per Newton step. This function carries the surplus -r along entrainment, and fills the cavitated
     nodes behind until they have used it up.
 
-    Parameters
-    ----------
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes with a full film, as ``full_film_nodes`` returns them.
-    residual : ndarray, shape (nx, ny)
-        Residual r of the Reynolds equation at the iterate.
+    ``full_film``, nodes with a full film, as ``full_film_nodes`` returns them, shape (nx, ny); ``residual``,
+    residual r of the Reynolds equation at the iterate, shape (nx, ny). Returns True where the film is full;
+    the nodes on the edges of the domain are unchanged, shape (nx, ny).
 
-    Returns
-    -------
-    ndarray of bool, shape (nx, ny)
-        True where the film is full; the nodes on the edges of the domain are unchanged.
-
-    Notes
-    -----
     Where the pressure gradient at the rupture is s instead of zero, the surplus is eps s/dX, and each node
     behind uses up d(rho H)/dX. The rupture therefore moves by eps s/(d(rho H)/dX), which is a Newton step for
     its position. At most 200 nodes are filled at a time.

@@ -20,22 +20,9 @@ from ehlectric.formulas.hertz import line_pressure
 
 def line_influence(nodes: int, dx: float) -> Array:
     """Influence coefficients of a line contact: deflection at distances k dX under unit pressure on one cell.
+    ``dx``, grid spacing dX, dimensionless. Returns -K_k/pi for k = 0 ... nodes - 1, dimensionless,
+    shape (nodes, 1).
 
-    Parameters
-    ----------
-    nodes : int
-        Number of nodes along x.
-    dx : float
-        Grid spacing dX, dimensionless.
-
-    Returns
-    -------
-    ndarray, shape (nodes, 1)
-        -K_k/pi for k = 0 ... nodes - 1, dimensionless. The deflection of a line contact is determined up to a
-        rigid displacement, which is part of H00.
-
-    Notes
-    -----
     K_k of eqs. (1) and (5) of Morris et al. (2022), doi:10.3390/lubricants10050087, is the integral of ln|X|
     over the cell. The reduced modulus is defined by 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
 
@@ -53,21 +40,9 @@ def line_influence(nodes: int, dx: float) -> Array:
 
 def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
     """Influence coefficients of a point contact: integral of 1/r over one cell, at distances (k dX, l dY).
+    ``dx`` and ``dy``, grid spacings, dimensionless. Returns integral of 1/sqrt(X^2 + Y^2) over the cell,
+    shape (nodes[0], nodes[1]).
 
-    Parameters
-    ----------
-    nodes : tuple of int
-        Numbers of distances along x and y, counted from the distance 0.
-    dx, dy : float
-        Grid spacings, dimensionless.
-
-    Returns
-    -------
-    ndarray, shape (nodes[0], nodes[1])
-        Integral of 1/sqrt(X^2 + Y^2) over the cell.
-
-    Notes
-    -----
     A. E. H. Love, Phil. Trans. R. Soc. Lond. A 228 (1929) 377-420, doi:10.1098/rsta.1929.0009, at the
     surface. The deflection is the integral times 2 p_h Rx/(pi E' b), with
     2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. This factor is 2/pi^2 for a circular contact.
@@ -88,26 +63,16 @@ def point_influence(nodes: tuple[int, int], dx: float, dy: float) -> Array:
 
 @dataclass(frozen=True)
 class Geometry:
-    """Kind of contact in the film equations: deflection kernel, dry gap and load.
+    """Kind of contact in the film equations: deflection kernel, dry gap and load."""
 
-    Attributes
-    ----------
-    influence : callable
-        Influence coefficients of the deflection: function of (nx, ny), dX and dY -> (nx, ny).
-    dry_gap : callable
-        Gap of the undeformed bodies that just touch: function of X (nx,) and Y (ny,) -> H (nx, ny).
-    dry_pressure : callable
-        Hertz pressure: function of X (nx,) and Y (ny,) -> P (nx, ny).
-    load : float
-        Dimensionless load, the integral of P over the contact.
-    radius_ratio : float
-        Reduced radius along entrainment over the reduced radius across it, Rx/Ry; zero for a line contact.
-    """
-
+    # Influence coefficients of the deflection: function of (nx, ny), dX and dY -> (nx, ny).
     influence: Callable[[tuple[int, int], float, float], Array]
+    # Gap of the undeformed bodies that just touch: function of X (nx,) and Y (ny,) -> H (nx, ny).
     dry_gap: Callable[[Array, Array], Array]
+    # Hertz pressure: function of X (nx,) and Y (ny,) -> P (nx, ny).
     dry_pressure: Callable[[Array, Array], Array]
-    load: float
+    load: float  # dimensionless load, the integral of P over the contact
+    # Reduced radius along entrainment over the reduced radius across it, Rx/Ry; zero for a line contact.
     radius_ratio: float
 
 
@@ -121,21 +86,9 @@ LINE = Geometry(
 
 
 def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: float) -> Geometry:
-    """Geometry of an elliptical contact, lengths in semi-axes b along entrainment.
-
-    Parameters
-    ----------
-    radius_ratio : float
-        Ratio Rx/Ry of the reduced radii along and across entrainment.
-    ellipse_ratio : float
-        Semi-axis of the dry contact across entrainment over the semi-axis along it.
-    compliance : float
-        Factor of the deflection 2 p_h Rx/(pi E' b), dimensionless; zero for rigid bodies.
-
-    Returns
-    -------
-    Geometry
-        Geometry with H = H00 + X^2/2 + (Rx/Ry) Y^2/2 + deflection, and the load 2 pi ellipse_ratio/3.
+    """Geometry of an elliptical contact, lengths in semi-axes b along entrainment. ``compliance``, factor of
+    the deflection 2 p_h Rx/(pi E' b), dimensionless; zero for rigid bodies. Returns geometry with H = H00 +
+    X^2/2 + (Rx/Ry) Y^2/2 + deflection, and the load 2 pi ellipse_ratio/3.
 
     Examples
     --------
@@ -158,17 +111,6 @@ def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: flo
 class Deflection:
     """Operator of the elastic deflection on one grid; it is called with a pressure (nx, ny).
 
-    Attributes
-    ----------
-    influence : ndarray, shape (nx, lines)
-        Influence coefficients for non-negative distances.
-    spectrum : ndarray
-        Discrete Fourier transform of the influence coefficients; it is real, as they are even.
-    padded : tuple of int
-        Zero-padded shape of the transform.
-    symmetric : bool
-        Whether the grid is the half y >= 0 of a symmetric contact.
-
     Examples
     --------
     A Hertz pressure opens the gap of a line contact by (1/2)(ln 2 + 1/2) - X^2/2 inside the contact:
@@ -181,10 +123,10 @@ class Deflection:
     (0.597, 0.597)
     """
 
-    influence: Array
-    spectrum: Array
-    padded: tuple[int, int]
-    symmetric: bool = False
+    influence: Array  # influence coefficients for non-negative distances, shape (nx, lines)
+    spectrum: Array  # discrete Fourier transform of the influence coefficients; it is real, as they are even
+    padded: tuple[int, int]  # zero-padded shape of the transform
+    symmetric: bool = False  # whether the grid is the half y >= 0 of a symmetric contact
 
     @classmethod
     def on(cls, mesh: Mesh, geometry: Geometry) -> Deflection:
@@ -230,18 +172,9 @@ class Deflection:
         return matrix
 
     def beside(self, steps: tuple[int, ...]) -> Array:
-        """Influence coefficients along a line of nodes beside those of a pressure.
-
-        Parameters
-        ----------
-        steps : tuple of int
-            Steps along x.
-
-        Returns
-        -------
-        ndarray, shape (n steps, 2 nx - 1)
-            Deflection at the node a step behind node i by the pressure of node j, over j - i from 1 - nx to
-            nx - 1. Beyond the grid it is that of its largest distance.
+        """Influence coefficients along a line of nodes beside those of a pressure. Returns deflection at the
+        node a step behind node i by the pressure of node j, over j - i from 1 - nx to nx - 1,
+        shape (n steps, 2 nx - 1); beyond the grid it is that of its largest distance.
         """
         if steps not in self._beside:
             nx = len(self.influence)

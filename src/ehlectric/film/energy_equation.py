@@ -38,20 +38,9 @@ from ehlectric.film.shear_flow import Columns
 
 @cache
 def derivative(degree: int) -> Array:
-    """Matrix of the derivative by zeta at the nodes of ``Across.of(degree)``.
+    """Matrix of the derivative by zeta at the nodes of ``Across.of(degree)``. Returns exact for polynomials
+    of this degree; its rows sum to zero, shape (nz, nz).
 
-    Parameters
-    ----------
-    degree : int
-        Degree of the polynomial across the film.
-
-    Returns
-    -------
-    ndarray, shape (nz, nz)
-        Exact for polynomials of this degree; its rows sum to zero.
-
-    Notes
-    -----
     J.-P. Berrut and L. N. Trefethen, SIAM Rev. 46 (2004) 501, doi:10.1137/S0036144502417715, section 9.3.
 
     Examples
@@ -70,18 +59,8 @@ def derivative(degree: int) -> Array:
 
 def conduction(across: Across, conductivity: Array) -> Array:
     """Matrix of conduction across the film in its weak form, the integral of k T' phi' over zeta.
-
-    Parameters
-    ----------
-    across : Across
-        Nodes across the film.
-    conductivity : ndarray, shape (nz, ...)
-        Thermal conductivity at the nodes.
-
-    Returns
-    -------
-    ndarray, shape (..., nz, nz)
-        Symmetric matrix; its rows sum to zero.
+    ``conductivity``, thermal conductivity at the nodes, shape (nz, ...). Returns symmetric matrix; its rows
+    sum to zero, shape (..., nz, nz).
 
     Examples
     --------
@@ -111,21 +90,13 @@ _SLOW = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Surface of a moving half-space on a uniform grid along its motion.
+    """Surface of a moving half-space on a uniform grid along its motion."""
 
-    Attributes
-    ----------
-    bulk : float
-        Temperature of the body far from the contact [K].
-    downstream : ndarray, shape (nx,)
-        Temperature rise at 0, 1, ... cells behind a cell with unit flux [K m^2/W].
-    upstream : ndarray, shape (nx,)
-        Temperature rise at 0, 1, ... cells before a cell with unit flux; the first is zero, as the cell
-        itself belongs to ``downstream``.
-    """
-
-    bulk: float
+    bulk: float  # temperature of the body far from the contact [K]
+    # Temperature rise at 0, 1, ... cells behind a cell with unit flux [K m^2/W], shape (nx,).
     downstream: Array
+    # Temperature rise at 0, 1, ... cells before a cell with unit flux; the first is zero, as the cell itself
+    # belongs to ``downstream``, shape (nx,).
     upstream: Array
 
     @property
@@ -151,28 +122,11 @@ class Surface:
 
 
 def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half_width: float) -> Surface:
-    """Surface of a body that moves along x under a flux that is constant in each cell of a grid.
+    """Surface of a body that moves along x under a flux that is constant in each cell of a grid. ``speed``,
+    speed along x [m/s], >= 0; ``spacing``, length of a cell [m]; ``half_width``, half-width of the contact
+    [m], the length of the Peclet number. Returns influence of the flux in a cell on the temperature at the
+    nodes.
 
-    Parameters
-    ----------
-    body : Body
-        Thermal properties and bulk temperature.
-    speed : float
-        Speed along x [m/s], >= 0.
-    nodes : int
-        Number of nodes nx; each is the middle of its cell.
-    spacing : float
-        Length of a cell [m].
-    half_width : float
-        Half-width of the contact [m], the length of the Peclet number.
-
-    Returns
-    -------
-    Surface
-        Influence of the flux in a cell on the temperature at the nodes.
-
-    Notes
-    -----
     H. S. Carslaw and J. C. Jaeger, Conduction of Heat in Solids, 2nd ed., Oxford 1959, sections 2.9 (fast
     limit) and 10.7: a line source on a half-space gives T = Q/(pi k) exp(xi) K0(abs(xi)), xi = u x/(2 kappa).
     The integral over a cell is in closed form, as d/dxi [xi exp(xi) (K0 + K1)] = exp(xi) K0.
@@ -221,15 +175,8 @@ class Mixing:
 
     The combination of the last images is taken whose change is smallest in a weighted norm of least squares.
 
-    Parameters
-    ----------
-    depth : int
-        Number of earlier iterates.
-    weights : ndarray, shape (n,), or float
-        Weights of the components in the norm.
+    ``weights``, weights of the components in the norm, shape (n,).
 
-    Notes
-    -----
     D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305.
 
     Examples
@@ -286,70 +233,47 @@ class Stream:
 
     Arrays have the shape (nz, nx, ny), or (nx, ny) for quantities of a node. A symmetric contact has its
     line of symmetry at the first line.
-
-    Attributes
-    ----------
-    across : Across
-        Nodes across the film.
-    dx, dy : float
-        Spacings of the grid [m]; ``dy`` is zero for a line contact.
-    symmetric : bool
-        Whether the grid covers only the half y >= 0.
-    thickness, filling : ndarray, shape (nx, ny)
-        Film thickness h [m], and the share theta of it that oil fills.
-    u, v : ndarray
-        Velocities along and across entrainment [m/s].
-    density, heat_capacity, conductivity : ndarray
-        Density [kg/m^3], volumetric heat capacity rho c [J/(m^3 K)] and thermal conductivity [W/(m K)].
-    heating, heating_slope : ndarray
-        Shear heating [W/m^3], and its derivative by temperature at a fixed shear rate [W/(m^3 K)].
-    compression : ndarray
-        -(1/rho) (d rho/dT) (u p_x + v p_y) [W/(m^3 K)]; times T it is the heating by compression.
-    compression_p : ndarray
-        Derivative of ``compression`` by the pressure at its own node [1/(s K)].
     """
 
     across: Across
+    # dx and dy: spacings of the grid [m]; ``dy`` is zero for a line contact.
     dx: float
     dy: float
-    symmetric: bool
+    symmetric: bool  # whether the grid covers only the half y >= 0
+    # thickness and filling: film thickness h [m], and the share theta of it that oil fills, shape (nx, ny).
     thickness: Array
     filling: Array
+    # u and v: velocities along and across entrainment [m/s].
     u: Array
     v: Array
+    # density, heat_capacity and conductivity: density [kg/m^3], volumetric heat capacity rho c [J/(m^3 K)]
+    # and thermal conductivity [W/(m K)].
     density: Array
     heat_capacity: Array
     conductivity: Array
+    # heating and heating_slope: shear heating [W/m^3], and its derivative by temperature at a fixed shear
+    # rate [W/(m^3 K)].
     heating: Array
     heating_slope: Array
+    # -(1/rho) (d rho/dT) (u p_x + v p_y) [W/(m^3 K)]; times T it is the heating by compression.
     compression: Array
-    compression_p: Array
+    compression_p: Array  # derivative of ``compression`` by the pressure at its own node [1/(s K)]
 
 
 @dataclass(frozen=True, eq=False)
 class HeatColumns:
-    """Linear systems A_i T_i = r_i + b_i T_(i-1) + bb_i T_(i-2) + f_i T_(i+1) of the columns of a film.
+    """Linear systems A_i T_i = r_i + b_i T_(i-1) + bb_i T_(i-2) + f_i T_(i+1) of the columns of a film."""
 
-    Attributes
-    ----------
-    matrix : ndarray, shape (nx, ny, nz, nz)
-        Matrix A without the heat that flows into the bodies [W/(m^2 K)].
-    right : ndarray, shape (nx, ny, nz)
-        Sources [W/m^2].
-    right_p : ndarray, shape (nx, ny, nz)
-        Derivative of the sources by the pressure at the node of the column [W/(m^2 Pa)].
-    before, second, after : ndarray, shape (nx, ny, nz)
-        Factors b, bb and f of the columns upstream and downstream.
-    from_left, from_right : ndarray, shape (nx, ny, nz)
-        Factors of the columns at smaller and at larger y.
-    """
-
-    matrix: Array
-    right: Array
+    matrix: Array  # matrix A without the heat that flows into the bodies [W/(m^2 K)], shape (nx, ny, nz, nz)
+    right: Array  # sources [W/m^2], shape (nx, ny, nz)
+    # Derivative of the sources by the pressure at the node of the column [W/(m^2 Pa)], shape (nx, ny, nz).
     right_p: Array
+    # before, second and after: factors b, bb and f of the columns upstream and downstream,
+    # shape (nx, ny, nz).
     before: Array
     second: Array
     after: Array
+    # from_left and from_right: factors of the columns at smaller and at larger y, shape (nx, ny, nz).
     from_left: Array
     from_right: Array
 
@@ -448,27 +372,10 @@ def stream_of(
 ) -> Stream:
     """Flow and properties of the oil, SI units.
 
-    Parameters
-    ----------
-    oil : HotOil
-        Oil over pressure and temperature.
-    columns : Columns
-        Dimensionless stresses and speeds across the film.
-    temperature : ndarray, shape (nz, nx, ny)
-        Temperature [K].
-    pressure, thickness : ndarray, shape (nx, ny)
-        Pressure [Pa] and film thickness [m].
-    filled : ndarray, shape (nx, ny)
-        Share of the gap that oil fills.
-    mesh : Mesh
-        Grid.
-    length, pressure_scale, speed, stress : float
-        Half-width b [m], Hertz pressure [Pa], entrainment speed [m/s], and scale of the stresses [Pa].
-
-    Returns
-    -------
-    Stream
-        Velocities, properties and sources of heat.
+    ``temperature`` [K], shape (nz, nx, ny); ``pressure`` and ``thickness``, pressure [Pa] and film thickness
+    [m], shape (nx, ny); ``filled``, share of the gap that oil fills, shape (nx, ny); ``length``,
+    ``pressure_scale``, ``speed`` and ``stress``, half-width b [m], Hertz pressure [Pa], entrainment speed
+    [m/s], and scale of the stresses [Pa]. Returns velocities, properties and sources of heat.
     """
     u, v = speed * columns.speed
     viscosity = oil.log_viscosity(pressure, temperature)
@@ -503,19 +410,8 @@ def upstream_slope(pressure: Array, u: Array, dx: float) -> Array:
     difference is of first order: one of second order overshoots behind the pressure spike, where the oil
     cools by expansion within two nodes.
 
-    Parameters
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Pressure [Pa].
-    u : ndarray, shape (nz, nx, ny)
-        Velocity along x [m/s].
-    dx : float
-        Spacing [m].
-
-    Returns
-    -------
-    ndarray, shape (nz, nx, ny)
-        Upstream difference [Pa/m].
+    ``pressure`` [Pa], shape (nx, ny); ``u``, velocity along x [m/s], shape (nz, nx, ny); ``dx`` [m]. Returns
+    upstream difference [Pa/m], shape (nz, nx, ny).
 
     Examples
     --------
@@ -534,21 +430,14 @@ _MARCHES, _STANDS = 25, 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Heat:
-    """Temperature of the film and heat flow into both bodies.
+    """Temperature of the film and heat flow into both bodies."""
 
-    Attributes
-    ----------
-    temperature : ndarray, shape (nz, nx, ny)
-        Temperature [K] at the nodes across the film; the first and the last are the surfaces.
-    flux : ndarray, shape (2, nx, ny)
-        Heat flow into body a and body b [W/m^2].
-    by_pressure : ndarray, shape (nz, nx, ny)
-        Derivative of the temperature by the pressure at its own node, by heat of compression [K/Pa]; zero in
-        the columns with reverse flow and before them.
-    """
-
+    # Temperature [K] at the nodes across the film; the first and the last are the surfaces,
+    # shape (nz, nx, ny).
     temperature: Array
-    flux: Array
+    flux: Array  # heat flow into body a and body b [W/m^2], shape (2, nx, ny)
+    # Derivative of the temperature by the pressure at its own node, by heat of compression [K/Pa]; zero in
+    # the columns with reverse flow and before them, shape (nz, nx, ny).
     by_pressure: Array
 
 
@@ -562,29 +451,8 @@ def solve_energy(
     marches: int = _MARCHES,
     enough: float = 0.02,
 ) -> Heat:
-    """Temperature of the film for a given flow.
-
-    Parameters
-    ----------
-    columns : HeatColumns
-        Linear systems of the columns.
-    surfaces : tuple of Surface
-        Surfaces a and b.
-    last : Heat
-        Last iterate.
-    inlet_temperature : float
-        Temperature of the oil that enters [K].
-    symmetric : bool
-        Whether the first line is a line of symmetry.
-    marches : int
-        Largest number of marches.
-    enough : float
-        Change of temperature in a march, over that in the first one, at which to stop.
-
-    Returns
-    -------
-    Heat
-        Temperature and heat flow into the bodies.
+    """Temperature of the film for a given flow. ``inlet_temperature``, temperature of the oil that enters
+    [K]. Returns temperature and heat flow into the bodies.
     """
     march = _March.of(columns, surfaces)
     lagged = any(surface.is_slow for surface in surfaces) or bool(columns.from_left.any())
@@ -744,32 +612,15 @@ class FrozenTemperature:
     heat of compression, T + T_p (p - p0). Without T_p, film and temperature converge slowly at the pressure
     spike, which heats the oil in passing. Viscosity ratio and density are linear in p - p0 as well: they are
     computed only once, and exact where film and temperature have converged.
-
-    Attributes
-    ----------
-    across : Across
-        Nodes across the film.
-    mesh : Mesh
-        Mesh of the temperature.
-    heat : Heat
-        Temperature T at the pressure ``pressure``, and its derivative T_p.
-    pressure : ndarray, shape (nx, ny)
-        Pressure P0 over p_h, not below ambient.
-    oil : HotOil
-        Oil over pressure and temperature.
-    inlet_temperature : float
-        Temperature of the oil whose laws the fluid of the film problem has [K].
-    pressure_scale : float
-        Hertz pressure p_h [Pa].
     """
 
     across: Across
     mesh: Mesh
-    heat: Heat
-    pressure: Array
+    heat: Heat  # temperature T at the pressure ``pressure``, and its derivative T_p
+    pressure: Array  # pressure P0 over p_h, not below ambient, shape (nx, ny)
     oil: HotOil
-    inlet_temperature: float
-    pressure_scale: float
+    inlet_temperature: float  # temperature of the oil whose laws the fluid of the film problem has [K]
+    pressure_scale: float  # Hertz pressure p_h [Pa]
     _on_meshes: dict[tuple[int, int, float], tuple[Properties, Array]] = field(
         default_factory=dict, init=False, repr=False
     )
@@ -818,24 +669,10 @@ class FrozenTemperature:
 
 
 def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> float:
-    """Heat that neither the bodies nor the oil take up, over the heat that is made.
+    """Heat that neither the bodies nor the oil take up, over the heat that is made. ``inlet_temperature``,
+    temperature of the oil that enters [K]. Returns relative imbalance, >= 0; heat and cold of compression
+    count with their size.
 
-    Parameters
-    ----------
-    stream : Stream
-        Flow and sources of the film.
-    heat : Heat
-        Temperature and heat flow into the bodies.
-    inlet_temperature : float
-        Temperature of the oil that enters [K].
-
-    Returns
-    -------
-    float
-        Relative imbalance, >= 0. Heat and cold of compression count with their size.
-
-    Notes
-    -----
     The heat that the oil carries is the flow of c (T - T_inlet) through the edges of the grid, less what the
     change of c along the way takes up. Nothing here uses the discrete equations of the columns.
     """

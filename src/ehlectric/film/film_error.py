@@ -36,22 +36,9 @@ MINIMUM_ORDER = 1.25
 
 
 def richardson(fine: tuple[Mesh, Array], coarse: tuple[Mesh, Array], *, order: int) -> float:
-    """Richardson estimate of the discretisation error of a film.
+    """Richardson estimate of the discretisation error of a film. Returns relative error of the minimum or of
+    the central film thickness, whichever is larger.
 
-    Parameters
-    ----------
-    fine, coarse : pair of Mesh and ndarray
-        Grid and film thickness (nx, ny) in any unit, for two grids over the same domain.
-    order : int
-        Order of the discretisation.
-
-    Returns
-    -------
-    float
-        Relative error of the minimum or of the central film thickness, whichever is larger.
-
-    Notes
-    -----
     The minimum lies at the constriction, where the pressure gradient jumps. With a scheme of second order it
     converges with an observed order of 1.25 or more. The estimate uses 1.25 for the minimum.
 
@@ -79,21 +66,9 @@ def _key_thicknesses(mesh: Mesh, thickness: Array) -> Array:
 
 
 def of_three_grids(films: Sequence[tuple[Mesh, Array]]) -> float:
-    """Estimate of the discretisation error of a film with the third-order wedge, from three grids.
+    """Estimate of the discretisation error of a film with the third-order wedge, from three grids. Returns
+    relative error of the minimum or of the central film thickness, whichever is larger.
 
-    Parameters
-    ----------
-    films : sequence of pairs of Mesh and ndarray
-        Three grids over the same domain from the finest on, each with half the intervals of the grid before,
-        and film thickness (nx, ny) in any unit.
-
-    Returns
-    -------
-    float
-        Relative error of the minimum or of the central film thickness, whichever is larger.
-
-    Notes
-    -----
     Two minima may agree by chance, as the lowest node lies anywhere beside the lowest place. The change from
     the coarser to the coarsest grid, reduced by the expected order, is therefore a second estimate of the
     change, and the larger one counts. Minima are compared between the nodes, and the distance of the lowest
@@ -123,18 +98,7 @@ def _change(values: Array, order: float) -> float:
 
 def lowest(mesh: Mesh, thickness: Array) -> float:
     """Lowest film thickness between the nodes, by a parabola along each axis through the lowest node.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Grid.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness, in any unit.
-
-    Returns
-    -------
-    float
-        Lowest film thickness, in the unit of ``thickness``.
+    ``thickness``, film thickness, in any unit, shape (nx, ny).
 
     Examples
     --------
@@ -162,24 +126,9 @@ def film_error(
     coarsest: tuple[Mesh, State] | None = None,
 ) -> float | None:
     """Relative discretisation error of a film, estimated from its converged states on two or three grids.
+    Returns relative error of the minimum or of the central film thickness, whichever is larger; None if the
+    wedge term is of first order, and the third-order term does not converge on either grid.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    fine, coarse : pair of Mesh and State
-        Grid and state of the film, on the grid of the problem and on the next coarser grid.
-    coarsest : pair of Mesh and State, optional
-        Grid and state on the next but one coarser grid.
-
-    Returns
-    -------
-    float or None
-        Relative error of the minimum or of the central film thickness, whichever is larger. None if the
-        wedge term is of first order, and the third-order term does not converge on either grid.
-
-    Notes
-    -----
     With a wedge term of third order and three grids, this is the estimate ``of_three_grids``; otherwise, with
     a wedge term of second or third order, Richardson's estimate. With the first-order term, the
     error of the wedge and the other errors may have opposite signs. The film thickness is then not monotone
@@ -229,25 +178,11 @@ def upstream_deficits(
 ) -> tuple[float, float]:
     """Shares of pressure and load that are missing because they would build up upstream of the domain.
 
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    geometry : Geometry
-        Kind of contact.
-    mesh : Mesh
-        Grid.
-    pressure, mass : ndarray, shape (nx, ny)
-        Pressure P and oil mass rho H, dimensionless.
+    ``fluid``, lubricant over dimensionless pressure; ``pressure`` and ``mass``, pressure P and oil mass rho
+    H, dimensionless, shape (nx, ny). Returns share of the reduced pressure on the line Y = 0, and share of
+    the load of a line contact, both from 0 to 1; 0 for an invalid iterate; the load of point contacts is that
+    of ``point_load_deficit``.
 
-    Returns
-    -------
-    float, float
-        Share of the reduced pressure on the line Y = 0, and share of the load of a line contact, both from 0
-        to 1; 0 for an invalid iterate. The load of point contacts is that of ``point_load_deficit``.
-
-    Notes
-    -----
     The reduced pressure is the integral of dP/eta. It follows from the Reynolds equation integrated once,
     dP/dX = eta lambda (rho H - q)/(rho H^3) with the flow q. Upstream of the domain P is taken as ambient and
     H as a parabola. In a point contact, with H = X^2/2 + (Rx/Ry) Y^2/2, oil also flows off to the sides. The
@@ -299,11 +234,6 @@ def point_load_deficit(problem: FilmProblem) -> float:
     outside of the domain. With the angle t from the inlet in the plane of X and sqrt(Rx/Ry) Y, and R(t) from
     the centre to the edge of the domain, it is 4 lambda/((3 + 2 k) sqrt(k)) times the integral of cos(t)/R(t)
     with k = Rx/Ry.
-
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact, with its ``width``.
     """
     assert problem.width is not None
     k = problem.geometry.radius_ratio
@@ -325,23 +255,9 @@ def _gauss_points() -> tuple[Array, Array]:
 
 def side_deficit(problem: FilmProblem, mesh: Mesh, pressure: Array, thickness: Array) -> float:
     """Share of the reduced pressure that is missing because the domain's sides are at ambient pressure.
+    ``pressure`` and ``thickness``, pressure P and film thickness H, dimensionless, shape (nx, ny). Returns
+    share of the reduced pressure, from 0 to 1; 0 for an invalid iterate.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    mesh : Mesh
-        Grid.
-    pressure, thickness : ndarray, shape (nx, ny)
-        Pressure P and film thickness H, dimensionless.
-
-    Returns
-    -------
-    float
-        Share of the reduced pressure, from 0 to 1; 0 for an invalid iterate.
-
-    Notes
-    -----
     For H = X^2/2 + (Rx/Ry) Y^2/2 + const the reduced pressure is -lambda X/((3 + 2 Rx/Ry) H^2), an exact
     solution of the Reynolds equation for constant density, without cavitation (P. Kapitza, Zh. Tekh. Fiz. 25
     (1955) 747). Its largest value on the sides is compared with the largest reduced pressure, the integral of
@@ -390,19 +306,7 @@ def position(mesh: Mesh, index: int) -> tuple[float, float]:
 
 def change_near(fine: Values, coarse: Values, places: list[tuple[float, float]]) -> float:
     """Largest difference between the values on two grids within a few coarse spacings of any of some places.
-
-    Parameters
-    ----------
-    fine, coarse : pair of Mesh and ndarray
-        Grid and nodal values (nx, ny), on a grid and on the next coarser grid over the same domain or a
-        larger one.
-    places : list of (float, float)
-        Positions (X, Y).
-
-    Returns
-    -------
-    float
-        Largest absolute difference at the nodes of the coarser grid, in the unit of the values.
+    Returns largest absolute difference at the nodes of the coarser grid, in the unit of the values.
 
     Examples
     --------
@@ -439,20 +343,9 @@ _UNKNOWN = 0.5
 
 
 def expected_error(problem: FilmProblem, times: int = 1) -> float | None:
-    """Discretisation error that is expected of the film of a smooth, flooded point contact.
-
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact; its ``thickness_guess`` is the film by a formula.
-    times : int
-        Whole number by which the spacings of its grid are divided.
-
-    Returns
-    -------
-    float or None
-        Relative error that the solver will probably state. None for other contacts, for surfaces that touch,
-        and for a wedge term of lower than third order, of which no errors were collected.
+    """Discretisation error that is expected of the film of a smooth, flooded point contact. Returns relative
+    error that the solver will probably state; None for other contacts, for surfaces that touch, and for a
+    wedge term of lower than third order, of which no errors were collected.
     """
     if problem.width is None or problem.added_gap is not None or problem.supply is not None:
         return None
@@ -492,24 +385,10 @@ UNRESOLVED = 0.3
 
 
 def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float | None:
-    """Relative error of the maximum pressure of a film.
+    """Relative error of the maximum pressure of a film. Returns relative error, which may be above 1; a value
+    above about 0.3 says that the grid does not resolve the highest peak of the pressure; None if there is no
+    coarser grid, or if either solution did not converge.
 
-    Parameters
-    ----------
-    fine : GridSolution
-        Film on the grid of the problem.
-    coarse : GridSolution or None
-        Film on the next coarser grid for the same surfaces.
-
-    Returns
-    -------
-    float or None
-        Relative error, which may be above 1; a value above about 0.3 says that the grid does not resolve the
-        highest peak of the pressure. None if there is no coarser grid, or if either solution did not
-        converge.
-
-    Notes
-    -----
     The pressure does not converge as the film does. It is a derivative of the deflection, so that short waves
     of the roughness, which hardly change the film, are high peaks of the pressure. The pressure spike at the
     outlet is narrower than the spacing of most grids and grows with every finer grid. Its height on two grids
@@ -532,19 +411,9 @@ def max_pressure_error(fine: GridSolution, coarse: GridSolution | None) -> float
 
 
 def between_nodes(mesh: Mesh, pressure: Array) -> float:
-    """Amount by which the pressure between the nodes may exceed its largest nodal value.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Grid.
-    pressure : ndarray, shape (nx, ny)
-        Pressure P at the nodes, not negative.
-
-    Returns
-    -------
-    float
-        Excess over the largest nodal value, in the unit of the pressure, not negative.
+    """Amount by which the pressure between the nodes may exceed its largest nodal value. ``pressure``,
+    pressure P at the nodes, not negative, shape (nx, ny). Returns excess over the largest nodal value, in the
+    unit of the pressure, not negative.
 
     Examples
     --------
@@ -589,25 +458,10 @@ _CENTRE = 1.5
 def rough_film_error(
     problem: FilmProblem, fine: GridSolution, coarser: Sequence[GridSolution]
 ) -> float | None:
-    """Relative discretisation error of a film with smooth or rough surfaces.
+    """Relative discretisation error of a film with smooth or rough surfaces. Returns relative error of the
+    minimum or of the central film thickness, whichever is larger; None if there is no coarser grid, or if
+    either solution did not converge.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    fine : GridSolution
-        Film on the grid of the problem.
-    coarser : sequence of GridSolution
-        Films on the coarser grids for the same surfaces, from the finest on.
-
-    Returns
-    -------
-    float or None
-        Relative error of the minimum or of the central film thickness, whichever is larger. None if there is
-        no coarser grid, or if either solution did not converge.
-
-    Notes
-    -----
     The estimate of a rough film is the sum of two parts.
 
     - The film at its minimum, and near the centre, on both grids. The minimum jumps from one valley of the
@@ -654,17 +508,8 @@ def _of_two_grids(fine: Values, coarse: Values, *, order: int) -> float:
 
 
 def change_of_minimum(fine: Values, coarse: Values) -> float:
-    """Largest difference between a film on two grids at any node that it might make the minimum.
-
-    Parameters
-    ----------
-    fine, coarse : pair of Mesh and ndarray
-        Grid and film thickness (nx, ny), on a grid and on the next coarser grid over the same domain.
-
-    Returns
-    -------
-    float
-        Largest absolute difference, in the unit of the film thickness.
+    """Largest difference between a film on two grids at any node that it might make the minimum. Returns
+    largest absolute difference, in the unit of the film thickness.
 
     Examples
     --------
@@ -692,20 +537,10 @@ def roughness_between_nodes(
 ) -> float:
     """Relative change of the minimum or central film by the roughness between the nodes.
 
-    Parameters
-    ----------
-    added_gap : callable
-        Gap that roughness adds: function of X (nx,) and Y (ny,) -> (nx, ny).
-    mesh : Mesh
-        Grid.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H at the nodes.
-
-    Returns
-    -------
-    float
-        Amount by which the film between the nodes falls below its smallest node, over this smallest value;
-        or the largest change near the centre over the film there, if that is more.
+    ``added_gap``, gap that roughness adds: function of X (nx,) and Y (ny,) -> (nx, ny); ``thickness``, film
+    thickness H at the nodes, shape (nx, ny). Returns amount by which the film between the nodes falls below
+    its smallest node, over this smallest value; or the largest change near the centre over the film there, if
+    that is more.
 
     Examples
     --------

@@ -34,93 +34,62 @@ class FilmSolution(Values):
     """Lubricant film of a line or a point contact in SI units, with its status and residuals.
 
     Nodal values have the shape (nx,) in a line contact and (nx, ny) in a point contact.
-
-    Attributes
-    ----------
-    x : ndarray, shape (nx,)
-        Positions of the nodes along entrainment [m].
-    pressure, thickness : ndarray
-        Pressure [Pa] and film thickness [m].
-    deflection : ndarray
-        Elastic deflection [m], by which the pressure opens the gap. In a line contact it is known up to a
-        constant.
-    density : ndarray
-        Density over the density at zero pressure, dimensionless.
-    cavitated : ndarray of bool
-        Nodes at ambient pressure: those where the film is cavitated, and those on the edges of the domain.
-    scales : Scales
-        Length b [m], pressure p_h [Pa] and thickness b^2/R [m] that made the problem dimensionless.
-    status : str
-        Outcome of the iteration. "converged": the residual is below the tolerance. "stalled": it is still
-        above the tolerance after the largest number of steps. "diverged": the iteration ended at an invalid
-        iterate. "film collapsed": the film did not converge and is thinner somewhere than 1 % of its central
-        thickness.
-    load_residual : float
-        abs(load carried/load applied - 1), dimensionless.
-    contact_pressure : ndarray or None
-        Part of the pressure [Pa] that asperities carry where the surfaces touch, zero elsewhere. None where
-        the surfaces do not touch.
-    reynolds_residual : ndarray or None
-        Residual of the Reynolds equation, scaled to a pressure over p_h. It is zero in the full film and not
-        negative where the film is cavitated. None for an instant of a transient film.
-    residual : float or None
-        Largest scaled residual of all equations, a pressure over p_h. None for an instant of a transient
-        film.
-    newton_iterations : int or None
-        Number of Newton steps on the finest grid. None for an instant of a transient film.
-    steps : tuple of NewtonStep
-        Newton steps on all grids, in their order.
-    discretisation_error : float or None
-        Estimate of the relative error of the minimum or the central film thickness, whichever is larger. None
-        if there is no estimate.
-    inlet_deficit : float or None
-        Share of the reduced pressure that is missing because it would build up upstream of the domain. None
-        for an instant of a transient film.
-    load_deficit : float or None
-        Share of the load of a line contact that oil would carry without an end of the inlet; load that it
-        would carry outside of the domain of a point contact, over its load. None of starved films.
-    max_pressure_error : float or None
-        Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
-        highest peak of the pressure. None if there is no estimate.
-    film_fraction : ndarray or None
-        Part of the gap that oil fills, 0 to 1. None of a flooded film that does not form again behind a
-        cavity.
-    mass_residual : float or None
-        Largest amount of oil that appears or is lost up to any position along entrainment, over the mean flow
-        through the Hertz zone. None of a film that does not carry its oil through cavities.
-    starvation : Starvation or None
-        Supply of oil, meniscus and flooded film. None where the supply of oil is not given.
-    heated : HeatedFilm or None
-        Temperature, shear stress, traction and power loss; None of an isothermal Newtonian film.
     """
 
+    # Positions of the nodes along entrainment [m], shape (nx,).
     x: Array = field(metadata=stored("x", "m", "increasing", "position along entrainment"))
+    # pressure and thickness: pressure [Pa] and film thickness [m].
     pressure: Array = field(metadata=stored("nodes", "Pa", "not negative", "pressure"))
     thickness: Array = field(metadata=stored("nodes", "m", "positive", "film thickness"))
+    # Elastic deflection [m], by which the pressure opens the gap. In a line contact it is known up to a
+    # constant.
     deflection: Array = field(metadata=stored("nodes", "m", "finite", _DEFLECTION))
+    # Density over the density at zero pressure, dimensionless.
     density: Array = field(metadata=stored("nodes", "1", "positive", _DENSITY))
+    # Nodes at ambient pressure: those where the film is cavitated, and those on the edges of the domain.
     cavitated: Mask = field(metadata=stored("nodes", "1", "0 or 1", _CAVITATED, dtype="i1"))
+    # Length b [m], pressure p_h [Pa] and thickness b^2/R [m] that made the problem dimensionless.
     scales: Scales
     status: Status = field(metadata=number(get_args(Status)))
+    # abs(load carried/load applied - 1), dimensionless.
     load_residual: float = field(metadata=number("finite"))
+    # Part of the pressure [Pa] that asperities carry where the surfaces touch, zero elsewhere. None where the
+    # surfaces do not touch.
     contact_pressure: Array | None = field(
         default=None, metadata=stored("nodes", "Pa", "finite", _CONTACT_PRESSURE, needed=False)
     )
+    # Residual of the Reynolds equation, scaled to a pressure over p_h. It is zero in the full film and not
+    # negative where the film is cavitated. None for an instant of a transient film.
     reynolds_residual: Array | None = field(
         default=None, metadata=stored("nodes", "1", "finite", _REYNOLDS_RESIDUAL)
     )
+    # Largest scaled residual of all equations, a pressure over p_h. None for an instant of a transient film.
     residual: float | None = field(default=None, metadata=number("not negative"))
+    # Number of Newton steps on the finest grid. None for an instant of a transient film.
     newton_iterations: int | None = field(default=None, metadata=number("whole"))
     steps: tuple[NewtonStep, ...] = ()
+    # Estimate of the relative error of the minimum or the central film thickness, whichever is larger. None
+    # if there is no estimate.
     discretisation_error: float | None = field(default=None, metadata=number())
+    # Share of the reduced pressure that is missing because it would build up upstream of the domain. None for
+    # an instant of a transient film.
     inlet_deficit: float | None = field(default=None, metadata=number())
+    # Share of the load of a line contact that oil would carry without an end of the inlet; load that it would
+    # carry outside of the domain of a point contact, over its load. None of starved films.
     load_deficit: float | None = field(default=None, metadata=number())
+    # Estimate of the relative error of the maximum pressure; above about 0.3 the grid does not resolve the
+    # highest peak of the pressure. None if there is no estimate.
     max_pressure_error: float | None = field(default=None, metadata=number())
+    # Part of the gap that oil fills, 0 to 1. None of a flooded film that does not form again behind a cavity.
     film_fraction: Array | None = field(
         default=None, metadata=stored("nodes", "1", "not negative", _FRACTION, needed=False)
     )
+    # Largest amount of oil that appears or is lost up to any position along entrainment, over the mean flow
+    # through the Hertz zone. None of a film that does not carry its oil through cavities.
     mass_residual: float | None = field(default=None, metadata=number())
+    # Supply of oil, meniscus and flooded film. None where the supply of oil is not given.
     starvation: Starvation | None = None
+    # Temperature, shear stress, traction and power loss; None of an isothermal Newtonian film.
     heated: HeatedFilm | None = None
 
     @property
@@ -157,20 +126,8 @@ Shaped = Callable[[NDArray[Any]], NDArray[Any]]
 
 
 def stationary_film(found: RefinedSolution, shaped: Shaped) -> FilmSolution:
-    """Stationary film in SI units from the dimensionless solutions on all grids.
-
-    Parameters
-    ----------
-    found : RefinedSolution
-        Solutions on all grids.
-    shaped : callable
-        Function that brings nodal values (nx, ny) of the whole domain into their shape in the film.
-
-    Returns
-    -------
-    FilmSolution
-        Film on the finest grid, with residuals, Newton steps and error estimates. Where this grid is a patch,
-        the film has its nodes inside the patch, and coarse ones outside.
+    """Stationary film in SI units from the dimensionless solutions on all grids. Returns film on the finest
+    grid, with residuals, Newton steps and error estimates.
     """
     finest, scales, coarser = found.last, found.problem.scales, found.coarser
     steps = tuple(step for solution in found.solutions for step in solution.steps)

@@ -40,21 +40,11 @@ UNKNOWN = 3
 
 @dataclass(frozen=True)
 class RefinedSolution:
-    """Solution of a film on its last grid, which may be a patch of a coarser grid over the whole domain.
-
-    Attributes
-    ----------
-    problem : FilmProblem
-        Problem of the last grid.
-    solutions : list of GridSolution
-        Solutions on all grids, as ``nested_iteration`` returns them.
-    patch : Patch or None
-        Patch that the last grid covers; None if it covers the whole domain.
-    """
+    """Solution of a film on its last grid, which may be a patch of a coarser grid over the whole domain."""
 
     problem: FilmProblem
-    solutions: list[GridSolution]
-    patch: Patch | None = None
+    solutions: list[GridSolution]  # solutions on all grids, as ``nested_iteration`` returns them
+    patch: Patch | None = None  # patch that the last grid covers; None if it covers the whole domain
 
     @property
     def last(self) -> GridSolution:
@@ -103,20 +93,6 @@ class RefinedSolution:
 def refined_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
     """Solve the film, and refine its grid until the discretisation error is below the target of the problem.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact. Without a ``target_error`` only its own grid is solved.
-    progress : callable or None
-        Function that is called with (nodes, Newton step, residual) before every Newton step.
-
-    Returns
-    -------
-    RefinedSolution
-        Solutions on all grids.
-
-    Notes
-    -----
     The spacings are halved along both axes, in a point contact only on a patch where its film is decided.
     The refinement ends below the target, where surfaces touch, at ``most_nodes`` over the whole domain, or
     after three grids in succession whose error is unknown because a film did not converge.
@@ -170,52 +146,36 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Starvation:
-    """Supply of oil of a solved film, and the flooded film beside it, SI units.
+    """Supply of oil of a solved film, and the flooded film beside it, SI units."""
 
-    Attributes
-    ----------
-    oil_layer : float or None
-        Thickness of the layer of oil on both surfaces together, on the line y = 0 [m]. None for the flooded
-        film of a point contact that was asked for by its ratio of 1: the least layer that floods it depends
-        on the domain.
-    film_ratio : float or None
-        Central film thickness over that of the flooded film; None if the flooded film did not converge.
-    meniscus : float or None
-        Position of the first node on the line y = 0 that oil fills [m]; None if the film is flooded, or if
-        oil fills the gap at the inlet edge on this line.
-    flooded_minimum_thickness, flooded_central_thickness : float or None
-        Minimum and central film thickness of the flooded film on the same grid [m]; None if it did not
-        converge.
-    flooded_inlet_deficit, flooded_side_deficit : float or None
-        Shares of the reduced pressure of the flooded film that are missing because the domain is too small.
-        None if the film did not converge; a line contact has none at its sides.
-    """
-
+    # Thickness of the layer of oil on both surfaces together, on the line y = 0 [m]. None for the flooded
+    # film of a point contact that was asked for by its ratio of 1: the least layer that floods it depends on
+    # the domain.
     oil_layer: float | None = field(metadata=number())
+    # Central film thickness over that of the flooded film; None if the flooded film did not converge.
     film_ratio: float | None = field(metadata=number())
+    # Position of the first node on the line y = 0 that oil fills [m]; None if the film is flooded, or if oil
+    # fills the gap at the inlet edge on this line.
     meniscus: float | None = field(metadata=number())
+    # flooded_minimum_thickness and flooded_central_thickness: minimum and central film thickness of the
+    # flooded film on the same grid [m]; None if it did not converge.
     flooded_minimum_thickness: float | None = field(metadata=number())
     flooded_central_thickness: float | None = field(metadata=number())
+    # flooded_inlet_deficit and flooded_side_deficit: shares of the reduced pressure of the flooded film that
+    # are missing because the domain is too small. None if the film did not converge; a line contact has none
+    # at its sides.
     flooded_inlet_deficit: float | None = field(default=None, metadata=number())
     flooded_side_deficit: float | None = field(default=None, metadata=number())
 
 
 @dataclass(frozen=True)
 class StarvedSolution(RefinedSolution):
-    """Starved film on its last grid, with those on the coarser ones and the flooded film.
-
-    Attributes
-    ----------
-    flooded : GridSolution or None
-        Flooded film on the last grid.
-    film : StarvedFilm or None
-        Starved film on the last grid; None if the flooded film needs no more oil than there is.
-    layer : ndarray, shape (ny,), or None
-        Thickness H of the layer of oil at the lines of the last grid; None where it is not known.
-    """
+    """Starved film on its last grid, with those on the coarser ones and the flooded film."""
 
     flooded: GridSolution | None = None
+    # Starved film on the last grid; None if the flooded film needs no more oil than there is.
     film: StarvedFilm | None = None
+    # Thickness H of the layer of oil at the lines of the last grid; None where it is not known, shape (ny,).
     layer: Array | None = None
 
     @cached_property
@@ -311,18 +271,7 @@ def meniscus_of(mesh: Mesh, filled: Mask) -> float | None:
 
 def supplied_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
     """Solve the film of a problem: the starved one where its supply of oil is given, or the flooded one.
-
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    progress : callable or None
-        Function that is called with (nodes, Newton step, residual) before every Newton step.
-
-    Returns
-    -------
-    RefinedSolution
-        Solutions on all grids; a ``StarvedSolution`` where the supply of oil is given.
+    Returns solutions on all grids; a ``StarvedSolution`` where the supply of oil is given.
     """
     if problem.supply is None:
         return refined_solution(problem, progress)

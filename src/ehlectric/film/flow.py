@@ -34,52 +34,28 @@ FluidLaw: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
 @dataclass(frozen=True)
 class Fluid:
-    """Lubricant in the Reynolds equation, over dimensionless pressure P = p/p_h.
+    """Lubricant in the Reynolds equation, over dimensionless pressure P = p/p_h."""
 
-    Attributes
-    ----------
-    density : callable
-        Density law: P -> (rho/rho_0, its derivative by P).
-    log_viscosity : callable
-        Viscosity law: P -> (ln(eta/eta_0), its derivative by P).
-    velocity_parameter : float
-        Velocity parameter lambda = 6 eta_0 u_s R^2/(b^3 p_h) with u_s = u_1 + u_2.
-    ambient_pressure : float
-        Ambient pressure over p_h. Below it density and viscosity keep their values at ambient pressure, as
-        the pressure of an iterate may be lower than a liquid can have.
-    flow : str or callable
-        Relation between flux, pressure and film thickness: a key of ``FLOWS``, or the law itself, a function
-        of fluid, P (nx, ny), H (nx, ny) and mesh that returns a ``Flow``.
-    """
-
-    density: FluidLaw
-    log_viscosity: FluidLaw
-    velocity_parameter: float
-    ambient_pressure: float
+    density: FluidLaw  # density law: P -> (rho/rho_0, its derivative by P)
+    log_viscosity: FluidLaw  # viscosity law: P -> (ln(eta/eta_0), its derivative by P)
+    velocity_parameter: float  # velocity parameter lambda = 6 eta_0 u_s R^2/(b^3 p_h) with u_s = u_1 + u_2
+    ambient_pressure: float  # ambient pressure over p_h
+    # Relation between flux, pressure and film thickness: a key of ``FLOWS``, or the law itself, a function of
+    # fluid, P (nx, ny), H (nx, ny) and mesh that returns a ``Flow``
     flow: str | FlowLaw = "newtonian"
 
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Density ratio and mobility at the nodes with their derivatives, each of shape (nx, ny).
-
-    Attributes
-    ----------
-    density, density_p : ndarray
-        rho/rho_0 and its derivative by P.
-    log_viscosity, log_viscosity_p : ndarray
-        ln(eta/eta_0) and its derivative by P.
-    fluidity : ndarray
-        eta_0/eta.
-    eps, eps_p, eps_h : ndarray
-        Mobility eps = rho H^3/(eta lambda) and its derivatives by P and by H.
-    """
+    """Density ratio and mobility at the nodes with their derivatives, each of shape (nx, ny)."""
 
     density: Array
     density_p: Array
+    # log_viscosity and log_viscosity_p: ln(eta/eta_0) and its derivative by P.
     log_viscosity: Array
     log_viscosity_p: Array
     fluidity: Array
+    # eps, eps_p and eps_h: mobility eps = rho H^3/(eta lambda) and its derivatives by P and by H.
     eps: Array
     eps_p: Array
     eps_h: Array
@@ -87,14 +63,9 @@ class Coefficients:
 
 @dataclass(frozen=True)
 class Sides:
-    """Derivatives of the flux through each face by a quantity at its two nodes, each of shape (n - 1, m).
+    """Derivatives of the flux through each face by a quantity at its two nodes, each of shape (n - 1, m)."""
 
-    Attributes
-    ----------
-    before, after : ndarray
-        Derivative by the quantity at the node before the face, and at the node after it.
-    """
-
+    # before and after: derivative by the quantity at the node before the face, and at the node after it.
     before: Array
     after: Array
 
@@ -112,25 +83,16 @@ class FaceFlow:
 
     The first axis of the arrays is the direction of the flow. All fluxes are divided by the grid spacing, so
     that the difference of the fluxes of two neighbouring faces approximates the derivative of F.
-
-    Attributes
-    ----------
-    flux : ndarray, shape (n - 1, m)
-        F over the grid spacing, positive where the pressure rises with X or Y.
-    conductance : ndarray, shape (n - 1, m)
-        Derivative of the flux by the pressure difference of the two nodes, with the properties of the
-        lubricant and the film thickness fixed.
-    by_properties : Sides
-        Derivatives of the flux by P of the two nodes through the properties of the lubricant, with the
-        pressure difference fixed.
-    by_gap : Sides
-        Derivatives of the flux by H of the two nodes.
     """
 
-    flux: Array
+    flux: Array  # F over the grid spacing, positive where the pressure rises with X or Y, shape (n - 1, m)
+    # Derivative of the flux by the pressure difference of the two nodes, with the properties of the lubricant
+    # and the film thickness fixed, shape (n - 1, m).
     conductance: Array
+    # Derivatives of the flux by P of the two nodes through the properties of the lubricant, with the pressure
+    # difference fixed.
     by_properties: Sides
-    by_gap: Sides
+    by_gap: Sides  # derivatives of the flux by H of the two nodes
 
     def divergence(self) -> Array:
         """Divergence dF/dX at the inner nodes: difference of the fluxes on both sides, shape (n - 2, m)."""
@@ -159,21 +121,11 @@ class FaceFlow:
 
 @dataclass(frozen=True)
 class Flow:
-    """Flow of the lubricant at one state of the film.
+    """Flow of the lubricant at one state of the film."""
 
-    Attributes
-    ----------
-    coefficients : Coefficients
-        Density and mobility at the nodes.
-    along : FaceFlow
-        Pressure-driven flow along entrainment, with arrays (nx - 1, ny).
-    across : FaceFlow or None
-        Pressure-driven flow across entrainment, with arrays (lines - 1, nx); None for a line contact. For a
-        symmetric mesh the lines include the mirror image beyond the line of symmetry.
-    """
-
-    coefficients: Coefficients
-    along: FaceFlow
+    coefficients: Coefficients  # density and mobility at the nodes
+    along: FaceFlow  # pressure-driven flow along entrainment, with arrays (nx - 1, ny)
+    # pressure-driven flow across entrainment, with arrays (lines - 1, nx); None for a line contact.
     across: FaceFlow | None
 
 
@@ -184,26 +136,9 @@ FaceLaw: TypeAlias = Callable[..., FaceFlow]
 
 
 def flow(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
-    """Flow of the lubricant through all faces of a grid, after the law that the fluid names.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant; ``fluid.flow`` is the law, or its name.
-    pressure, thickness : ndarray, shape (nx, ny)
-        Pressure P and film thickness H, dimensionless, H > 0.
-    mesh : Mesh
-        Grid.
-
-    Returns
-    -------
-    Flow
-        Fluxes, conductances and derivatives.
-
-    Raises
-    ------
-    KeyError
-        If ``FLOWS`` has no law of this name.
+    """Flow of the lubricant through all faces of a grid, after the law that the fluid names. ``pressure`` and
+    ``thickness``, pressure P and film thickness H, dimensionless, H > 0, shape (nx, ny). Returns fluxes,
+    conductances and derivatives. Raises KeyError if ``FLOWS`` has no law of this name.
 
     Examples
     --------
@@ -222,18 +157,8 @@ def flow(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
 
 def evaluate(fluid: Fluid, pressure: Array, thickness: Array) -> Coefficients:
     """Density and Newtonian mobility eps = rho H^3/(eta lambda) at the nodes, with their derivatives.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant.
-    pressure, thickness : ndarray, shape (nx, ny)
-        Pressure P and film thickness H, dimensionless, H > 0.
-
-    Returns
-    -------
-    Coefficients
-        Density ratio, mobility and derivatives, dimensionless, each of shape (nx, ny).
+    ``pressure`` and ``thickness``, pressure P and film thickness H, dimensionless, H > 0, shape (nx, ny).
+    Returns density ratio, mobility and derivatives, dimensionless, each of shape (nx, ny).
     """
     clipped = np.maximum(pressure, fluid.ambient_pressure)
     density, density_p = fluid.density(clipped)
@@ -285,22 +210,9 @@ def mean_fluidity(fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -
     F = (rho H^3 / lambda) f dP/dX with the means of rho and H of the two nodes, and the mean f of eta_0/eta
     over the pressure between them. For ln eta linear in P, f is the logarithmic mean.
 
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant.
-    pressure, thickness : ndarray, shape (nx, ny)
-        Pressure P and film thickness H, dimensionless, H > 0.
-    mesh : Mesh
-        Grid.
+    ``pressure`` and ``thickness``, pressure P and film thickness H, dimensionless, H > 0, shape (nx, ny).
+    Returns fluxes, conductances and derivatives; the fluxes are accurate to second order.
 
-    Returns
-    -------
-    Flow
-        Fluxes, conductances and derivatives; the fluxes are accurate to second order.
-
-    Notes
-    -----
     The same mean is that of D. L. Scharfetter and H. K. Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
     doi:10.1109/T-ED.1969.16566, for semiconductors. In the inlet of a thin film the viscosity changes by a
     large factor between nodes; the mean of the mobilities then lets too much oil flow back.

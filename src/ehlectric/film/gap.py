@@ -23,18 +23,10 @@ from ehlectric.film.levels import Level
 
 @dataclass(frozen=True)
 class Gap:
-    """Gap on one grid at one state of the film, with its derivatives by P and H00.
+    """Gap on one grid at one state of the film, with its derivatives by P and H00."""
 
-    Attributes
-    ----------
-    level : Level
-        Grid with its dry gap and its deflection operator.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H, dimensionless.
-    """
-
-    level: Level
-    thickness: Array
+    level: Level  # grid with its dry gap and its deflection operator
+    thickness: Array  # film thickness H, dimensionless, shape (nx, ny)
 
     @classmethod
     def of(cls, level: Level, pressure: Array, h00: float) -> Gap:

@@ -67,22 +67,10 @@ _SLOWEST = 0.9
 
 @dataclass(frozen=True, eq=False)
 class HeatedGrid:
-    """Film with heat on one grid.
+    """Film with heat on one grid."""
 
-    Attributes
-    ----------
-    solution : GridSolution
-        Pressure and film thickness.
-    heat : Heat or None
-        Temperature and heat flow into the bodies; None for an isothermal film.
-    flow : ShearedFlow
-        Flow with the rheology at this temperature.
-    loops : int
-        Number of outer loops.
-    """
-
-    solution: GridSolution
-    heat: Heat | None
+    solution: GridSolution  # pressure and film thickness
+    heat: Heat | None  # temperature and heat flow into the bodies; None for an isothermal film
     flow: ShearedFlow
     loops: int
 
@@ -94,41 +82,22 @@ class HeatedGrid:
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """Outer iteration on one grid.
-
-    Attributes
-    ----------
-    problem : FilmProblem
-        Problem on the grid; it has ``physics``.
-    levels : list of Level
-        Grid, and the coarser grids of its preconditioner.
-    tolerance : float
-        Tolerance of the residual of the film.
-    finer : int
-        Number of finer grids that follow.
-    progress : callable or None
-        Function that is called before every Newton step.
-    careful : bool
-        Whether properties are evaluated again at the pressure of each film, and changes count as they are and
-        not as parts of a geometric sequence: slower, and it converges for hotter films.
-    held : bool
-        Whether the flow follows the temperature within the first turns, until the energy equation has
-        converged for a held film.
-    degree : int
-        Degree of the polynomial across the film.
-    filled : ndarray of bool, shape (nx, ny), or None
-        Nodes that oil fills at first, of a film that carries its oil through cavities; None of one whose
-        cavities count as full.
-    """
+    """Outer iteration on one grid."""
 
     problem: FilmProblem
-    levels: list[Level]
+    levels: list[Level]  # grid, and the coarser grids of its preconditioner
     tolerance: float
-    finer: int
-    progress: Progress | None
+    finer: int  # number of finer grids that follow
+    progress: Progress | None  # function that is called before every Newton step
+    # Whether properties are evaluated again at the pressure of each film, and changes count as they are and
+    # not as parts of a geometric sequence: slower, and it converges for hotter films.
     careful: bool = False
+    # Whether the flow follows the temperature within the first turns, until the energy equation has converged
+    # for a held film.
     held: bool = False
-    degree: int = DEGREE
+    degree: int = DEGREE  # degree of the polynomial across the film
+    # Nodes that oil fills at first, of a film that carries its oil through cavities; None of one whose
+    # cavities count as full, shape (nx, ny).
     filled: Mask | None = None
 
     @property
@@ -443,17 +412,9 @@ def largest_rise(course: Course, grid: HeatedGrid) -> float | None:
 def rise_error(found: list[tuple[Course, HeatedGrid]]) -> float | None:
     """Estimated error of the largest rise of the mid-film temperature.
 
-    Parameters
-    ----------
-    found : list of (Course, HeatedGrid)
-        Films with heat on all grids, the finest one last.
-
-    Returns
-    -------
-    float or None
-        Sum of the errors by the grid along the film, by the polynomial across it and by properties of the oil
-        beyond the range in which its laws have values [K]. None without a converged film on the next coarser
-        grid, or where a solution for comparison did not converge.
+    Returns sum of the errors by the grid along the film, by the polynomial across it and by properties of the
+    oil beyond the range in which its laws have values [K]; None without a converged film on the next coarser
+    grid, or where a solution for comparison did not converge.
     """
     along = _along(found)
     if along is None:
@@ -534,51 +495,26 @@ _SLIPS = (0.0, 0.03, 0.1, 0.3, 1.0)
 
 @dataclass(frozen=True, eq=False)
 class HeatedSolution:
-    """Film with heat or shear thinning, and the film without both.
+    """Film with heat or shear thinning, and the film without both."""
 
-    Attributes
-    ----------
-    refined : RefinedSolution
-        Film with heat and shear thinning on all of its grids.
-    simple : RefinedSolution
-        Isothermal Newtonian film on all of its grids.
-    temperature : ndarray, shape (nz, nx, ny), or None
-        Temperature [K] at the nodes across the film; None for an isothermal film.
-    zeta : ndarray, shape (nz,)
-        Positions z/h of these nodes.
-    mid_temperature : ndarray, shape (nx, ny), or None
-        Temperature at mid-film [K].
-    max_temperature_rise, temperature_rise_error : float or None
-        Largest rise of the mid-film temperature over that of the oil that enters [K], and the estimate of its
-        error (``accuracy.rise_error``).
-    shear_stress : ndarray, shape (nx, ny)
-        Shear stress along x at mid-film [Pa].
-    traction_coefficient, rolling_coefficient : float
-        Traction coefficient of the slip, and that of rolling.
-    power_loss : float
-        Friction power, [W/m] in a line and [W] in a point contact.
-    energy_imbalance : float or None
-        Heat of the film that the bodies and the oil do not take up, over all heat.
-    outer_iterations : int
-        Number of outer loops on all grids.
-    status : str
-        "converged", "stalled" or "diverged".
-    """
-
-    refined: RefinedSolution
-    simple: RefinedSolution
+    refined: RefinedSolution  # film with heat and shear thinning on all of its grids
+    simple: RefinedSolution  # isothermal Newtonian film on all of its grids
+    # Temperature [K] at the nodes across the film; None for an isothermal film, shape (nz, nx, ny).
     temperature: Array | None
-    zeta: Array
-    mid_temperature: Array | None
+    zeta: Array  # positions z/h of these nodes, shape (nz,)
+    mid_temperature: Array | None  # temperature at mid-film [K], shape (nx, ny)
+    # max_temperature_rise and temperature_rise_error: largest rise of the mid-film temperature over that of
+    # the oil that enters [K], and the estimate of its error (``accuracy.rise_error``).
     max_temperature_rise: float | None
     temperature_rise_error: float | None
-    shear_stress: Array
+    shear_stress: Array  # shear stress along x at mid-film [Pa], shape (nx, ny)
     traction_coefficient: float
     rolling_coefficient: float
-    power_loss: float
+    power_loss: float  # friction power, [W/m] in a line and [W] in a point contact
+    # Heat of the film that the bodies and the oil do not take up, over all heat.
     energy_imbalance: float | None
-    outer_iterations: int
-    status: Status
+    outer_iterations: int  # number of outer loops on all grids
+    status: Status  # "converged", "stalled" or "diverged"
 
     @property
     def surface_temperatures(self) -> Array | None:
@@ -587,22 +523,9 @@ class HeatedSolution:
 
 
 def film_of(problem: FilmProblem, progress: Progress | None = None) -> HeatedSolution:
-    """Solve the film with the physics of its problem, after the isothermal Newtonian film.
+    """Solve the film with the physics of its problem, after the isothermal Newtonian film. Returns both
+    films, the temperature, and the friction.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Problem of the contact with its ``physics``.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every Newton step.
-
-    Returns
-    -------
-    HeatedSolution
-        Both films, the temperature, and the friction.
-
-    Notes
-    -----
     The grid is that on which the isothermal film reaches the ``target_error`` of the problem. The film with
     heat is then solved on all grids from coarse to fine. In a point contact, the lines along x do not heat
     one another through the bodies, so that a body with a Peclet number below about five gets too hot.
@@ -783,23 +706,9 @@ def heated_film(
     minimum_thickness: float | None,
     central_thickness: float | None,
 ) -> HeatedFilm:
-    """Heat and shear of a solution, at the nodes of the whole domain.
-
-    Parameters
-    ----------
-    found : HeatedSolution
-        Film with its temperature and shear stress.
-    shaped : callable
-        Function that brings nodal values (nx, ny) into their shape in the film.
-    status : str
-        Status of the film; without "converged" it has no friction.
-    minimum_thickness, central_thickness : float or None
-        Film thicknesses without heat and shear [m]; None if the film without them did not converge.
-
-    Returns
-    -------
-    HeatedFilm
-        Nodal values and totals, SI units.
+    """Heat and shear of a solution, at the nodes of the whole domain. ``minimum_thickness`` and
+    ``central_thickness``, film thicknesses without heat and shear [m]; None if the film without them did not
+    converge. Returns nodal values and totals, SI units.
     """
     physics = found.refined.problem.physics
     assert physics is not None

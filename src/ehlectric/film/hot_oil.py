@@ -22,24 +22,15 @@ _TEMPERATURES = 12
 
 @dataclass(frozen=True, eq=False)
 class Property:
-    """Property of the oil over temperature at given pressures, computed as far as it is asked for.
+    """Property of the oil over temperature at given pressures, computed as far as it is asked for."""
 
-    Attributes
-    ----------
-    values, slopes : ndarray, shape (n, ...)
-        Chebyshev coefficients of the property and of its derivative by pressure.
-    t : ndarray
-        Temperature on the range of the series, mapped to -1 ... 1.
-    half_range : float
-        Half of this range [K].
-    curved : bool
-        Whether the property goes on beyond the range as a parabola, up to its vertex, in place of a line.
-    """
-
+    # values and slopes: Chebyshev coefficients of the property and of its derivative by pressure,
+    # shape (n, ...).
     values: Array
     slopes: Array
-    t: Array
-    half_range: float
+    t: Array  # temperature on the range of the series, mapped to -1 ... 1
+    half_range: float  # [K]
+    # Whether the property goes on beyond the range as a parabola, up to its vertex, in place of a line.
     curved: bool = False
 
     @cached_property
@@ -110,15 +101,6 @@ class HotOil:
     Each property is a polynomial in temperature through the oils at the Chebyshev temperatures. Beyond the
     range it goes on as a straight line.
 
-    Attributes
-    ----------
-    oils : tuple of Oil
-        Oils at the Chebyshev temperatures between ``lowest`` and ``highest``.
-    lowest, highest : float
-        Range of temperature [K].
-    curved : bool
-        Whether properties go on beyond the range as parabolas, up to their vertices, in place of lines.
-
     Examples
     --------
     An oil whose viscosity falls by 3 % per kelvin:
@@ -140,9 +122,11 @@ class HotOil:
     (1.4, -0.03)
     """
 
-    oils: tuple[Oil, ...]
+    oils: tuple[Oil, ...]  # oils at the Chebyshev temperatures between ``lowest`` and ``highest``
+    # lowest and highest: range of temperature [K].
     lowest: float
     highest: float
+    # Whether properties go on beyond the range as parabolas, up to their vertices, in place of lines.
     curved: bool = False
 
     @classmethod
@@ -154,21 +138,9 @@ class HotOil:
         *,
         temperatures: int = _TEMPERATURES,
     ) -> HotOil:
-        """Oil through the oils at Chebyshev temperatures.
-
-        Parameters
-        ----------
-        oil_at : callable
-            Oil at a temperature [K].
-        lowest, highest : float
-            Range of temperature [K].
-        temperatures : int
-            Number of Chebyshev temperatures.
-
-        Raises
-        ------
-        InputError
-            If the oil has no density, thermal conductivity or heat capacity.
+        """Oil through the oils at Chebyshev temperatures. ``oil_at`` [K]; ``lowest`` and ``highest``, range
+        of temperature [K]. Raises InputError if the oil has no density, thermal conductivity or heat
+        capacity.
         """
         at = 0.5 * (lowest + highest) + 0.5 * (highest - lowest) * chebyshev.chebpts1(temperatures)
         oils = tuple(oil_at(float(temperature)) for temperature in at)
@@ -271,17 +243,6 @@ def _polynomials(t: Array, count: int) -> Array:
 class Body:
     """Body under the film that takes up its heat.
 
-    Attributes
-    ----------
-    temperature : float
-        Bulk temperature, that of the surface before it enters the contact [K].
-    thermal_conductivity : float
-        Thermal conductivity [W/(m K)].
-    heat_capacity : float
-        Specific heat capacity [J/(kg K)].
-    density : float
-        Density [kg/m^3].
-
     Examples
     --------
     >>> steel = Body(313.15, thermal_conductivity=46.0, heat_capacity=470.0, density=7850.0)
@@ -289,10 +250,10 @@ class Body:
     12.47
     """
 
-    temperature: float
-    thermal_conductivity: float
-    heat_capacity: float
-    density: float
+    temperature: float  # bulk temperature, that of the surface before it enters the contact [K]
+    thermal_conductivity: float  # [W/(m K)]
+    heat_capacity: float  # specific heat capacity [J/(kg K)]
+    density: float  # [kg/m^3]
 
     @property
     def diffusivity(self) -> float:
@@ -302,43 +263,23 @@ class Body:
 
 @dataclass(frozen=True)
 class Thermal:
-    """Conditions of the energy equation.
+    """Conditions of the energy equation."""
 
-    Attributes
-    ----------
-    bodies : tuple of Body
-        Body a (surface 1, at z = 0) and body b (surface 2, at z = h).
-    inlet_temperature : float
-        Temperature of the oil that enters [K]. The laws of the film problem without heat belong to it.
-    oil : HotOil
-        Properties of the oil over pressure and temperature.
-    """
-
-    bodies: tuple[Body, Body]
+    bodies: tuple[Body, Body]  # body a (surface 1, at z = 0) and body b (surface 2, at z = h)
+    # Temperature of the oil that enters [K]. The laws of the film problem without heat belong to it.
     inlet_temperature: float
-    oil: HotOil
+    oil: HotOil  # properties of the oil over pressure and temperature
 
 
 @dataclass(frozen=True)
 class Physics:
-    """Rheology and heat of a film, beside its isothermal Newtonian problem.
+    """Rheology and heat of a film, beside its isothermal Newtonian problem."""
 
-    Attributes
-    ----------
-    rheology : Rheology
-        Law between shear stress and shear rate, with its constants in SI units.
-    speeds : tuple of float
-        Speeds u_a and u_b of the surfaces 1 and 2 along x [m/s]; their mean is positive.
-    viscosity : float
-        Viscosity eta_0 in the velocity parameter of the problem [Pa s].
-    thermal : Thermal or None
-        Heat; None for an isothermal film.
-    """
-
-    rheology: Rheology
+    rheology: Rheology  # law between shear stress and shear rate, with its constants in SI units
+    # Speeds u_a and u_b of the surfaces 1 and 2 along x [m/s]; their mean is positive.
     speeds: tuple[float, float]
-    viscosity: float
-    thermal: Thermal | None = None
+    viscosity: float  # viscosity eta_0 in the velocity parameter of the problem [Pa s]
+    thermal: Thermal | None = None  # heat; None for an isothermal film
 
     @property
     def mean_speed(self) -> float:
@@ -356,64 +297,47 @@ _ACROSS = "from surface 1 to surface 2"
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HeatedFilm(Values):
-    """Heat and shear of a film in SI units, with nodal values (nx,), or (nx, ny) of a point contact.
+    """Heat and shear of a film in SI units, with nodal values (nx,), or (nx, ny) of a point contact."""
 
-    Attributes
-    ----------
-    rheology : str
-        Name of the law between shear stress and shear rate, such as "eyring".
-    shear_stress : ndarray
-        Shear stress at mid-film along entrainment [Pa], positive where surface 1 is the faster one.
-    traction_coefficient : float or None
-        Mean shear stress at mid-film over the mean pressure, dimensionless; its sign is that of the stress.
-        None, as the other friction, if the film did not converge.
-    rolling_coefficient : float or None
-        Rolling friction over the load, dimensionless, of each of the two surfaces.
-    power_loss : float or None
-        Power that the film turns into heat [W]; of a line contact per length [W/m].
-    isothermal_minimum_thickness, isothermal_central_thickness : float or None
-        Film thicknesses of the same contact with an isothermal Newtonian film [m]; None if that film did not
-        converge.
-    outer_iterations : int
-        Number of alternations between the film and its temperature.
-    zeta : ndarray, shape (nz,), or None
-        Positions across the film from surface 1, at 0, to surface 2, at 1. None for an isothermal film.
-    temperature : ndarray, shape (nz, nx) or (nz, nx, ny), or None
-        Temperature in the film [K]; its first and last rows are those of the surfaces.
-    mid_temperature : ndarray or None
-        Temperature at mid-film [K].
-    max_temperature_rise : float or None
-        Largest temperature at mid-film less that of the oil in the inlet [K].
-    temperature_rise_error : float or None
-        Estimated error of ``max_temperature_rise`` by the grids along and across the film, the iteration and
-        extrapolated properties of the oil [K]; None if unknown.
-    energy_imbalance : float or None
-        Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
-    """
-
+    # Name of the law between shear stress and shear rate, such as "eyring"
     rheology: str = field(metadata=number("text"))
     shear_stress: Array = field(
         metadata=stored("nodes", "Pa", "finite", "shear stress at mid-film along entrainment", needed=False)
-    )
+    )  # shear stress at mid-film along entrainment [Pa], positive where surface 1 is the faster one
+    # Mean shear stress at mid-film over the mean pressure, dimensionless; its sign is that of the stress.
+    # None, as the other friction, if the film did not converge.
     traction_coefficient: float | None = field(metadata=number())
+    # Rolling friction over the load, dimensionless, of each of the two surfaces.
     rolling_coefficient: float | None = field(metadata=number())
+    # Power that the film turns into heat [W]; of a line contact per length [W/m].
     power_loss: float | None = field(metadata=number("not negative or null"))
+    # isothermal_minimum_thickness and isothermal_central_thickness: film thicknesses of the same contact with
+    # an isothermal Newtonian film [m]; None if that film did not converge.
     isothermal_minimum_thickness: float | None = field(metadata=number("positive or null"))
     isothermal_central_thickness: float | None = field(metadata=number("positive or null"))
+    # Number of alternations between the film and its temperature.
     outer_iterations: int = field(metadata=number("whole"))
+    # Positions across the film from surface 1, at 0, to surface 2, at 1. None for an isothermal film,
+    # shape (nz,).
     zeta: Array | None = field(
         default=None,
         metadata=stored("zeta", "1", "increasing", f"fraction of the film, {_ACROSS}", needed=False),
     )
+    # Temperature in the film [K]; its first and last rows are those of the surfaces, shape (nz, nx) or
+    # (nz, nx, ny).
     temperature: Array | None = field(
         default=None,
         metadata=stored("zeta nodes", "K", "positive", f"temperature in the film, {_ACROSS}", needed=False),
     )
     mid_temperature: Array | None = field(
         default=None, metadata=stored("nodes", "K", "positive", "temperature at mid-film", needed=False)
-    )
+    )  # [K]
+    # Largest temperature at mid-film less that of the oil in the inlet [K].
     max_temperature_rise: float | None = field(default=None, metadata=number())
+    # Estimated error of ``max_temperature_rise`` by the grids along and across the film, the iteration and
+    # extrapolated properties of the oil [K]; None if unknown.
     temperature_rise_error: float | None = field(default=None, metadata=number())
+    # Heat that the film makes or loses by the discretisation, over the heat of compression and shear.
     energy_imbalance: float | None = field(default=None, metadata=number())
 
     @property

@@ -87,22 +87,9 @@ class Film(FilmSolution):
 
 
 def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Film:
-    """Solve the Reynolds, film and load equations of a line contact.
+    """Solve the Reynolds, film and load equations of a line contact. Returns last iterate, with its status;
+    no error is raised if it did not converge.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every Newton step.
-
-    Returns
-    -------
-    Film
-        Last iterate, with its status. No error is raised if it did not converge.
-
-    Notes
-    -----
     The equations are (1) to (13) of Morris et al. (2022), doi:10.3390/lubricants10050087, and a
     complementarity condition for cavitation, which the paper leaves out. The iteration is nested as in full
     multigrid: the initial guess on every grid is the solution on the next coarser grid.
@@ -162,21 +149,15 @@ class PointFilm(FilmSolution):
     """Lubricant film of a point contact in SI units, with its status and residuals.
 
     The class adds the attributes below to those of ``FilmSolution``. Nodal values have the shape (nx, ny).
-
-    Attributes
-    ----------
-    y : ndarray, shape (ny,)
-        Positions of the nodes across entrainment [m].
-    semi_axis_y : float
-        Semi-axis of the dry contact across entrainment [m]. The semi-axis along entrainment is
-        ``scales.length``.
-    side_deficit : float or None
-        Share of the reduced pressure that is missing because the sides of the domain are at ambient pressure.
-        None for an instant of a transient film.
     """
 
+    # Positions of the nodes across entrainment [m], shape (ny,).
     y: Array = field(metadata=stored("y", "m", "increasing", "position across entrainment"))
+    # semi-axis of the dry contact across entrainment [m]. The semi-axis along entrainment is
+    # ``scales.length``
     semi_axis_y: float = field(metadata=number())
+    # Share of the reduced pressure that is missing because the sides of the domain are at ambient pressure.
+    # None for an instant of a transient film.
     side_deficit: float | None = field(default=None, metadata=number())
 
     @classmethod
@@ -251,37 +232,16 @@ class PointFilm(FilmSolution):
 
 
 def lost_film(thickness: float, upstream: float, sides: float) -> float:
-    """Estimated relative loss of a film whose domain is too small, dimensionless.
-
-    Parameters
-    ----------
-    thickness : float
-        Central film thickness H of the flooded film.
-    upstream, sides : float
-        Shares of the reduced pressure that are missing upstream of the domain and at its sides.
-    """
+    """Estimated relative loss of a film whose domain is too small, dimensionless."""
     at = np.log(max(thickness, 1e-12))
     lost = np.interp(at, _LOSS_AT, _LOST_UPSTREAM) * upstream
     return float(lost + np.interp(at, _LOSS_AT, _LOST_AT_SIDES) * sides)
 
 
 def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) -> PointFilm:
-    """Solve the Reynolds, film and load equations of a point contact.
+    """Solve the Reynolds, film and load equations of a point contact. Returns last iterate, with its status;
+    no error is raised if it did not converge.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact, with its ``width``.
-    progress : callable, optional
-        Function that is called with (nodes along x, Newton step, residual) before every Newton step.
-
-    Returns
-    -------
-    PointFilm
-        Last iterate, with its status. No error is raised if it did not converge.
-
-    Notes
-    -----
     The equations are (1) to (13) of Morris et al. (2022), doi:10.3390/lubricants10050087, with two
     extensions: the flow across entrainment, and the deflection of a half-space under a pressure over (x, y)
     (Love 1929, doi:10.1098/rsta.1929.0009). A complementarity condition for cavitation is added.

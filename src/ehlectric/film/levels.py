@@ -29,17 +29,8 @@ NEARER = 1.5
 
 
 def interpolation(coarse: int, fine: int) -> sparse.csr_array:
-    """Linear interpolation between two uniform grids over one interval.
-
-    Parameters
-    ----------
-    coarse, fine : int
-        Number of nodes of the grid to interpolate from, and of the grid to interpolate to.
-
-    Returns
-    -------
-    sparse array, shape (fine, coarse)
-        Matrix of the interpolation; its rows sum to one.
+    """Linear interpolation between two uniform grids over one interval. Returns matrix of the interpolation;
+    its rows sum to one, shape (fine, coarse).
     """
     numerator = np.arange(fine) * (coarse - 1)
     left = np.minimum(numerator // (fine - 1), coarse - 2)
@@ -54,18 +45,10 @@ def interpolation(coarse: int, fine: int) -> sparse.csr_array:
 
 @dataclass(frozen=True)
 class Transfer:
-    """Linear transfer of nodal values from one grid to another.
-
-    Attributes
-    ----------
-    along : sparse array
-        Matrix of the transfer along x.
-    across : sparse array or None
-        Matrix of the transfer along y; None for a line contact.
-    """
+    """Linear transfer of nodal values from one grid to another."""
 
     along: sparse.csr_array
-    across: sparse.csr_array | None
+    across: sparse.csr_array | None  # matrix of the transfer along y; None for a line contact
 
     @classmethod
     def between(cls, coarse: Mesh, fine: Mesh) -> Transfer:
@@ -105,49 +88,24 @@ SECOND_DIFFERENCE: Distribution = ((0, 1.0), (-1, -0.5), (1, -0.5))
 
 @dataclass(frozen=True)
 class Level:
-    """One grid of the hierarchy, with its operators and its transfers.
-
-    Attributes
-    ----------
-    mesh : Mesh
-        Nodes of the grid.
-    weights : ndarray, shape (nx, ny)
-        Trapezoidal weights of the integral over the contact.
-    deflection : Deflection
-        Elastic deflection of a pressure.
-    dry_gap : ndarray, shape (nx, ny)
-        Gap of the undeformed surfaces, with their roughness.
-    load : float
-        Dimensionless load of the contact, the integral of P.
-    wedge : Stencil
-        Operator of the wedge term on the mass rho H. For a stationary film it is the upstream difference
-        along x, for a transient film a multiple of the mass at the node itself.
-    rate : float
-        Size of the coefficient of the wedge term: 1/dX, or about 1/dT for a transient film.
-    source : ndarray, shape (nx, ny)
-        Right side of the Reynolds equation, zero on the edges.
-    to_finer, from_finer : Transfer or None
-        Interpolation to and from the next finer grid; None for the finest.
-    averaged : Transfer or None
-        Full weighting of residuals of the next finer grid; None for the finest and for line contacts.
-    distribution : tuple of (int, float)
-        Distribution of one unknown of the line relaxation over the nodes of its line: (offset, part).
-    edge_excess : ndarray, shape (nx, ny), or float
-        Pressure above ambient on the edges of the domain, zero inside.
-    """
+    """One grid of the hierarchy, with its operators and its transfers."""
 
     mesh: Mesh
-    weights: Array
+    weights: Array  # trapezoidal weights of the integral over the contact, shape (nx, ny)
     deflection: Deflection
-    dry_gap: Array
-    load: float
-    wedge: Stencil
-    rate: float
-    source: Array
+    dry_gap: Array  # gap of the undeformed surfaces, with their roughness, shape (nx, ny)
+    load: float  # dimensionless load of the contact, the integral of P
+    wedge: Stencil  # operator of the wedge term on the mass rho H
+    rate: float  # size of the coefficient of the wedge term: 1/dX, or about 1/dT for a transient film
+    source: Array  # right side of the Reynolds equation, zero on the edges, shape (nx, ny)
+    # to_finer and from_finer: interpolation to and from the next finer grid; None for the finest.
     to_finer: Transfer | None
     from_finer: Transfer | None
+    # Full weighting of residuals of the next finer grid; None for the finest and for line contacts.
     averaged: Transfer | None
+    # Distribution of one unknown of the line relaxation over the nodes of its line: (offset, part).
     distribution: Distribution = DIPOLE
+    # Pressure above ambient on the edges of the domain, zero inside, shape (nx, ny).
     edge_excess: Array | float = 0.0
 
     @property
@@ -189,29 +147,9 @@ def hierarchy(
     source: Callable[[Array, Array], Array] | None = None,
 ) -> list[Level]:
     """Grids of a contact from the finest to the coarsest, each with half the intervals of the grid before.
+    ``source``, right side of the Reynolds equation: function of X (nx,) and Y (ny,) -> (nx, ny); zero by
+    default. Returns at least two grids.
 
-    Parameters
-    ----------
-    nodes : int
-        Number of nodes along x of the finest grid.
-    inlet, outlet : float
-        Ends of the domain along x, in half-widths.
-    geometry : Geometry
-        Deflection kernel, dry gap and load of the contact.
-    wedge_order : int
-        Order of the wedge term: 1, 2 or 3.
-    width : Width, optional
-        Domain across entrainment, for a point contact.
-    source : callable, optional
-        Right side of the Reynolds equation: function of X (nx,) and Y (ny,) -> (nx, ny); zero by default.
-
-    Returns
-    -------
-    list of Level
-        At least two grids.
-
-    Notes
-    -----
     Half of an odd number of intervals is rounded up. Two such grids share only their end nodes, and the
     transfers interpolate at all others.
     """

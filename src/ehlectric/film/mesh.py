@@ -14,21 +14,12 @@ from ehlectric.arrays import Array, Mask
 
 @dataclass(frozen=True)
 class Width:
-    """Domain of a point contact across entrainment, abs(Y) <= ``side``.
-
-    Attributes
-    ----------
-    nodes : int
-        Number of nodes from side to side.
-    side : float
-        Largest Y, in semi-axes along entrainment.
-    symmetric : bool
-        Whether the contact is symmetric about Y = 0. If it is, and the number of nodes is odd, the film is
-        solved for Y >= 0 only.
-    """
+    """Domain of a point contact across entrainment, abs(Y) <= ``side``."""
 
     nodes: int
-    side: float
+    side: float  # largest Y, in semi-axes along entrainment
+    # Whether the contact is symmetric about Y = 0. If it is, and the number of nodes is odd, the film is
+    # solved for Y >= 0 only.
     symmetric: bool = True
 
     @property
@@ -52,19 +43,13 @@ class Width:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Uniform grid of a contact, dimensionless.
+    """Uniform grid of a contact, dimensionless."""
 
-    Attributes
-    ----------
-    x, y : ndarray, shapes (nx,), (ny,)
-        Equidistant positions along and across entrainment. A line contact has one position y = 0.
-    symmetric : bool
-        Whether the mesh covers only y >= 0 of a symmetric contact.
-    """
-
+    # x and y: equidistant positions along and across entrainment. A line contact has one position y = 0,
+    # shapes (nx,).
     x: Array
     y: Array
-    symmetric: bool = False
+    symmetric: bool = False  # whether the mesh covers only y >= 0 of a symmetric contact
 
     @classmethod
     def over(cls, nodes: int, inlet: float, outlet: float, width: Width | None = None) -> Mesh:
@@ -148,19 +133,8 @@ class Mesh:
 
 
 def at_centre(mesh: Mesh, values: Array) -> float:
-    """Value at the centre of the contact, X = Y = 0, by linear interpolation of nodal values.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Grid.
-    values : ndarray, shape (nx, ny)
-        Nodal values, in any unit.
-
-    Returns
-    -------
-    float
-        Value at the centre, in the unit of ``values``.
+    """Value at the centre of the contact, X = Y = 0, by linear interpolation of nodal values. ``values``,
+    nodal values, in any unit, shape (nx, ny).
     """
     # The two rows on either side of X = 0 suffice.
     after = min(max(int(np.searchsorted(mesh.x, 0.0)), 1), mesh.x.size - 1)

@@ -33,14 +33,7 @@ AHEAD = 1.4
 
 class MovingFilm:
     """Solver of a transient film and of the stationary film before it, on a patch where there is one.
-
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the whole domain, with the wedge term of second order.
-    moving_gap : callable
-        Gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny). A peak adds a negative
-        gap.
+    ``moving_gap``, gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny).
     """
 
     def __init__(self, problem: FilmProblem, moving_gap: MovingGap) -> None:
@@ -49,12 +42,8 @@ class MovingFilm:
 
     @cached_property
     def steady(self) -> GridSolution:
-        """Stationary film on the whole domain before the motion.
-
-        Raises
-        ------
-        ConvergenceError
-            If it does not converge, or if it is starved and thinner than the boundary film somewhere.
+        """Stationary film on the whole domain before the motion. Raises ConvergenceError if it does not
+        converge, or if it is starved and thinner than the boundary film somewhere.
         """
         return self._found[0]
 

@@ -37,30 +37,16 @@ _HALF_BAND_POINT = 14
 
 @dataclass(frozen=True)
 class LineRelaxation:
-    """One relaxation of all lines along x: first every second line, then the lines between them.
+    """One relaxation of all lines along x: first every second line, then the lines between them."""
 
-    Attributes
-    ----------
-    by_p : Stencil
-        Derivative of the Reynolds residual by P at fixed H.
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes whose pressure changes.
-    distributed : ndarray of bool, shape (nx, ny)
-        Nodes whose unknown is distributed over several nodes.
-    beside : tuple of (int, float)
-        Offsets of the other nodes over which an unknown is distributed, each with its part.
-    half_band : int
-        Number of nodes on each side whose influence is kept.
-    factors : tuple
-        For each of the two sets of lines: the lines, and the LU factors and pivots of the transpose of their
-        common band matrix.
-    """
-
-    by_p: Stencil
-    full_film: Mask
-    distributed: Mask
+    by_p: Stencil  # derivative of the Reynolds residual by P at fixed H
+    full_film: Mask  # nodes whose pressure changes, shape (nx, ny)
+    distributed: Mask  # nodes whose unknown is distributed over several nodes, shape (nx, ny)
+    # Offsets of the other nodes over which an unknown is distributed, each with its part.
     beside: Distribution
-    half_band: int
+    half_band: int  # number of nodes on each side whose influence is kept
+    # For each of the two sets of lines: the lines, and the LU factors and pivots of the transpose of their
+    # common band matrix.
     factors: tuple[tuple[slice, Array, Array], ...]
 
     @classmethod
@@ -187,36 +173,22 @@ class Linearised:
     """Jacobian of the film equations on one grid, as a linear operator on its full-film nodes.
 
     The pressure of cavitated nodes does not change: dP must be zero there, and the solvers return zero there.
-
-    Attributes
-    ----------
-    gap : Gap
-        Gap at the state, with its derivatives.
-    by_p, by_h : Stencil
-        Derivatives of the Reynolds residual by P at fixed H and by H at fixed P; zero at cavitated nodes.
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes with a full film.
-    poiseuille : ndarray, shape (nx, ny)
-        Diagonal of the Poiseuille term.
-    scale, unscale : ndarray, shape (nx, ny)
-        Reciprocal of the diagonal of the Reynolds equation, and the diagonal; both zero at cavitated nodes.
-    resolved : ndarray of bool, shape (nx, ny)
-        Nodes whose residual is passed to the coarser grids.
-    log_viscosity : ndarray, shape (nx, ny)
-        ln(eta/eta_0) at the state.
-    kept : Linearised or None
-        Similar Jacobian at an older state, whose line relaxation or factors are used instead of new ones.
     """
 
     gap: Gap
+    # by_p and by_h: derivatives of the Reynolds residual by P at fixed H and by H at fixed P; zero at
+    # cavitated nodes.
     by_p: Stencil
     by_h: Stencil
-    full_film: Mask
-    poiseuille: Array
+    full_film: Mask  # nodes with a full film, shape (nx, ny)
+    poiseuille: Array  # diagonal of the Poiseuille term, shape (nx, ny)
+    # scale and unscale: reciprocal of the diagonal of the Reynolds equation, and the diagonal; both zero at
+    # cavitated nodes, shape (nx, ny).
     scale: Array
     unscale: Array
-    resolved: Mask
-    log_viscosity: Array
+    resolved: Mask  # nodes whose residual is passed to the coarser grids, shape (nx, ny)
+    log_viscosity: Array  # ln(eta/eta_0) at the state, shape (nx, ny)
+    # Similar Jacobian at an older state, whose line relaxation or factors are used instead of new ones.
     kept: Linearised | None = None
 
     @classmethod
@@ -271,20 +243,11 @@ class Linearised:
 
 @dataclass(frozen=True)
 class DenseSolver:
-    """Direct solver for the Jacobian of a grid and the balance of load, by a dense LU factorisation.
+    """Direct solver for the Jacobian of a grid and the balance of load, by a dense LU factorisation."""
 
-    Attributes
-    ----------
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes whose pressure changes; the change at all others is zero.
-    part : slice
-        Nodes from the first one with a full film to the last one, of all nodes with y fastest.
-    factors, pivots : ndarray
-        LU factorisation of the transposed matrix of these nodes and of the balance of load.
-    """
-
-    full_film: Mask
-    part: slice
+    full_film: Mask  # nodes whose pressure changes; the change at all others is zero, shape (nx, ny)
+    part: slice  # nodes from the first one with a full film to the last one, of all nodes with y fastest
+    # factors and pivots: LU factorisation of the transposed matrix of these nodes and of the balance of load.
     factors: Array
     pivots: Array
 
@@ -366,22 +329,9 @@ def linearise_levels(
     full_film: Mask,
 ) -> list[Linearised]:
     """Jacobian on every grid, at the state of the finest grid and at its injection on the coarser grids.
-
-    Parameters
-    ----------
-    levels : list of Level
-        Grids from the finest to the coarsest.
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    at_faces : Flow
-        Flow at the state on the finest grid.
-    pressure, thickness, full_film : ndarray, shape (nx, ny)
-        State on the finest grid: P, H and the nodes with a full film.
-
-    Returns
-    -------
-    list of Linearised
-        Jacobians in the order of ``levels``.
+    ``fluid``, lubricant over dimensionless pressure; ``pressure``, ``thickness`` and ``full_film``, state on
+    the finest grid: P, H and the nodes with a full film, shape (nx, ny). Returns Jacobians in the order of
+    ``levels``.
     """
     jacobians = [Linearised.of(Gap(levels[0], thickness), at_faces, full_film)]
     for level in levels[1:]:
@@ -397,21 +347,9 @@ def linearise_levels(
 def with_kept_preconditioner(
     jacobians: list[Linearised], at_faces: Flow, thickness: Array, full_film: Mask
 ) -> list[Linearised] | None:
-    """Jacobian at a new state with the coarser grids and the line relaxation of an older state.
-
-    Parameters
-    ----------
-    jacobians : list of Linearised
-        Jacobians at the older state, from the finest grid to the coarsest; may be empty.
-    at_faces : Flow
-        Flow on the finest grid at the new state.
-    thickness, full_film : ndarray, shape (nx, ny)
-        Film thickness H and full-film nodes of the new state.
-
-    Returns
-    -------
-    list of Linearised or None
-        None where the states differ too much for the older preconditioner, or are cavitated elsewhere.
+    """Jacobian at a new state with the coarser grids and the line relaxation of an older state. ``thickness``
+    and ``full_film``, film thickness H and full-film nodes of the new state, shape (nx, ny). Returns None
+    where the states differ too much for the older preconditioner, or are cavitated elsewhere.
     """
     if not jacobians:
         return None
@@ -428,23 +366,9 @@ def with_kept_preconditioner(
 
 
 def v_cycle(jacobians: list[Linearised], r: Array, load: float) -> tuple[Array, float]:
-    """One V-cycle: approximate solution of J (dP, dH00) = (r, load) on the full-film nodes.
-
-    Parameters
-    ----------
-    jacobians : list of Linearised
-        Jacobians from the finest grid to the coarsest.
-    r : ndarray, shape (nx, ny)
-        Right side of the Reynolds equation, dimensionless.
-    load : float
-        Right side of the balance of load.
-
-    Returns
-    -------
-    dp : ndarray, shape (nx, ny)
-        Change of P on the finest grid, zero at cavitated nodes.
-    dh00 : float
-        Change of H00.
+    """One V-cycle: approximate solution of J (dP, dH00) = (r, load) on the full-film nodes. ``r``, right side
+    of the Reynolds equation, dimensionless, shape (nx, ny). Returns ``dp``, change of P on the finest grid,
+    zero at cavitated nodes, shape (nx, ny); ``dh00``, change of H00.
     """
     finest, *coarser = jacobians
     if not coarser:

@@ -59,25 +59,9 @@ _MIXED, _MIXED_COARSE = 6, 2
 def nested_iteration(
     problem: FilmProblem, progress: Progress | None, known: Sequence[GridSolution] = ()
 ) -> list[GridSolution]:
-    """Solve the film on a sequence of grids, from coarse to fine.
+    """Solve the film on a sequence of grids, from coarse to fine. Returns all solutions in the order in which
+    they were computed, after the known ones.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    progress : callable or None
-        Function that is called with (nodes, Newton step, residual) before every Newton step.
-    known : sequence of GridSolution
-        Solutions on the coarser grids of the same problem, as this function returns them.
-
-    Returns
-    -------
-    list of GridSolution
-        All solutions in the order in which they were computed, after the known ones. The last one is the
-        solution of ``problem`` on its own grid, with its status. No error is raised if it did not converge.
-
-    Notes
-    -----
     If the solution on a grid does not converge, this grid and the next finer grid start from the Hertz
     pressure. Where the surfaces touch on a grid, the next finer grid starts from this film at once.
     """
@@ -242,22 +226,9 @@ def _in_place_of(found: list[GridSolution], better: GridSolution) -> list[GridSo
 
 
 def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolution:
-    """Solution with the wedge term and the flow of the highest order, from a solution of first order.
-
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact.
-    nodes : int
-        Number of nodes along x: that of the problem or that of the next coarser grid.
-    start : State
-        Initial guess on this grid.
-
-    Returns
-    -------
-    GridSolution
-        Last iterate on the grid with ``nodes`` nodes. Its tolerance is that of the coarser grids of the
-        nested iteration.
+    """Solution with the wedge term and the flow of the highest order, from a solution of first order. Returns
+    last iterate on the grid with ``nodes`` nodes; its tolerance is that of the coarser grids of the nested
+    iteration.
     """
     width, fluid = problem.width, problem.fluid
     # All laws by name are those of a Newtonian fluid. The law of a sheared oil stays.
@@ -409,20 +380,10 @@ def _finer(level: Level, of: Mesh, values: Array) -> Array:
 
 
 def halved(values: Array) -> Array:
-    """Values along the first axis at the nodes of a uniform grid and half-way between them.
+    """Values along the first axis at the nodes of a uniform grid and half-way between them. ``values``,
+    values at the nodes, n > 2, shape (n, ny). Returns values of the monotone cubic of
+    ``scipy.interpolate.PchipInterpolator``, shape (2 n - 1, ny).
 
-    Parameters
-    ----------
-    values : ndarray, shape (n, ny)
-        Values at the nodes, n > 2.
-
-    Returns
-    -------
-    ndarray, shape (2 n - 1, ny)
-        Values of the monotone cubic of ``scipy.interpolate.PchipInterpolator``.
-
-    Notes
-    -----
     F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, doi:10.1137/0905021: the slope at a
     node is the harmonic mean of the slopes on both sides, and zero between slopes of different signs.
 

@@ -36,44 +36,26 @@ Progress: TypeAlias = Callable[[int, int, float], None]
 
 @dataclass(frozen=True)
 class NewtonStep:
-    """Record of one Newton step.
+    """Record of one Newton step."""
 
-    Attributes
-    ----------
-    nodes : int
-        Number of nodes of the grid along x.
-    residual : float
-        Residual before the step, a pressure over p_h.
-    krylov_iterations : int
-        Number of GMRES iterations for the linear system of the step.
-    """
-
+    # Number of nodes of the grid along x.
     nodes: int = field(metadata=stored("", "1", "not negative", "nodes of the grid of a Newton step"))
+    # Residual before the step, a pressure over p_h.
     residual: float = field(metadata=stored("", "1", "not negative", "scaled residual before a Newton step"))
     krylov_iterations: int = field(
         metadata=stored("", "1", "not negative", "GMRES iterations of a Newton step")
-    )
+    )  # number of GMRES iterations for the linear system of the step
 
 
 @dataclass(frozen=True)
 class State:
-    """Iterate of the film on one grid, dimensionless.
+    """Iterate of the film on one grid, dimensionless."""
 
-    Attributes
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Pressure P; where the surfaces touch, that of the oil and of the asperities together.
-    h00 : float
-        Rigid displacement H00.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H, which follows from P and H00.
-    contact_pressure : ndarray, shape (nx, ny), or float
-        Part of P that asperities carry; zero where the surfaces do not touch.
-    """
-
+    # Pressure P; where the surfaces touch, that of the oil and of the asperities together, shape (nx, ny).
     pressure: Array
     h00: float
-    thickness: Array
+    thickness: Array  # film thickness H, which follows from P and H00, shape (nx, ny)
+    # Part of P that asperities carry; zero where the surfaces do not touch, shape (nx, ny).
     contact_pressure: Array | float = 0.0
 
     @classmethod
@@ -99,30 +81,16 @@ class State:
 
 @dataclass(frozen=True)
 class Residual:
-    """Residual of the film equations at one state.
+    """Residual of the film equations at one state."""
 
-    Attributes
-    ----------
-    flow : Flow
-        Flow of the lubricant through the faces at the state.
-    reynolds : ndarray, shape (nx, ny)
-        Residual r of the Reynolds equation.
-    diagonal : ndarray, shape (nx, ny)
-        Approximate derivative of r by the pressure of its own node, not negative.
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes with a full film; the others are cavitated or on an edge, at ambient pressure.
-    load : float
-        Dimensionless load of the contact minus the load that the pressure carries.
-    norm : float
-        Largest scaled residual of all equations, a pressure over p_h.
-    """
-
-    flow: Flow
-    reynolds: Array
+    flow: Flow  # flow of the lubricant through the faces at the state
+    reynolds: Array  # residual r of the Reynolds equation, shape (nx, ny)
+    # Approximate derivative of r by the pressure of its own node, not negative, shape (nx, ny).
     diagonal: Array
+    # Nodes with a full film; the others are cavitated or on an edge, at ambient pressure, shape (nx, ny).
     full_film: Mask
-    load: float
-    norm: float
+    load: float  # dimensionless load of the contact minus the load that the pressure carries
+    norm: float  # largest scaled residual of all equations, a pressure over p_h
 
     @property
     def coefficients(self) -> Coefficients:
@@ -141,29 +109,14 @@ class Residual:
 
 @dataclass(frozen=True)
 class GridSolution:
-    """Last iterate of Newton's method on one grid.
-
-    Attributes
-    ----------
-    level : Level
-        Grid.
-    state : State
-        Last iterate.
-    final : Residual
-        Residual of ``state``.
-    steps : tuple of NewtonStep
-        Newton steps that led to the last iterate.
-    status : str
-        "converged", "stalled" or "diverged".
-    fraction : ndarray, shape (nx, ny), or None
-        Part of the gap that oil fills; None where the film does not carry its content of oil.
-    """
+    """Last iterate of Newton's method on one grid."""
 
     level: Level
     state: State
     final: Residual
-    steps: tuple[NewtonStep, ...]
-    status: Status
+    steps: tuple[NewtonStep, ...]  # Newton steps that led to the last iterate
+    status: Status  # "converged", "stalled" or "diverged"
+    # Part of the gap that oil fills; None where the film does not carry its content of oil, shape (nx, ny).
     fraction: Array | None = None
 
     @property
@@ -223,38 +176,8 @@ def newton(
     eliminate_spike: bool = False,
     transient: bool = False,
 ) -> GridSolution:
-    """Solve the film equations on the first of ``levels`` by Newton's method.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest; the coarser ones serve the preconditioner.
-    state : State
-        Initial guess.
-    tolerance : float
-        Residual at which to stop: the largest of the scaled Reynolds residuals, of P - P_amb at cavitated
-        nodes, and of ten times the relative load imbalance. On very fine grids it is raised to what rounding
-        allows.
-    max_iterations : int
-        Largest number of Newton steps.
-    min_iterations : int
-        Smallest number of Newton steps, whatever the residual is. The residual of each row is scaled with the
-        derivative by the pressure at its own node. Where the residual is smooth over n nodes, the error in
-        pressure is n^2 times larger. An initial guess with a small residual may therefore not be a solution.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every step.
-    eliminate_spike : bool
-        Whether to solve the strongly nonlinear nodes separately before each step. This helps with initial
-        guesses from a coarser grid.
-    transient : bool
-        Whether the solution is a time step, whose initial guess is close.
-
-    Returns
-    -------
-    GridSolution
-        Last iterate, with its status.
+    """Solve the film equations on the first of ``levels`` by Newton's method. ``fluid``, lubricant over
+    dimensionless pressure. Returns last iterate, with its status.
     """
     level = levels[0]
     # The residual contains differences of H over dX, so that rounding of H causes a residual of this size.
@@ -315,19 +238,7 @@ def assess(fluid: Fluid, level: Level, state: State) -> Residual:
 
     The norm takes the rows of the Reynolds equation over their diagonal, so that each is a pressure over p_h.
 
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    level : Level
-        Grid.
-    state : State
-        Pressure, H00 and film thickness.
-
-    Returns
-    -------
-    Residual
-        Residual of every equation, and their norm.
+    ``fluid``, lubricant over dimensionless pressure.
     """
     mesh, thickness = level.mesh, state.thickness
     at_faces = flow(fluid, state.pressure, thickness, mesh)
@@ -371,20 +282,6 @@ def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> t
 def linear_tolerance(norm: float, before: float, tolerance: float) -> float:
     """Relative tolerance of the linear system of a Newton step.
 
-    Parameters
-    ----------
-    norm, before : float
-        Residual before this Newton step and before the last one; infinity before the first step.
-    tolerance : float
-        Residual at which Newton's method stops; zero to gain digits in the last step, too.
-
-    Returns
-    -------
-    float
-        Tolerance from ``LINEAR_TOLERANCE`` to 0.1.
-
-    Notes
-    -----
     Choice 2 of S. C. Eisenstat and H. F. Walker, SIAM J. Sci. Comput. 17 (1996) 16, doi:10.1137/0917003: far
     from the solution the linear model is not worth a close solution. Close to it, a tenth of ``tolerance``
     is enough.
@@ -445,26 +342,8 @@ def flexible_gmres(
 
     The preconditioner is on the right, so that the norm of the residual itself becomes smallest.
 
-    Parameters
-    ----------
-    operator : callable
-        Matrix times a vector (n,).
-    precondition : callable
-        Approximate solution (n,) for a right side (n,).
-    right : ndarray, shape (n,)
-        Right side.
-    tolerance : float
-        Norm of the residual over the norm of the right side at which to stop.
-    limit : int
-        Largest number of iterations.
+    ``right``, right side, shape (n,). Returns solution; the last iterate if the limit is reached, shape (n,).
 
-    Returns
-    -------
-    ndarray, shape (n,)
-        Solution; the last iterate if the limit is reached.
-
-    Notes
-    -----
     Y. Saad, SIAM J. Sci. Comput. 14 (1993) 461, doi:10.1137/0914028, algorithm 2.2.
 
     Examples

@@ -36,20 +36,11 @@ OnGrid = Callable[[Array, Array], Array]
 
 @dataclass(frozen=True)
 class Patch:
-    """Patch of a coarse grid, whose edges are lines of this grid.
+    """Patch of a coarse grid, whose edges are lines of this grid."""
 
-    Attributes
-    ----------
-    problem : FilmProblem
-        Problem of the whole domain on the coarse grid.
-    coarse : GridSolution
-        Its solution.
-    rows, lines : (int, int)
-        First and last node of the patch along x, and across entrainment on the coarse mesh.
-    """
-
-    problem: FilmProblem
+    problem: FilmProblem  # problem of the whole domain on the coarse grid
     coarse: GridSolution
+    # rows and lines: first and last node of the patch along x, and across entrainment on the coarse mesh.
     rows: tuple[int, int]
     lines: tuple[int, int]
 
@@ -85,18 +76,7 @@ class Patch:
         return round(self.coarse.level.mesh.dx / fine.dx)
 
     def refined(self, times: int) -> FilmProblem:
-        """Problem of the patch with spacings of the coarse grid divided by ``times``.
-
-        Parameters
-        ----------
-        times : int
-            Whole number by which the spacings are divided.
-
-        Returns
-        -------
-        FilmProblem
-            Problem on the patch. Its dry gap contains the deflection by the pressure outside.
-        """
+        """Problem of the patch with spacings of the coarse grid divided by ``times``."""
         inlet, outlet, side = self.ends
         whole, width = self.problem, self.problem.width
         assert width is not None
@@ -162,23 +142,15 @@ class Patch:
 
 @dataclass(frozen=True)
 class Joined:
-    """Grid of the whole domain with fine nodes inside a patch, coarse ones outside.
+    """Grid of the whole domain with fine nodes inside a patch, coarse ones outside."""
 
-    Attributes
-    ----------
-    coarse, fine : Mesh
-        Mesh of the whole domain and of the patch.
-    x, y : ndarray, shapes (nx,), (ny,)
-        Positions of all nodes, from side to side.
-    first : (int, int)
-        Indices of the first node inside the patch, along x and y.
-    """
-
+    # coarse and fine: mesh of the whole domain and of the patch.
     coarse: Mesh
     fine: Mesh
+    # x and y: positions of all nodes, from side to side, shapes (nx,).
     x: Array
     y: Array
-    first: tuple[int, int]
+    first: tuple[int, int]  # indices of the first node inside the patch, along x and y
 
     def __call__(self, coarse: NDArray[Any], fine: NDArray[Any]) -> NDArray[Any]:
         """Nodal values (nx, ny) from those on both meshes.

@@ -21,23 +21,13 @@ OnGrid: TypeAlias = Callable[[Mesh, float | None], None]
 
 @dataclass(frozen=True)
 class Scales:
-    """Scales between dimensionless and SI quantities: x = X length, p = P pressure, h = H thickness.
+    """Scales between dimensionless and SI quantities: x = X length, p = P pressure, h = H thickness."""
 
-    Attributes
-    ----------
-    length : float
-        Half-width b of a line contact, or semi-axis b along entrainment of a point contact [m].
-    pressure : float
-        Hertz pressure p_h [Pa].
-    thickness : float
-        Film thickness of H = 1, b^2/R [m].
-    ambient_pressure : float
-        Ambient pressure [Pa]. It is kept beside the dimensionless ambient pressure to avoid rounding errors.
-    """
-
+    # half-width b of a line contact, or semi-axis b along entrainment of a point contact [m].
     length: float = 1.0
-    pressure: float = 1.0
-    thickness: float = 1.0
+    pressure: float = 1.0  # Hertz pressure p_h [Pa]
+    thickness: float = 1.0  # film thickness of H = 1, b^2/R [m]
+    # Ambient pressure [Pa]. It is kept beside the dimensionless ambient pressure to avoid rounding errors.
     ambient_pressure: float = 0.0
 
 
@@ -45,22 +35,17 @@ class Scales:
 class OilSupply:
     """Supply of oil to the inlet of a contact; either a layer or a ratio of films is given.
 
-    Attributes
-    ----------
-    layer : callable or None
-        Thickness H of the oil on both surfaces together at the inlet edge and at ambient pressure: function
-        of Y (ny,) -> H (ny,), dimensionless.
-    film_ratio : float or None
-        Central film thickness over that of the flooded contact, above 0 and up to 1, for which a uniform
-        layer is searched.
-
     Examples
     --------
     >>> OilSupply(film_ratio=0.5).layer is None
     True
     """
 
+    # Thickness H of the oil on both surfaces together at the inlet edge and at ambient pressure: function of
+    # Y (ny,) -> H (ny,), dimensionless.
     layer: Callable[[Array], Array] | None = None
+    # Central film thickness over that of the flooded contact, above 0 and up to 1, for which a uniform layer
+    # is searched.
     film_ratio: float | None = None
 
 
@@ -70,53 +55,17 @@ class FilmProblem:
 
     For a point contact b is the semi-axis and R the reduced radius along entrainment.
 
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure P, with the ambient pressure over p_h and the velocity parameter
-        lambda = 6 eta0 u_s R^2/(b^3 p_h), u_s = u1 + u2.
-    nodes : int
-        Number of nodes along x.
-    inlet, outlet : float
-        Ends of the domain along x, in half-widths; inlet < -1 and outlet > 1.
-    thickness_guess : float
-        Central film thickness H of the initial guess; a film-thickness formula is accurate enough.
-    wedge_order : int
-        Order of the wedge term: 1, 2 or 3.
-    tolerance : float
-        Largest scaled residual of a converged solution, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps on each grid.
-    scales : Scales
-        Length b [m], pressure p_h [Pa] and thickness b^2/R [m] of the result, and its ambient pressure [Pa].
-    geometry : Geometry
-        Deflection kernel, dry gap and load of the contact.
-    width : Width, optional
-        Domain across entrainment, for a point contact.
-    added_gap : callable, optional
-        Gap that roughness adds: function of X (nx,) and Y (ny,) -> H (nx, ny). A peak adds a negative gap.
-    source : callable, optional
-        Right side of the Reynolds equation: function of X (nx,) and Y (ny,) -> (nx, ny); zero by default. It
-        serves manufactured solutions, and surfaces that absorb or release oil.
-    edge_pressure : callable, optional
-        Pressure P on the edges of the domain, in place of ambient pressure: function of X (nx,) and Y (ny,)
-        -> (nx, ny), of which only the edges count.
-    target_error : float, optional
-        Relative discretisation error to which the grid is refined: its intervals are doubled until the
-        estimate is as small. By default the film is solved on ``nodes`` only.
-    most_nodes : int
-        Largest number of nodes along x of a refined grid.
-    boundary_film : float
-        Thickness H_s of the boundary film at which the surfaces touch, dimensionless. With zero they cannot
-        touch: a film that would be pierced does not converge.
-    hardness : float
-        Largest pressure over p_h where the surfaces touch; above it asperities are flattened.
-    supply : OilSupply, optional
-        Supply of oil at the inlet edge; without it the inlet is flooded.
-    physics : Physics, optional
-        Rheology and heat of the film. By default the film is Newtonian and isothermal.
-    on_grid : callable, optional
-        Function that is called after each grid of a refinement: grid, discretisation error or None -> None.
+    ``fluid``, lubricant over dimensionless pressure P, with the ambient pressure over p_h and the velocity
+    parameter lambda = 6 eta0 u_s R^2/(b^3 p_h), u_s = u1 + u2; ``inlet`` and ``outlet``, ends of the domain
+    along x, in half-widths; inlet < -1 and outlet > 1; ``scales``, length b [m], pressure p_h [Pa] and
+    thickness b^2/R [m] of the result, and its ambient pressure [Pa]; ``added_gap``, gap that roughness adds:
+    function of X (nx,) and Y (ny,) -> H (nx, ny); ``source``, right side of the Reynolds equation: function
+    of X (nx,) and Y (ny,) -> (nx, ny); zero by default; ``edge_pressure``, pressure P on the edges of the
+    domain, in place of ambient pressure: function of X (nx,) and Y (ny,) -> (nx, ny), of which only the edges
+    count; ``boundary_film``, thickness H_s of the boundary film at which the surfaces touch, dimensionless;
+    ``hardness``, largest pressure over p_h where the surfaces touch; above it asperities are flattened;
+    ``on_grid``, function that is called after each grid of a refinement: grid, discretisation error or None
+    -> None.
     """
 
     fluid: Fluid
@@ -186,26 +135,11 @@ def velocity_parameter(
 ) -> float:
     """Dimensionless velocity parameter lambda = 6 eta0 u_s R^2/(b^3 p_h) of the Reynolds equation.
 
-    Parameters
-    ----------
-    viscosity : float
-        Viscosity eta0 of the lubricant at zero pressure [Pa s].
-    entrainment_speed : float
-        Mean surface speed (u1 + u2)/2 [m/s].
-    radius : float
-        Reduced radius R along entrainment [m].
-    half_width : float
-        Half-width b of a line contact, or semi-axis b along entrainment of a point contact [m].
-    max_pressure : float
-        Hertz pressure p_h [Pa].
+    ``viscosity``, viscosity eta0 of the lubricant at zero pressure [Pa s]; ``entrainment_speed``, mean
+    surface speed (u1 + u2)/2 [m/s]; ``radius``, reduced radius R along entrainment [m]; ``half_width``,
+    half-width b of a line contact, or semi-axis b along entrainment of a point contact [m]; ``max_pressure``,
+    Hertz pressure p_h [Pa]. Returns velocity parameter lambda, dimensionless.
 
-    Returns
-    -------
-    float
-        Velocity parameter lambda, dimensionless.
-
-    Notes
-    -----
     The definition of Morris et al. (2022), doi:10.3390/lubricants10050087, uses the sum of the surface
     speeds, u_s = u1 + u2, which is twice the entrainment speed.
 

@@ -29,15 +29,9 @@ ALONG, ACROSS = 4, 6
 
 @dataclass(frozen=True)
 class Stencil:
-    """Linear operator on a node and its neighbours.
+    """Linear operator on a node and its neighbours."""
 
-    Attributes
-    ----------
-    coefficients : ndarray, shape (4 or 6, nx, ny)
-        Coefficient of each neighbour, in the order of ``OFFSETS``.
-    """
-
-    coefficients: Array
+    coefficients: Array  # coefficient of each neighbour, in the order of ``OFFSETS``, shape (4 or 6, nx, ny)
 
     def __call__(self, values: Array) -> Array:
         """Apply the operator to nodal values (nx, ny)."""
@@ -123,24 +117,9 @@ _AT_FACE = {1: (0.0, 1.0, 0.0), 2: (-0.5, 1.5, 0.0), 3: (-0.125, 0.75, 0.375)}
 
 
 def wedge_stencil(shape: tuple[int, int], dx: float, *, order: int) -> Stencil:
-    """Upstream-weighted difference d/dX of the wedge term; the two end rows are zero.
+    """Upstream-weighted difference d/dX of the wedge term; the two end rows are zero. ``dx``, grid spacing
+    dX, dimensionless. Returns operator on the mass rho H.
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Numbers of nodes (nx, ny).
-    dx : float
-        Grid spacing dX, dimensionless.
-    order : int
-        Order of the mass at the faces: 1, 2 or 3.
-
-    Returns
-    -------
-    Stencil
-        Operator on the mass rho H.
-
-    Notes
-    -----
     The difference of the masses at the two faces of a node. The first face has no second upstream node; above
     the first order it takes the mean of its two nodes. The third order is that of B. P. Leonard, Comput.
     Methods Appl. Mech. Eng. 19 (1979) 59, doi:10.1016/0045-7825(79)90034-3.
@@ -170,18 +149,7 @@ def _inner_lines(mesh: Mesh) -> slice:
 
 def poiseuille_weight(flow: Flow, mesh: Mesh) -> Array:
     """Diagonal of the Poiseuille term at fixed eps: the sum of the conductances of the faces of a node.
-
-    Parameters
-    ----------
-    flow : Flow
-        Flow at a state of the film.
-    mesh : Mesh
-        Grid.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Sum of eps/dX^2 and eps/dY^2 over the faces, zero in the end rows.
+    Returns sum of eps/dX^2 and eps/dY^2 over the faces, zero in the end rows, shape (nx, ny).
     """
     weight = np.zeros_like(flow.coefficients.eps)
     weight[1:-1] = flow.along.weight()
@@ -191,23 +159,9 @@ def poiseuille_weight(flow: Flow, mesh: Mesh) -> Array:
 
 
 def residual(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> Array:
-    """Residual r of the Reynolds equation at the inner nodes, zero on the edges of the domain.
-
-    Parameters
-    ----------
-    flow : Flow
-        Flow at the state.
-    wedge : Stencil
-        Operator of the wedge term on the mass rho H.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H, dimensionless.
-    mesh : Mesh
-        Grid.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Residual r, dimensionless; positive where more oil leaves a node than enters it.
+    """Residual r of the Reynolds equation at the inner nodes, zero on the edges of the domain. ``thickness``,
+    film thickness H, dimensionless, shape (nx, ny). Returns residual r, dimensionless; positive where more
+    oil leaves a node than enters it, shape (nx, ny).
     """
     r = wedge(flow.coefficients.density * thickness)
     r[1:-1] -= flow.along.divergence()
@@ -223,21 +177,7 @@ def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple
     The Jacobian is dr = (stencil by P) dP + (stencil by H) dH, where dH is the change of the gap
     (``ehlectric.film.gap``). Its matrix is formed on the coarsest grid only.
 
-    Parameters
-    ----------
-    flow : Flow
-        Flow at the state.
-    wedge : Stencil
-        Operator of the wedge term on the mass rho H.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H, dimensionless.
-    mesh : Mesh
-        Grid.
-
-    Returns
-    -------
-    tuple of Stencil
-        Derivatives by P and by H.
+    ``thickness``, film thickness H, dimensionless, shape (nx, ny).
     """
     k = flow.coefficients
     rows = ALONG if mesh.dy is None else ACROSS

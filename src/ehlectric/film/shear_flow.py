@@ -81,22 +81,11 @@ def flux_of(
 ) -> Flux:
     """Flux along the first axis of columns with uniform properties or with a profile across the film.
 
-    Parameters
-    ----------
-    rheology : Rheology
-        Shear-thinning law.
-    mean : ndarray, shape (...)
-        Fluidity eta_0/eta of the columns, at the reference temperature.
-    gradient, slip : ndarray, shape (d, ...)
-        q and g of ``column``, along the axis of the flux and, for d = 2, along the other axis.
-    profile : tuple of ndarray, each of shape (nz, ...), optional
-        Logarithm of the viscosity over that at the reference temperature, and the density, at the nodes
-        across the film. Without it the viscosity is uniform and the density is one.
-
-    Returns
-    -------
-    Flux
-        Flux and derivatives; those by viscosity and density are by the values at the nodes across the film.
+    ``mean``, fluidity eta_0/eta of the columns, at the reference temperature, shape (...); ``gradient`` and
+    ``slip``, q and g of ``column``, along the axis of the flux and, for d = 2, along the other axis,
+    shape (d, ...); ``profile``, logarithm of the viscosity over that at the reference temperature, and the
+    density, at the nodes across the film, shape (nz, ...). Returns flux and derivatives; those by viscosity
+    and density are by the values at the nodes across the film.
 
     Examples
     --------
@@ -184,20 +173,6 @@ _DEGREE = 8
 class ShearedFlow:
     """Flow law of a shear-thinning oil, a value of ``Fluid.flow``.
 
-    Attributes
-    ----------
-    rheology : Rheology
-        Shear-thinning law.
-    stress_scale : float
-        Unit of the shear stress, p_h b/R [Pa], with half-width b and reduced radius R along entrainment.
-    pressure_scale : float
-        Hertz pressure p_h [Pa].
-    slide_to_roll_ratio : float
-        Slip of the surfaces over their mean speed, (u_2 - u_1)/u_m: positive where surface 2 is faster. The
-        ratio of a case is its negative.
-    profile : Profile or None
-        Viscosity and density across the film, at a fixed temperature; None where they are uniform.
-
     Examples
     --------
     Between parallel surfaces an Eyring oil flows faster than a Newtonian one:
@@ -211,10 +186,14 @@ class ShearedFlow:
     array([58.5, 58.5])
     """
 
-    rheology: Rheology
+    rheology: Rheology  # shear-thinning law
+    # Unit of the shear stress, p_h b/R [Pa], with half-width b and reduced radius R along entrainment.
     stress_scale: float
-    pressure_scale: float
+    pressure_scale: float  # Hertz pressure p_h [Pa]
+    # Slip of the surfaces over their mean speed, (u_2 - u_1)/u_m: positive where surface 2 is faster. The
+    # ratio of a case is its negative.
     slide_to_roll_ratio: float = 0.0
+    # Viscosity and density across the film, at a fixed temperature; None where they are uniform.
     profile: Profile | None = None
 
     def __call__(self, fluid: Fluid, pressure: Array, thickness: Array, mesh: Mesh) -> Flow:
@@ -398,37 +377,19 @@ class _Nodes:
 
 @dataclass(frozen=True)
 class Columns:
-    """Stress, shear rate and speed across the film at the nodes of a grid.
+    """Stress, shear rate and speed across the film at the nodes of a grid."""
 
-    Attributes
-    ----------
-    across : Across
-        Nodes zeta across the film, nz of them.
-    stress : ndarray, shape (2, nz, nx, ny)
-        Shear stress along x and y over the stress scale p_h b/R.
-    rate : ndarray, shape (2, nz, nx, ny)
-        Derivative of ``speed`` by zeta; the shear rate is rate u_m/h.
-    speed : ndarray, shape (2, nz, nx, ny)
-        Speed of the oil along x and y over the entrainment speed u_m.
-    softening : ndarray, shape (nz, nx, ny)
-        d ln(tau)/d ln(eta) at a fixed shear rate; one for a Newtonian fluid.
-    viscosity, density : ndarray, shape (nz, nx, ny)
-        eta/eta_0 and rho/rho_0.
-    gradient : ndarray, shape (2, nx, ny)
-        dP/dX and dP/dY.
-    middle : ndarray, shape (2, nx, ny)
-        Stress at zeta = 1/2 over the stress scale.
-    """
-
-    across: Across
-    stress: Array
-    rate: Array
-    speed: Array
+    across: Across  # nodes zeta across the film, nz of them
+    stress: Array  # shear stress along x and y over the stress scale p_h b/R, shape (2, nz, nx, ny)
+    rate: Array  # derivative of ``speed`` by zeta; the shear rate is rate u_m/h, shape (2, nz, nx, ny)
+    speed: Array  # speed of the oil along x and y over the entrainment speed u_m, shape (2, nz, nx, ny)
+    # d ln(tau)/d ln(eta) at a fixed shear rate; one for a Newtonian fluid, shape (nz, nx, ny).
     softening: Array
+    # viscosity and density: eta/eta_0 and rho/rho_0, shape (nz, nx, ny).
     viscosity: Array
     density: Array
-    gradient: Array
-    middle: Array
+    gradient: Array  # dP/dX and dP/dY, shape (2, nx, ny)
+    middle: Array  # stress at zeta = 1/2 over the stress scale, shape (2, nx, ny)
 
     @property
     def heating(self) -> Array:
@@ -449,30 +410,9 @@ def columns_of(
 ) -> Columns:
     """Stress, shear rate and speed at the nodes across the film.
 
-    Parameters
-    ----------
-    rheology : Rheology
-        Shear-thinning law.
-    across : Across
-        Nodes across the film.
-    properties : tuple of ndarray, each of shape (nz, nx, ny) or (1, nx, ny)
-        eta/eta_0 and rho/rho_0 across the film.
-    gradient : ndarray, shape (2, nx, ny)
-        dP/dX and dP/dY.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H.
-    scale : ndarray, shape (nx, ny)
-        Characteristic stress of the law over p_h b/R.
-    slip : float
-        Slip of the surfaces (u_2 - u_1)/u_m times lambda/12.
-    speed_unit : float
-        Unit of the slip over u_m, 12/lambda.
-
-    Returns
-    -------
-    Columns
-        State of the columns. The speed is the integral of the rate over the Gauss points of the flow, so that
-        it is that of the surface at zeta = 1.
+    ``properties``, eta/eta_0 and rho/rho_0 across the film, shape (nz, nx, ny) or (1, nx, ny); ``gradient``,
+    dP/dX and dP/dY, shape (2, nx, ny); ``thickness``, film thickness H, shape (nx, ny); ``scale``,
+    characteristic stress of the law over p_h b/R, shape (nx, ny). Returns state of the columns.
     """
     viscosity, density = (np.broadcast_to(v, (across.zeta.size, *thickness.shape)) for v in properties)
     values, _ = to_points(across.zeta.size - 1)
@@ -526,36 +466,18 @@ def _up_to(degree: int) -> Array:
 
 @dataclass(frozen=True)
 class Traction:
-    """Friction of a contact, over its load.
+    """Friction of a contact, over its load."""
 
-    Attributes
-    ----------
-    sliding : float
-        Traction coefficient: integral of the mid-film stress along x over the load; positive where surface 2
-        is faster.
-    rolling : float
-        Rolling coefficient: integral of h/2 dp/dx over the load, the resistance on each surface.
-    """
-
+    # Traction coefficient: integral of the mid-film stress along x over the load; positive where surface 2 is
+    # faster.
     sliding: float
-    rolling: float
+    rolling: float  # rolling coefficient: integral of h/2 dp/dx over the load, the resistance on each surface
 
     def power_loss(self, load: float, *, entrainment_speed: float, slide_to_roll_ratio: float) -> float:
-        """Power that the motion of the surfaces takes, sliding and rolling together.
-
-        Parameters
-        ----------
-        load : float
-            Load of the contact [N], or load per length of a line contact [N/m].
-        entrainment_speed : float
-            Mean speed u_m of the surfaces [m/s].
-        slide_to_roll_ratio : float
-            (u_2 - u_1)/u_m.
-
-        Returns
-        -------
-        float
-            Power loss [W], or [W/m] of a line contact: the stress on each surface times its speed.
+        """Power that the motion of the surfaces takes, sliding and rolling together. ``load``, load of the
+        contact [N], or load per length of a line contact [N/m]; ``entrainment_speed``, mean speed u_m of the
+        surfaces [m/s]. Returns power loss [W], or [W/m] of a line contact: the stress on each surface times
+        its speed.
 
         Examples
         --------
@@ -577,27 +499,9 @@ def traction(
     stress_ratio: float,
     filled: Array | float = 1.0,
 ) -> Traction:
-    """Traction and rolling coefficients of a contact.
-
-    Parameters
-    ----------
-    columns : Columns
-        Stress in the film at the nodes.
-    thickness : ndarray, shape (nx, ny)
-        Film thickness H.
-    mesh : Mesh
-        Grid.
-    load : float
-        Dimensionless load, the integral of P.
-    stress_ratio : float
-        Stress scale over pressure scale, b/R.
-    filled : ndarray, shape (nx, ny), or float
-        Part of the gap that the oil fills; the stress of a cavitated film is this part of that of a full one.
-
-    Returns
-    -------
-    Traction
-        Coefficients, dimensionless.
+    """Traction and rolling coefficients of a contact. ``thickness``, film thickness H, shape (nx, ny);
+    ``filled``, part of the gap that the oil fills; the stress of a cavitated film is this part of that of a
+    full one, shape (nx, ny). Returns coefficients, dimensionless.
     """
     weights = stress_ratio / load * mesh.weights
     sliding = np.sum(weights * filled * columns.middle[0])
@@ -608,18 +512,9 @@ def traction(
 def filled_part(full_film: Mask, mass: Array) -> Array:
     """Part of the gap that the oil fills behind the rupture of a stationary film.
 
-    Parameters
-    ----------
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes with a full film.
-    mass : ndarray, shape (nx, ny)
-        Mass rho H of a full film.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        One at the nodes with a full film and before the first of them; behind the last of them the mass at
-        the last full node over that of a full film, at most one.
+    ``full_film``, nodes with a full film, shape (nx, ny); ``mass``, mass rho H of a full film,
+    shape (nx, ny). Returns one at the nodes with a full film and before the first of them; behind the last of
+    them the mass at the last full node over that of a full film, at most one, shape (nx, ny).
 
     Examples
     --------

@@ -41,19 +41,8 @@ LIMIT_FLOOR = 5e7
 
 @dataclass(frozen=True)
 class Rheology:
-    """Shear-thinning law of an oil with its constants.
-
-    Attributes
-    ----------
-    name : str
-        Name of the law, a key of ``RHEOLOGY``.
-    constants : mapping of str to float
-        Constants of the law in SI units; ``RHEOLOGY[name].constants`` are their names.
-
-    Raises
-    ------
-    ValueError
-        If there is no law of this name, or its constants are others.
+    """Shear-thinning law of an oil with its constants. Raises ValueError if there is no law of this name, or
+    its constants are others.
 
     Examples
     --------
@@ -63,6 +52,7 @@ class Rheology:
     """
 
     name: str = "newtonian"
+    # Constants of the law in SI units; ``RHEOLOGY[name].constants`` are their names.
     constants: Constants = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -83,27 +73,17 @@ class Rheology:
 
 @dataclass(frozen=True)
 class ShearLaw:
-    """Law of shear thinning, over the reduced stress r = tau/tau_s.
-
-    Attributes
-    ----------
-    constants : tuple of str
-        Names of the constants.
-    factor : callable
-        (r^2, constants) -> (f, its derivative by r^2).
-    scale : callable
-        (pressure [Pa], constants) -> (characteristic stress tau_s [Pa], its derivative by pressure).
-    stress : callable
-        (reduced rate x = mu gamma_dot/tau_s >= 0, constants) -> (reduced stress, its derivative by x). The
-        inverse of the law, or a close upper bound of it.
-    even : bool
-        Whether the rate factor is that of the mean stress, the same across the film (``even``).
-    """
+    """Law of shear thinning, over the reduced stress r = tau/tau_s."""
 
     constants: tuple[str, ...]
+    # (r^2, constants) -> (f, its derivative by r^2).
     factor: Callable[[Array, Constants], tuple[Array, Array]]
+    # (pressure [Pa], constants) -> (characteristic stress tau_s [Pa], its derivative by pressure).
     scale: Callable[[Array, Constants], tuple[Array, Array]]
+    # (reduced rate x = mu gamma_dot/tau_s >= 0, constants) -> (reduced stress, its derivative by x). The
+    # inverse of the law, or a close upper bound of it.
     stress: Callable[[Array, Constants], tuple[Array, Array]]
+    # Whether the rate factor is that of the mean stress, the same across the film (``even``).
     even: bool = False
 
 
@@ -113,20 +93,10 @@ def newtonian_factor(squared: Array, _constants: Constants) -> tuple[Array, Arra
 
 
 def eyring_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
-    """Rate factor sinh(r)/r of the Ree-Eyring law, gamma_dot = (tau_0/mu) sinh(tau/tau_0).
+    """Rate factor sinh(r)/r of the Ree-Eyring law, gamma_dot = (tau_0/mu) sinh(tau/tau_0). ``squared``,
+    square of the reduced stress r = tau/tau_0, shape (...). Returns sinh(r)/r and its derivative by r^2,
+    shape (...).
 
-    Parameters
-    ----------
-    squared : ndarray, shape (...)
-        Square of the reduced stress r = tau/tau_0.
-
-    Returns
-    -------
-    factor, slope : ndarray, shape (...)
-        sinh(r)/r and its derivative by r^2.
-
-    Notes
-    -----
     T. Ree and H. Eyring, J. Appl. Phys. 26 (1955) 793; K. L. Johnson and J. L. Tevaarwerk, Proc. R. Soc.
     A 356 (1977) 215, doi:10.1098/rspa.1977.0129.
 
@@ -150,22 +120,10 @@ def eyring_factor(squared: Array, _constants: Constants) -> tuple[Array, Array]:
 
 
 def carreau_factor(squared: Array, constants: Constants) -> tuple[Array, Array]:
-    """Rate factor (1 + r^2)^((1/n - 1)/2) of Carreau's law in stress, r = tau/G.
+    """Rate factor (1 + r^2)^((1/n - 1)/2) of Carreau's law in stress, r = tau/G. ``squared``, square of the
+    reduced stress, shape (...); ``constants``, ``carreau_exponent`` n, 0 < n <= 1. Returns rate factor and
+    its derivative by r^2, shape (...).
 
-    Parameters
-    ----------
-    squared : ndarray, shape (...)
-        Square of the reduced stress.
-    constants : mapping
-        ``carreau_exponent`` n, 0 < n <= 1.
-
-    Returns
-    -------
-    factor, slope : ndarray, shape (...)
-        Rate factor and its derivative by r^2.
-
-    Notes
-    -----
     The form of S. Bair, High Pressure Rheology for Quantitative Elastohydrodynamics, 2nd ed., Elsevier 2019.
     """
     exponent = 0.5 * (1.0 / constants["carreau_exponent"] - 1.0)
@@ -199,21 +157,9 @@ def _constant_scale(name: str) -> Callable[[Array, Constants], tuple[Array, Arra
 
 def limiting_stress(pressure: Array, constants: Constants) -> tuple[Array, Array]:
     """Limiting shear stress tau_L = Lambda sqrt(p^2 + p_f^2), p_f = 50 MPa, and its derivative by pressure.
+    ``pressure`` [Pa], shape (...); ``constants``, ``limiting_coefficient`` Lambda, dimensionless. Returns
+    limiting stress [Pa] and its derivative, dimensionless, shape (...).
 
-    Parameters
-    ----------
-    pressure : ndarray, shape (...)
-        Pressure [Pa].
-    constants : mapping
-        ``limiting_coefficient`` Lambda, dimensionless.
-
-    Returns
-    -------
-    stress, slope : ndarray, shape (...)
-        Limiting stress [Pa] and its derivative, dimensionless.
-
-    Notes
-    -----
     S. Bair and W. O. Winer, J. Lubr. Technol. 101 (1979) 258: Lambda p. The floor p_f matters below some
     100 MPa only: at 0.5 GPa it adds 0.5 %.
 

@@ -60,15 +60,7 @@ def uniform_eyring(fluidity: Array, gradient: Array, slip: Array) -> Flux:
     With Y = q/2, C = sinh(Y)/Y and B = (Y cosh Y - sinh Y)/(2 Y^2), the mid-film stress is asinh(g/(a C)) and
     the flux sqrt(a^2 + (g/C)^2) B.
 
-    Parameters
-    ----------
-    fluidity, gradient, slip : ndarray, shape (...)
-        a, q and g.
-
-    Returns
-    -------
-    Flux
-        Flux and derivatives.
+    ``fluidity``, ``gradient`` and ``slip``, a, q and g, shape (...).
 
     Examples
     --------
@@ -108,24 +100,10 @@ def middle_stress(
 ) -> Array:
     """Mid-film stress t over the characteristic stress, at which the surfaces have their slip.
 
-    Parameters
-    ----------
-    rheology : Rheology
-        Shear-thinning law.
-    fluidity : ndarray, shape (nq, ...) or (1, ...)
-        eta_0/eta at the points of the quadrature.
-    gradient, slip : ndarray, shape (...)
-        Stress difference q across the film, and slip g over the film thickness.
-    quadrature : Quadrature
-        Points and weights across the film.
+    ``fluidity``, eta_0/eta at the points of the quadrature, shape (nq, ...) or (1, ...); ``gradient`` and
+    ``slip``, stress difference q across the film, and slip g over the film thickness, shape (...). Returns
+    mid-film stress, in closed form for the Eyring law, shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Mid-film stress, in closed form for the Eyring law.
-
-    Notes
-    -----
     The Eyring stress is t = asinh(g/sqrt(C^2 - D^2)) - artanh(D/C) with C, D the integrals of a cosh Y and
     a sinh Y over zeta, Y = q (zeta - 1/2). They are computed as C + D and C - D, in logarithms.
     """
@@ -194,23 +172,10 @@ def column_flux(
 ) -> Flux:
     """Flux of columns with viscosity and density that vary across the film, at the Gauss points.
 
-    Parameters
-    ----------
-    rheology : Rheology
-        Shear-thinning law.
-    fluidity : ndarray, shape (nq, ...) or (1, ...)
-        a = eta_0/eta at the Gauss points.
-    weight : ndarray, shape (nq, ...) or (nq, 1, ...)
-        w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
-    gradient, slip : ndarray, shape (...)
-        q and g.
-    quadrature : Quadrature
-        Gauss points across the film.
-
-    Returns
-    -------
-    Flux
-        Flux and derivatives, exact for this quadrature: t follows its condition in all of them.
+    ``fluidity``, a = eta_0/eta at the Gauss points, shape (nq, ...) or (1, ...); ``weight``, w: oil mass
+    below the point less half of that of the film; zeta - 1/2 for a density of one, shape (nq, ...) or (nq, 1,
+    ...); ``gradient`` and ``slip``, q and g, shape (...). Returns flux and derivatives, exact for this
+    quadrature: t follows its condition in all of them.
     """
     constants = rheology.constants
     t = middle_stress(rheology, fluidity, gradient, slip, quadrature)
@@ -241,47 +206,28 @@ _TINY = 1e-300
 
 @dataclass(frozen=True)
 class Flux:
-    """Flux of columns along one axis, and its derivatives.
+    """Flux of columns along one axis, and its derivatives."""
 
-    Attributes
-    ----------
-    flux : ndarray, shape (...)
-        Int w a phi dzeta.
-    by_gradient : ndarray, shape (d, ...)
-        Derivative by the stress difference q across the film, along this axis and, for d = 2, the other one.
-    by_slip : ndarray, shape (d, ...)
-        Derivative by the slip g along both axes.
-    by_viscosity : ndarray, shape (nq, ...)
-        Derivative by ln eta at each Gauss point; shape (1, ...) if the viscosity is uniform.
-    by_weight : ndarray, shape (nq, ...), or None
-        Derivative by w at each Gauss point; None if the properties are uniform.
-    """
-
-    flux: Array
+    flux: Array  # int w a phi dzeta, shape (...)
+    # Derivative by the stress difference q across the film, along this axis and, for d = 2, the other one,
+    # shape (d, ...).
     by_gradient: Array
-    by_slip: Array
+    by_slip: Array  # derivative by the slip g along both axes, shape (d, ...)
+    # Derivative by ln eta at each Gauss point; shape (1, ...) if the viscosity is uniform, shape (nq, ...).
     by_viscosity: Array
+    # Derivative by w at each Gauss point; None if the properties are uniform, shape (nq, ...).
     by_weight: Array | None = None
 
 
 @dataclass(frozen=True)
 class EvenStress:
-    """Mid-film stress of columns with one rate factor across the film.
+    """Mid-film stress of columns with one rate factor across the film."""
 
-    Attributes
-    ----------
-    middle : ndarray, shape (d, ...)
-        Mid-film stress over the characteristic stress of the law.
-    factor, slope : ndarray, shape (...)
-        Rate factor f, and its derivative by abs(x).
-    softening : ndarray, shape (...)
-        d ln(tau)/d ln(eta) at a fixed shear rate.
-    """
-
-    middle: Array
+    middle: Array  # mid-film stress over the characteristic stress of the law, shape (d, ...)
+    # factor and slope: rate factor f, and its derivative by abs(x), shape (...).
     factor: Array
     slope: Array
-    softening: Array
+    softening: Array  # d ln(tau)/d ln(eta) at a fixed shear rate, shape (...)
 
     @classmethod
     def of(
@@ -322,23 +268,10 @@ def even_flux(
 ) -> Flux:
     """Flux along the first axis of columns with one rate factor across the film.
 
-    Parameters
-    ----------
-    rheology : Rheology
-        Law with ``even``.
-    fluidity : ndarray, shape (nq, ...) or (1, ...)
-        a = eta_0/eta at the Gauss points.
-    weight : ndarray, shape (nq, ...) or (nq, 1, ...)
-        w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
-    gradient, slip : ndarray, shape (d, ...)
-        q and g along the axis of the flux and, for d = 2, along the other axis.
-    quadrature : Quadrature
-        Gauss points across the film.
-
-    Returns
-    -------
-    Flux
-        Flux and derivatives.
+    ``fluidity``, a = eta_0/eta at the Gauss points, shape (nq, ...) or (1, ...); ``weight``, w: oil mass
+    below the point less half of that of the film; zeta - 1/2 for a density of one, shape (nq, ...) or (nq, 1,
+    ...); ``gradient`` and ``slip``, q and g along the axis of the flux and, for d = 2, along the other axis,
+    shape (d, ...).
 
     Examples
     --------
@@ -388,24 +321,10 @@ def middle_stresses(
 ) -> Array:
     """Mid-film stress t along both axes, over the characteristic stress of the law.
 
-    Parameters
-    ----------
-    rheology : Rheology
-        Shear-thinning law.
-    fluidity : ndarray, shape (nq, ...) or (1, ...)
-        eta_0/eta at the points of the quadrature.
-    gradient, slip : ndarray, shape (2, ...)
-        Stress difference q across the film, and slip g over the film thickness, along both axes.
-    quadrature : Quadrature
-        Points and weights across the film.
+    ``fluidity``, eta_0/eta at the points of the quadrature, shape (nq, ...) or (1, ...); ``gradient`` and
+    ``slip``, stress difference q across the film, and slip g over the film thickness, along both axes,
+    shape (2, ...). Returns mid-film stress, shape (2, ...).
 
-    Returns
-    -------
-    ndarray, shape (2, ...)
-        Mid-film stress.
-
-    Notes
-    -----
     Newton's method acts on the rates after the inverse of the law, which makes them nearly linear in t. A
     step that does not reduce the difference to the slip is halved.
     """
@@ -427,28 +346,20 @@ def middle_stresses(
 
 @dataclass(frozen=True)
 class _Iteration:
-    """State of Newton's method in some columns, n of them.
+    """State of Newton's method in some columns, n of them."""
 
-    Attributes
-    ----------
-    weights, shape : ndarray, shapes (nq, n), (2, nq, n)
-        Fluidity times weight at the points of the quadrature, and q times zeta - 1/2.
-    unit, wanted : ndarray, shapes (n,), (2, n)
-        Unit of the rate, and the stress of the slip without a gradient.
-    middle, trial, step : ndarray, shape (2, n)
-        Best stress so far, the one to try next, and their difference.
-    before : ndarray, shape (n,)
-        Difference to the slip at the best stress so far.
-    """
-
+    # weights and shape: fluidity times weight at the points of the quadrature, and q times zeta - 1/2,
+    # shapes (nq, n).
     weights: Array
     shape: Array
+    # unit and wanted: unit of the rate, and the stress of the slip without a gradient, shapes (n,).
     unit: Array
     wanted: Array
+    # middle, trial and step: best stress so far, the one to try next, and their difference, shape (2, n).
     middle: Array
     trial: Array
     step: Array
-    before: Array
+    before: Array  # difference to the slip at the best stress so far, shape (n,)
 
     @classmethod
     def start(
@@ -555,23 +466,10 @@ def plane_flux(
 ) -> Flux:
     """Flux along the first axis of columns with stresses along both axes.
 
-    Parameters
-    ----------
-    rheology : Rheology
-        Shear-thinning law.
-    fluidity : ndarray, shape (nq, ...) or (1, ...)
-        a = eta_0/eta at the Gauss points.
-    weight : ndarray, shape (nq, ...) or (nq, 1, ...)
-        w: oil mass below the point less half of that of the film; zeta - 1/2 for a density of one.
-    gradient, slip : ndarray, shape (2, ...)
-        q and g along the axis of the flux, and along the other axis.
-    quadrature : Quadrature
-        Gauss points across the film.
-
-    Returns
-    -------
-    Flux
-        Flux and derivatives, exact for this quadrature.
+    ``fluidity``, a = eta_0/eta at the Gauss points, shape (nq, ...) or (1, ...); ``weight``, w: oil mass
+    below the point less half of that of the film; zeta - 1/2 for a density of one, shape (nq, ...) or (nq, 1,
+    ...); ``gradient`` and ``slip``, q and g along the axis of the flux, and along the other axis,
+    shape (2, ...). Returns flux and derivatives, exact for this quadrature.
 
     Examples
     --------

@@ -41,31 +41,15 @@ class _Window:
     """Window of nodes along one line, whose pressures are solved separately, with a margin of fixed nodes.
 
     Window and margin together are the strip.
-
-    Attributes
-    ----------
-    strip : slice
-        Nodes of the strip along x on the grid.
-    inner : slice
-        Nodes of the window within the strip.
-    column : int
-        Index of the line across entrainment.
-    influence : ndarray, shape (n, m)
-        Derivative of H at the n nodes of the strip by P at the m nodes of the window.
-    wedge : Stencil
-        Operator of the wedge term on the strip.
-    source : ndarray, shape (n, 1)
-        Right side of the Reynolds equation on the strip.
-    mesh : Mesh
-        Mesh of the strip.
     """
 
-    strip: slice
-    inner: slice
-    column: int
+    strip: slice  # nodes of the strip along x on the grid
+    inner: slice  # nodes of the window within the strip
+    column: int  # index of the line across entrainment
+    # Derivative of H at the n nodes of the strip by P at the m nodes of the window, shape (n, m).
     influence: Array
-    wedge: Stencil
-    source: Array
+    wedge: Stencil  # operator of the wedge term on the strip
+    source: Array  # right side of the Reynolds equation on the strip, shape (n, 1)
     mesh: Mesh
 
     @classmethod
@@ -109,21 +93,10 @@ def relax_spike(
 ) -> Array | None:
     """Pressure of a line contact after a separate solution at the nodes around the largest residual.
 
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    gap : Gap
-        Gap at the state of the film.
-    pressure, full_film, scaled_residual : ndarray, shape (nx, ny)
-        State of the film: P, the mask of nodes with a full film, and the residual as a pressure over p_h.
-    pressure_step, gap_step : float
-        Limits of one Newton step (``step_length``).
-
-    Returns
-    -------
-    ndarray, shape (nx, ny), or None
-        Pressure P. None if no node is strongly nonlinear, or if the separate solution did not converge.
+    ``fluid``, lubricant over dimensionless pressure; ``pressure``, ``full_film`` and ``scaled_residual``,
+    state of the film: P, the mask of nodes with a full film, and the residual as a pressure over p_h,
+    shape (nx, ny). Returns pressure P, shape (nx, ny); None if no node is strongly nonlinear, or if the
+    separate solution did not converge.
     """
     magnitude = np.abs(scaled_residual)
     node, column = np.unravel_index(int(np.argmax(magnitude)), magnitude.shape)
@@ -158,21 +131,9 @@ def relax_spike(
 
 
 def step_length(thickness: Array, dp: Array, dh: Array, *, pressure_step: float, gap_step: float) -> float:
-    """Fraction of a full Newton step that keeps the changes of P and H within their limits.
-
-    Parameters
-    ----------
-    thickness, dp, dh : ndarray, shape (nx, ny)
-        Film thickness H, and the changes of P and H in a full step, dimensionless.
-    pressure_step : float
-        Largest change of P at any node.
-    gap_step : float
-        Smallest fraction of every gap that must remain.
-
-    Returns
-    -------
-    float
-        Fraction of the step, in (0, 1].
+    """Fraction of a full Newton step that keeps the changes of P and H within their limits. ``thickness``,
+    ``dp`` and ``dh``, film thickness H, and the changes of P and H in a full step, dimensionless,
+    shape (nx, ny).
     """
     length = min(1.0, pressure_step / max(float(np.max(np.abs(dp))), 1e-300))
     closing = dh < 0.0

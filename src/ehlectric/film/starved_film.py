@@ -63,28 +63,16 @@ _STEEP = 1.8
 
 @dataclass(frozen=True)
 class Supply:
-    """Oil that is supplied at the inlet edge, and the order of the wedge term.
+    """Oil that is supplied at the inlet edge, and the order of the wedge term."""
 
-    Attributes
-    ----------
-    mass : ndarray, shape (ny,)
-        Mass rho H of the layer of oil at ambient pressure, dimensionless.
-    order : int
-        Order of the wedge term where the film is filled: 1, 2 or 3.
-    upwind : ndarray of bool, shape (nx, ny), or bool
-        Nodes whose mass enters no formula of a higher order, although they may be filled.
-    steep : ndarray of bool, shape (nx, ny), or None
-        Nodes to which the gap closes steeply; the mass behind them is the mean of two nodes. None until a gap
-        is met.
-    first_order : bool
-        Whether steep nodes have an upwind difference in place of this mean.
-    """
-
-    mass: Array
-    order: int
+    mass: Array  # mass rho H of the layer of oil at ambient pressure, dimensionless, shape (ny,)
+    order: int  # order of the wedge term where the film is filled: 1, 2 or 3
+    # Nodes whose mass enters no formula of a higher order, although they may be filled, shape (nx, ny).
     upwind: Mask | bool = False
+    # Nodes to which the gap closes steeply; the mass behind them is the mean of two nodes. None until a gap
+    # is met, shape (nx, ny).
     steep: Mask | None = None
-    first_order: bool = False
+    first_order: bool = False  # whether steep nodes have an upwind difference in place of this mean
 
     @property
     def low(self) -> Mask:
@@ -140,17 +128,10 @@ class Supply:
 
 @dataclass(frozen=True)
 class Runs:
-    """Runs of successive cavitated nodes along entrainment.
+    """Runs of successive cavitated nodes along entrainment."""
 
-    Attributes
-    ----------
-    cavitated : ndarray of bool, shape (nx, ny)
-        Nodes of the runs.
-    before : ndarray of int, shape (nx, ny)
-        Index along x of the last filled node up to each node, or -1 where there is none.
-    """
-
-    cavitated: Mask
+    cavitated: Mask  # nodes of the runs, shape (nx, ny)
+    # Index along x of the last filled node up to each node, or -1 where there is none, shape (nx, ny).
     before: Array
 
     @classmethod
@@ -193,21 +174,9 @@ def content_wedge(mesh: Mesh, filled: Mask, order: int, steep: Mask | None = Non
     filled node and behind a steep one it is the mean of the two nodes, and behind a cavitated node that of
     this node. The end rows are zero.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Grid.
-    filled : ndarray of bool, shape (nx, ny)
-        Nodes where oil fills the gap.
-    order : int
-        Order of the wedge term where the film is filled: 1, 2 or 3.
-    steep : ndarray of bool, shape (nx, ny), optional
-        Further nodes, which are filled too, from which nothing is extrapolated.
-
-    Returns
-    -------
-    Stencil
-        Operator on the mass (nx, ny).
+    ``filled``, nodes where oil fills the gap, shape (nx, ny); ``order``, order of the wedge term where the
+    film is filled: 1, 2 or 3; ``steep``, further nodes, which are filled too, from which nothing is
+    extrapolated, shape (nx, ny). Returns operator on the mass (nx, ny).
 
     Examples
     --------
@@ -259,23 +228,9 @@ def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: 
 
 
 def content(runs: Runs, rows: Array, full: Array, dx: float) -> Array:
-    """Mass of oil at all nodes, shape (nx, ny).
-
-    Parameters
-    ----------
-    runs : Runs
-        Runs of cavitated nodes.
-    rows : ndarray, shape (nx, ny)
-        Rows of the Reynolds equation without the masses of cavitated nodes, as ``unreduced`` returns them.
-    full : ndarray, shape (nx, ny)
-        Mass rho H of the full gap.
-    dx : float
-        Grid spacing dX.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        rho H at filled nodes, theta rho H at cavitated ones.
+    """Mass of oil at all nodes, shape (nx, ny). ``rows``, rows of the Reynolds equation without the masses of
+    cavitated nodes, as ``unreduced`` returns them, shape (nx, ny); ``full``, mass rho H of the full gap,
+    shape (nx, ny). Returns rho H at filled nodes, theta rho H at cavitated ones, shape (nx, ny).
 
     Examples
     --------
@@ -290,26 +245,16 @@ def content(runs: Runs, rows: Array, full: Array, dx: float) -> Array:
 
 @dataclass(frozen=True)
 class StarvedJacobian:
-    """Jacobian on the finest grid, with those of all grids that precondition it.
+    """Jacobian on the finest grid, with those of all grids that precondition it."""
 
-    Attributes
-    ----------
-    levels : list of Linearised
-        Jacobians on all grids, in which a run of cavitated nodes adds only its last row to the row of the
-        first filled node behind it.
-    by_p, by_h : Stencil
-        Derivatives of all rows of the finest grid by P and by H, before the elimination.
-    runs : Runs
-        Runs of cavitated nodes on the finest grid.
-    inlet : InletFlow or None
-        Flow at fixed gap, for a point contact; None for a line contact.
-    """
-
+    # Jacobians on all grids, in which a run of cavitated nodes adds only its last row to the row of the first
+    # filled node behind it.
     levels: list[Linearised]
+    # by_p and by_h: derivatives of all rows of the finest grid by P and by H, before the elimination.
     by_p: Stencil
     by_h: Stencil
-    runs: Runs
-    inlet: InletFlow | None
+    runs: Runs  # runs of cavitated nodes on the finest grid
+    inlet: InletFlow | None  # flow at fixed gap, for a point contact; None for a line contact
 
     @classmethod
     def of(
@@ -362,20 +307,11 @@ class StarvedJacobian:
 
 @dataclass(frozen=True)
 class InletFlow:
-    """Flow at fixed gap where the Poiseuille term dominates, with the masses of cavitated nodes.
+    """Flow at fixed gap where the Poiseuille term dominates, with the masses of cavitated nodes."""
 
-    Attributes
-    ----------
-    opened : ndarray of bool, shape (nx, ny)
-        Filled nodes where the Poiseuille term dominates.
-    unknown : ndarray of bool, shape (nx, ny)
-        These nodes, and the cavitated nodes from which mass reaches filled ones.
-    factors : SuperLU
-        Factorisation of their rows by the pressure of the filled and the mass of the cavitated nodes.
-    """
-
-    opened: Mask
-    unknown: Mask
+    opened: Mask  # filled nodes where the Poiseuille term dominates, shape (nx, ny)
+    unknown: Mask  # these nodes, and the cavitated nodes from which mass reaches filled ones, shape (nx, ny)
+    # Factorisation of their rows by the pressure of the filled and the mass of the cavitated nodes.
     factors: SuperLU
 
     @classmethod
@@ -462,23 +398,13 @@ OVERFLOW, TENSION = 1e-10, 1e-13
 
 @dataclass(frozen=True)
 class Content:
-    """Residual of a starved film at one state, with its content of oil.
-
-    Attributes
-    ----------
-    residual : Residual
-        Residual of all equations. Its ``reynolds`` are the rows of filled nodes after the elimination of the
-        masses of cavitated nodes, zero at cavitated nodes.
-    filled : ndarray of bool, shape (nx, ny)
-        Nodes where oil fills the gap: inside the domain those with a full film, on the inlet edge those where
-        the layer of oil is thicker than the gap.
-    mass : ndarray, shape (nx, ny)
-        Mass theta rho H of the oil.
-    """
+    """Residual of a starved film at one state, with its content of oil."""
 
     residual: Residual
+    # Nodes where oil fills the gap: inside the domain those with a full film, on the inlet edge those where
+    # the layer of oil is thicker than the gap, shape (nx, ny).
     filled: Mask
-    mass: Array
+    mass: Array  # mass theta rho H of the oil, shape (nx, ny)
 
     @property
     def norm(self) -> float:
@@ -502,33 +428,9 @@ def starved_newton(
     max_iterations: int,
     progress: Progress | None = None,
 ) -> tuple[GridSolution, Content]:
-    """Solve the film equations on the first of ``levels`` with a supply of oil at the inlet edge.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest; the coarser ones serve the preconditioner.
-    state : State
-        Initial guess.
-    filled : ndarray of bool, shape (nx, ny)
-        Nodes that oil fills in the initial guess.
-    supply : Supply
-        Oil at the inlet edge.
-    tolerance : float
-        Residual at which to stop, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every step.
-
-    Returns
-    -------
-    GridSolution
-        Last iterate, with its status.
-    Content
-        Content of oil of the last iterate.
+    """Solve the film equations on the first of ``levels`` with a supply of oil at the inlet edge. ``fluid``,
+    lubricant over dimensionless pressure; ``filled``, nodes that oil fills in the initial guess,
+    shape (nx, ny). Returns last iterate, with its status; content of oil of the last iterate.
     """
     level = levels[0]
     tolerance = max(tolerance, ROUNDING * level.rate)
@@ -585,25 +487,9 @@ class Seen:
 
 
 def assess_content(fluid: Fluid, level: Level, state: State, filled: Mask, supply: Supply) -> Content:
-    """Residual of a starved film at a state, with given filled nodes.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    level : Level
-        Grid.
-    state : State
-        Pressure, H00 and film thickness.
-    filled : ndarray of bool, shape (nx, ny)
-        Nodes where oil fills the gap; on the edges only those of the inlet edge count.
-    supply : Supply
-        Oil at the inlet edge.
-
-    Returns
-    -------
-    Content
-        Residual of every equation, their norm, and the mass of oil.
+    """Residual of a starved film at a state, with given filled nodes. ``fluid``, lubricant over dimensionless
+    pressure; ``filled``, nodes where oil fills the gap; on the edges only those of the inlet edge count,
+    shape (nx, ny). Returns residual of every equation, their norm, and the mass of oil.
     """
     mesh, thickness = level.mesh, state.thickness
     at_faces = flow(fluid, state.pressure, thickness, mesh)

@@ -56,29 +56,9 @@ def conserving_film(
     max_iterations: int,
     progress: Progress | None = None,
 ) -> GridSolution:
-    """Film that conserves the mass of the oil, on the first of ``levels``.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest.
-    start : (State, ndarray)
-        Initial guess, and the nodes (nx, ny) that oil fills in it.
-    order : int
-        Order of the wedge term where oil fills the gap.
-    tolerance : float
-        Residual at which to stop, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every step.
-
-    Returns
-    -------
-    GridSolution
-        Last iterate, with its oil fraction.
+    """Film that conserves the mass of the oil, on the first of ``levels``. ``fluid``, lubricant over
+    dimensionless pressure; ``order``, order of the wedge term where oil fills the gap. Returns last iterate,
+    with its oil fraction.
     """
     supply = flooded_inlet(levels[0], order)
 
@@ -155,21 +135,11 @@ _MOST_STEPS = 40
 
 @dataclass(frozen=True)
 class StarvedFilm:
-    """Starved film on one grid.
+    """Starved film on one grid."""
 
-    Attributes
-    ----------
-    solution : GridSolution
-        Last iterate, with its status.
-    content : Content
-        Its content of oil.
-    layer : ndarray, shape (ny,)
-        Thickness H of the layer of oil at the lines of the grid.
-    """
-
-    solution: GridSolution
+    solution: GridSolution  # last iterate, with its status
     content: Content
-    layer: Array
+    layer: Array  # thickness H of the layer of oil at the lines of the grid, shape (ny,)
 
     @property
     def fraction(self) -> Array:
@@ -179,35 +149,16 @@ class StarvedFilm:
 
 @dataclass(frozen=True)
 class Course:
-    """Equations and stopping rule of a starved film on one grid.
+    """Equations and stopping rule of a starved film on one grid."""
 
-    Attributes
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest of the preconditioner.
-    order : int
-        Order of the wedge term where the film is filled.
-    flooded : GridSolution
-        Flooded film on the same grid.
-    dry_pressure : ndarray, shape (nx, ny)
-        Hertz pressure P.
-    tolerance : float
-        Residual at which to stop, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps from each start.
-    progress : callable or None
-        Function that is called with (nodes, Newton step, residual) before every step.
-    """
-
-    fluid: Fluid
-    levels: list[Level]
-    order: int
+    fluid: Fluid  # lubricant over dimensionless pressure
+    levels: list[Level]  # grids from the one to solve on to the coarsest of the preconditioner
+    order: int  # order of the wedge term where the film is filled
     flooded: GridSolution
-    dry_pressure: Array
-    tolerance: float
-    max_iterations: int
+    dry_pressure: Array  # Hertz pressure P, shape (nx, ny)
+    tolerance: float  # residual at which to stop, a pressure over p_h
+    max_iterations: int  # largest number of Newton steps from each start
+    # Function that is called with (nodes, Newton step, residual) before every step.
     progress: Progress | None = None
 
     @property
@@ -331,28 +282,11 @@ def film_of_ratio(
 ) -> tuple[Array | None, StarvedFilm | None]:
     """Uniform layer of oil (ny,) for a ratio of central films, and its starved film.
 
-    Parameters
-    ----------
-    course : Course
-        Equations of the starved film on a grid.
-    ratio : float
-        Central film thickness over that of the flooded film, above 0 and up to 1.
-    near : tuple of State and ndarray, or None
-        State and filled nodes that are likely to be close.
-    last : StarvedFilm or None
-        Film of the coarser grid, whose layer is the first of the search.
+    Returns ``layer``, thickness H of the layer, shape (ny,); None where it is not known: for a flooded film
+    that did not converge, and for that of a point contact, the least layer of which depends on the domain;
+    ``film``, its film; None for the flooded film, also where that did not converge and has no parts; the
+    ratio may be missed where a film did not converge.
 
-    Returns
-    -------
-    layer : ndarray, shape (ny,), or None
-        Thickness H of the layer. None where it is not known: for a flooded film that did not converge, and
-        for that of a point contact, the least layer of which depends on the domain.
-    film : StarvedFilm or None
-        Its film; None for the flooded film, also where that did not converge and has no parts. The ratio may
-        be missed where a film did not converge.
-
-    Notes
-    -----
     Secant method for ln(film) over ln(layer), whose slope is between 0 and 1.
     """
     lines, mesh = np.ones_like(course.level.mesh.y), course.level.mesh

@@ -77,55 +77,27 @@ from ehlectric.film.starved_film import (
 
 @dataclass(frozen=True)
 class Touching:
-    """Residual of a film whose surfaces touch at some nodes, at one state.
+    """Residual of a film whose surfaces touch at some nodes, at one state."""
 
-    Attributes
-    ----------
-    flow : Flow
-        Flow of the oil through the faces, with a gap of at least H_s.
-    thickness : ndarray, shape (nx, ny)
-        Gap of the flow, the larger of H and H_s.
-    reynolds : ndarray, shape (nx, ny)
-        Residual r of the Reynolds equation.
-    poiseuille : ndarray, shape (nx, ny)
-        Diagonal of the Poiseuille term.
-    diagonal : ndarray, shape (nx, ny)
-        Approximate derivative of r by the pressure of the oil at its own node.
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes that oil fills; at all others the oil is at ambient pressure.
-    contact, plastic : ndarray of bool, shape (nx, ny)
-        Nodes where the surfaces touch, and those among them where they are flattened.
-    missing : ndarray, shape (nx, ny)
-        H_s - H where the surfaces touch and are not flattened, zero elsewhere.
-    to_hardness : ndarray, shape (nx, ny)
-        P_y - Q where they are flattened, zero elsewhere.
-    load : float
-        Dimensionless load of the contact minus the load that the pressure carries.
-    norm : float
-        Largest scaled residual of all equations but those of the oil where the surfaces touch.
-    oil_norm : float
-        Largest scaled residual of the oil where the surfaces touch. Both are pressures over p_h.
-    carried : Carried or None
-        Oil that is carried through cavities; None where a cavitated gap counts as full.
-    settled : bool
-        Whether the nodes that oil fills are those at which its mass was carried.
-    """
-
-    flow: Flow
-    thickness: Array
-    reynolds: Array
-    poiseuille: Array
-    diagonal: Array
-    full_film: Mask
+    flow: Flow  # flow of the oil through the faces, with a gap of at least H_s
+    thickness: Array  # gap of the flow, the larger of H and H_s, shape (nx, ny)
+    reynolds: Array  # residual r of the Reynolds equation, shape (nx, ny)
+    poiseuille: Array  # diagonal of the Poiseuille term, shape (nx, ny)
+    diagonal: Array  # approximate derivative of r by the pressure of the oil at its own node, shape (nx, ny)
+    full_film: Mask  # nodes that oil fills; at all others the oil is at ambient pressure, shape (nx, ny)
+    # contact and plastic: nodes where the surfaces touch, and those among them where they are flattened,
+    # shape (nx, ny).
     contact: Mask
     plastic: Mask
-    missing: Array
-    to_hardness: Array
-    load: float
-    norm: float
+    missing: Array  # H_s - H where the surfaces touch and are not flattened, zero elsewhere, shape (nx, ny)
+    to_hardness: Array  # P_y - Q where they are flattened, zero elsewhere, shape (nx, ny)
+    load: float  # dimensionless load of the contact minus the load that the pressure carries
+    norm: float  # largest scaled residual of all equations but those of the oil where the surfaces touch
+    # Largest scaled residual of the oil where the surfaces touch. Both are pressures over p_h.
     oil_norm: float
+    # Oil that is carried through cavities; None where a cavitated gap counts as full.
     carried: Carried | None = None
-    settled: bool = True
+    settled: bool = True  # whether the nodes that oil fills are those at which its mass was carried
 
     @property
     def fraction(self) -> Array | None:
@@ -138,21 +110,11 @@ class Touching:
 
 @dataclass(frozen=True)
 class Carried:
-    """Oil that is carried through cavities of a stationary film.
+    """Oil that is carried through cavities of a stationary film."""
 
-    Attributes
-    ----------
-    supply : Supply
-        Oil at the inlet edge and order of the wedge term.
-    filled : ndarray of bool, shape (nx, ny)
-        Nodes that oil fills, those of the inlet edge among them.
-    mass : ndarray, shape (nx, ny), or float
-        Mass of oil at the nodes.
-    """
-
-    supply: Supply
-    filled: Mask
-    mass: Array | float = 0.0
+    supply: Supply  # oil at the inlet edge and order of the wedge term
+    filled: Mask  # nodes that oil fills, those of the inlet edge among them, shape (nx, ny)
+    mass: Array | float = 0.0  # mass of oil at the nodes, shape (nx, ny)
 
     @property
     def hollow(self) -> Mask:
@@ -175,18 +137,10 @@ def own_compliance(level: Level) -> float:
 
 @dataclass(frozen=True)
 class Asperities:
-    """Boundary film and hardness of asperities that touch.
+    """Boundary film and hardness of asperities that touch."""
 
-    Attributes
-    ----------
-    boundary_film : float
-        Thickness H_s of the boundary film, dimensionless, > 0.
-    hardness : float
-        Largest pressure P_y of nodes in contact, over p_h.
-    """
-
-    boundary_film: float
-    hardness: float = np.inf
+    boundary_film: float  # thickness H_s of the boundary film, dimensionless, > 0
+    hardness: float = np.inf  # largest pressure P_y of nodes in contact, over p_h
 
 
 def contact_nodes(level: Level, state: State, boundary_film: float) -> Mask:
@@ -212,25 +166,9 @@ def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: M
 def assess_touching(
     fluid: Fluid, level: Level, state: State, asperities: Asperities, carried: Carried | None = None
 ) -> Touching:
-    """Residual of the film equations at a state whose surfaces may touch.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    level : Level
-        Grid.
-    state : State
-        Pressure, contact pressure, H00 and film thickness.
-    asperities : Asperities
-        Boundary film and hardness.
-    carried : Carried, optional
-        Nodes that oil fills, and its supply, where the oil in cavities is carried.
-
-    Returns
-    -------
-    Touching
-        Residual of every equation, and their norms.
+    """Residual of the film equations at a state whose surfaces may touch. ``fluid``, lubricant over
+    dimensionless pressure; ``carried``, nodes that oil fills, and its supply, where the oil in cavities is
+    carried. Returns residual of every equation, and their norms.
     """
     mesh, boundary_film = level.mesh, asperities.boundary_film
     contact = contact_nodes(level, state, boundary_film)
@@ -327,54 +265,35 @@ def projected(fluid: Fluid, state: State, contact: Mask) -> State:
 
 @dataclass(frozen=True)
 class TouchingJacobian:
-    """Jacobian on the finest grid, with those of all grids that precondition it.
+    """Jacobian on the finest grid, with those of all grids that precondition it."""
 
-    Attributes
-    ----------
-    levels : list of Linearised
-        Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch. Rows
-        behind cavities contain the last row of the cavity.
-    finest : Linearised
-        Jacobian for Q and H00 on the finest grid without this.
-    oil_by_p, oil_by_h : Stencil
-        Derivatives of the Reynolds residual by P and by H, of all nodes that oil fills.
-    contact, oil : ndarray of bool, shape (nx, ny)
-        Nodes in contact, and those among them that oil fills.
-    rest : ndarray of bool, shape (nx, ny)
-        Nodes of ``oil``, and cavitated nodes whose mass is carried to filled ones.
-    by_rest : Stencil
-        Derivative of the Reynolds residual of all these and of the filled nodes by P of the first and by the
-        mass of the second.
-    factors : SuperLU or None
-        Factorisation of ``by_rest`` between the nodes of ``rest``; None where there are none.
-    open_nodes : ndarray of bool, shape (nx, ny)
-        Nodes apart from contact where the Poiseuille term dominates.
-    open_factors : SuperLU or None
-        Factorisation of the derivative of their Reynolds residual by their P at fixed gap.
-    """
-
+    # Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch. Rows
+    # behind cavities contain the last row of the cavity.
     levels: list[Linearised]
-    finest: Linearised
+    finest: Linearised  # Jacobian for Q and H00 on the finest grid without this
+    # oil_by_p and oil_by_h: derivatives of the Reynolds residual by P and by H, of all nodes that oil fills.
     oil_by_p: Stencil
     oil_by_h: Stencil
+    # contact and oil: nodes in contact, and those among them that oil fills, shape (nx, ny).
     contact: Mask
     oil: Mask
-    rest: Mask
+    rest: Mask  # nodes of ``oil``, and cavitated nodes whose mass is carried to filled ones, shape (nx, ny)
+    # Derivative of the Reynolds residual of all these and of the filled nodes by P of the first and by the
+    # mass of the second.
     by_rest: Stencil
+    # Factorisation of ``by_rest`` between the nodes of ``rest``; None where there are none.
     factors: SuperLU | None
-    open_nodes: Mask
+    open_nodes: Mask  # nodes apart from contact where the Poiseuille term dominates, shape (nx, ny)
+    # Factorisation of the derivative of their Reynolds residual by their P at fixed gap.
     open_factors: SuperLU | None
 
     @classmethod
     def of(
         cls, fluid: Fluid, levels: list[Level], oil_pressure: Array, now: Touching, damping: float
     ) -> TouchingJacobian:
-        """Jacobian at a state with the residual ``now``; the coarser grids take its injection.
-
-        Raises
-        ------
-        numpy.linalg.LinAlgError
-            Where the oil of some nodes has no flow, as in gaps that are far from a solution.
+        """Jacobian at a state with the residual ``now``; the coarser grids take its injection. Raises
+        numpy.linalg.LinAlgError where the oil of some nodes has no flow, as in gaps that are far from a
+        solution.
         """
         level, contact, full_film, carried = levels[0], now.contact, now.full_film, now.carried
         plastic = now.plastic
@@ -433,13 +352,8 @@ class TouchingJacobian:
 
     def rest_of(self, oil: Array, dq: Array, dh: Array) -> Array:
         """Change of P of the oil where the surfaces touch, and of the mass in cavities, shape (nx, ny).
-
-        Parameters
-        ----------
-        oil : ndarray, shape (nx, ny)
-            Right side of the rows of the oil.
-        dq, dh : ndarray, shape (nx, ny)
-            Change of Q, which is that of P where the surfaces do not touch, and change of H.
+        ``oil``, right side of the rows of the oil, shape (nx, ny); ``dq`` and ``dh``, change of Q, which is
+        that of P where the surfaces do not touch, and change of H, shape (nx, ny).
         """
         change = np.zeros_like(dq)
         if self.factors is not None:
@@ -602,34 +516,9 @@ def mixed_newton(
     progress: Progress | None = None,
     carried: Carried | None = None,
 ) -> GridSolution:
-    """Solve the film equations on the first of ``levels`` where surfaces may touch.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest; the coarser ones serve the preconditioner.
-    state : State
-        Initial guess.
-    asperities : Asperities
-        Boundary film and hardness.
-    tolerance : float
-        Residual at which to stop, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps.
-    first_damping : float
-        Damping of the first step: the length dX over the way that oil goes in the time step that a Newton
-        step stands for.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every step.
-    carried : Carried, optional
-        Nodes that oil fills in the initial guess, where the oil in cavities is carried through them.
-
-    Returns
-    -------
-    GridSolution
-        Last iterate, with its status; its state has the contact pressure.
+    """Solve the film equations on the first of ``levels`` where surfaces may touch. ``fluid``, lubricant over
+    dimensionless pressure; ``carried``, nodes that oil fills in the initial guess, where the oil in cavities
+    is carried through them. Returns last iterate, with its status; its state has the contact pressure.
     """
     level = levels[0]
     tolerance = max(tolerance, ROUNDING * level.rate)
@@ -667,24 +556,12 @@ def mixed_newton(
 
 @dataclass(frozen=True)
 class Stepped:
-    """Film after one Newton step.
+    """Film after one Newton step."""
 
-    Attributes
-    ----------
-    state : State
-        Pressures, H00 and gap.
-    now : Touching
-        Residual of the state.
-    length : float
-        Part of the full Newton step that was taken.
-    record : NewtonStep
-        Residual before the step, and its GMRES iterations.
-    """
-
-    state: State
+    state: State  # pressures, H00 and gap
     now: Touching
-    length: float
-    record: NewtonStep
+    length: float  # part of the full Newton step that was taken
+    record: NewtonStep  # residual before the step, and its GMRES iterations
 
 
 def newton_step(
@@ -696,30 +573,8 @@ def newton_step(
     close: float,
     damping: float = 0.0,
 ) -> Stepped:
-    """Film after one Newton step on the first of ``levels``.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest.
-    state : State
-        Film before the step.
-    now : Touching
-        Residual of this film.
-    asperities : Asperities
-        Boundary film and hardness.
-    close : float
-        Relative tolerance of the linear system.
-    damping : float
-        Damping of the step: the length dX over the way that oil goes in the time that it stands for.
-
-    Returns
-    -------
-    Stepped
-        Film after the part of the step that keeps the changes within their limits. Where there is no step,
-        as the linear system is singular, the same film with an infinite residual.
+    """Film after one Newton step on the first of ``levels``. ``fluid``, lubricant over dimensionless
+    pressure. Returns film after the part of the step that keeps the changes within their limits.
     """
     level = levels[0]
     state = projected(fluid, state, now.contact)
@@ -737,22 +592,13 @@ def newton_step(
 
 @dataclass(frozen=True)
 class _Step:
-    """Full Newton step.
+    """Full Newton step."""
 
-    Attributes
-    ----------
-    pressure, oil : ndarray, shape (nx, ny)
-        Changes of Q, and of P where the surfaces touch.
-    h00 : float
-        Change of H00.
-    krylov : int
-        Number of GMRES iterations.
-    """
-
+    # pressure and oil: changes of Q, and of P where the surfaces touch, shape (nx, ny).
     pressure: Array
     oil: Array
     h00: float
-    krylov: int
+    krylov: int  # number of GMRES iterations
 
 
 def _moved(level: Level, state: State, contact: Mask, step: _Step, length: float) -> State:

@@ -72,24 +72,10 @@ _ROUNDING = 1e-9
 def dry_contact(level: Level, pressure: Array, boundary_film: float, ambient_pressure: float) -> State:
     """Contact without oil: Q >= P_amb, H >= H_s, (Q - P_amb)(H - H_s) = 0, and the balance of load.
 
-    Parameters
-    ----------
-    level : Level
-        Grid.
-    pressure : ndarray, shape (nx, ny)
-        First guess of the pressure, as that of Hertz.
-    boundary_film : float
-        Thickness H_s of the boundary film, dimensionless.
-    ambient_pressure : float
-        Ambient pressure P_amb over p_h.
+    ``pressure``, first guess of the pressure, as that of Hertz, shape (nx, ny); ``boundary_film``, thickness
+    H_s of the boundary film, dimensionless. Returns pressure, H00 and gap; all of the pressure above ambient
+    is contact pressure.
 
-    Returns
-    -------
-    State
-        Pressure, H00 and gap; all of the pressure above ambient is contact pressure.
-
-    Notes
-    -----
     Conjugate gradients on the nodes in contact, after I. A. Polonsky and L. M. Keer, Wear 231 (1999) 206,
     doi:10.1016/S0043-1648(99)00113-1.
     """
@@ -137,23 +123,9 @@ def relieved(level: Level, state: State, boundary_film: float) -> State:
     On a finer grid a rough surface has waves that the film of the coarser grid does not know. Asperities that
     they push through the other surface are flattened here before the oil answers.
 
-    Parameters
-    ----------
-    level : Level
-        Grid of a point contact. In a line contact the deflection by a pressure is known up to a constant
-        only, so that there is no such film at a given H00.
-    state : State
-        Film that may be pierced.
-    boundary_film : float
-        Thickness H_s of the boundary film, dimensionless.
+    ``boundary_film``, thickness H_s of the boundary film, dimensionless. Returns film with H >= H_s and P_c
+    >= 0 within the domain, about zero where H > H_s; it carries more load.
 
-    Returns
-    -------
-    State
-        Film with H >= H_s and P_c >= 0 within the domain, about zero where H > H_s. It carries more load.
-
-    Notes
-    -----
     Conjugate gradients on the nodes in contact, as in ``dry_contact``, without the balance of load.
     """
     weights, inner, oil = level.weights, level.mesh.inner, state.oil_pressure
@@ -187,35 +159,17 @@ _ON_THE_WAY = 1e-6
 
 @dataclass(frozen=True)
 class Conserving:
-    """Equations and stopping rule of a film that carries its oil through cavities, on one grid.
+    """Equations and stopping rule of a film that carries its oil through cavities, on one grid."""
 
-    Attributes
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest.
-    asperities : Asperities
-        Boundary film and hardness.
-    order : int
-        Order of the wedge term where oil fills the gap: 1, 2 or 3.
-    tolerance : float
-        Residual at which to stop, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps from a start.
-    progress : callable or None
-        Function that is called with (nodes, Newton step, residual) before every step.
-    first_order : bool
-        Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``.
-    """
-
-    fluid: Fluid
-    levels: list[Level]
-    asperities: Asperities
-    order: int
-    tolerance: float
-    max_iterations: int
+    fluid: Fluid  # lubricant over dimensionless pressure
+    levels: list[Level]  # grids from the one to solve on to the coarsest
+    asperities: Asperities  # boundary film and hardness
+    order: int  # order of the wedge term where oil fills the gap: 1, 2 or 3
+    tolerance: float  # residual at which to stop, a pressure over p_h
+    max_iterations: int  # largest number of Newton steps from a start
+    # Function that is called with (nodes, Newton step, residual) before every step.
     progress: Progress | None = None
+    # Whether the wedge term is of first order where the gap closes steeply, as in ``Supply``
     first_order: bool = False
 
     def near(self, state: State, filled: Mask) -> GridSolution:
@@ -311,32 +265,10 @@ def filled_film(
     max_iterations: int,
     progress: Progress | None = None,
 ) -> GridSolution:
-    """Stationary film on the first of ``levels``, from a film that is followed in time.
+    """Stationary film on the first of ``levels``, from a film that is followed in time. ``fluid``, lubricant
+    over dimensionless pressure. Returns last film, with its status; it converged if its stationary residual
+    is small after an infinite step.
 
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest; the coarser ones serve the preconditioner.
-    state : State
-        Film at the beginning, as the dry contact.
-    asperities : Asperities
-        Boundary film and hardness.
-    tolerance : float
-        Residual at which to stop, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps of all time steps together.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every time step.
-
-    Returns
-    -------
-    GridSolution
-        Last film, with its status. It converged if its stationary residual is small after an infinite step.
-
-    Notes
-    -----
     Pseudo-transient continuation, C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508,
     doi:10.1137/S0036142996304796. A small residual alone does not make a film stationary: oil creeps through
     a boundary film so slowly that the film may change for a long time.
@@ -440,34 +372,10 @@ def mixed_film(
 ) -> Iterator[GridSolution]:
     """Solutions of a film whose surfaces may touch, from one start after the other until one converges.
 
-    Parameters
-    ----------
-    fluid : Fluid
-        Lubricant over dimensionless pressure.
-    levels : list of Level
-        Grids from the one to solve on to the coarsest.
-    dry_pressure : ndarray, shape (nx, ny)
-        Hertz pressure P.
-    asperities : Asperities
-        Boundary film and hardness.
-    film_guess : float
-        Film thickness of smooth surfaces by a formula, dimensionless. With less than the boundary film the
-        asperities are likely to carry the load.
-    tolerance : float
-        Residual at which to stop, a pressure over p_h.
-    max_iterations : int
-        Largest number of Newton steps from each start.
-    progress : callable, optional
-        Function that is called with (nodes, Newton step, residual) before every Newton step.
-    near : State, optional
-        State that is likely to be close, as that of a coarser grid.
-    thorough : bool
-        Whether to try all starts, or the first one only, as on a grid that only serves the next finer one.
-
-    Yields
-    ------
-    GridSolution
-        Last iterate from each start. The iteration ends with the first that converges.
+    ``fluid``, lubricant over dimensionless pressure; ``dry_pressure``, Hertz pressure P, shape (nx, ny);
+    ``film_guess``, film thickness of smooth surfaces by a formula, dimensionless; ``thorough``, whether to
+    try all starts, or the first one only, as on a grid that only serves the next finer one. Yields last
+    iterate from each start; the iteration ends with the first that converges.
     """
 
     def solved(start: State, damping: float = 1.0) -> GridSolution:

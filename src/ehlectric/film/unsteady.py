@@ -65,26 +65,10 @@ SAME_NODE = 1e-9
 def step_levels(
     levels: list[Level], masses: tuple[Array, Array], steps: tuple[float, float], added_gap: Array
 ) -> list[Level]:
-    """Grids with the Reynolds equation of one time step.
+    """Grids with the Reynolds equation of one time step. ``masses``, oil mass rho H on the finest grid at the
+    last instant and at the instant before it, shape (nx, ny); ``added_gap``, gap that moving roughness adds
+    on the finest grid at the new instant, shape (nx, ny). Returns grids in the order of ``levels``.
 
-    Parameters
-    ----------
-    levels : list of Level
-        Grids of the stationary contact, from the finest to the coarsest.
-    masses : tuple of ndarray, shape (nx, ny)
-        Oil mass rho H on the finest grid at the last instant and at the instant before it.
-    steps : tuple of float
-        Time T from the last instant to the new instant, and from the instant before to the last instant.
-    added_gap : ndarray, shape (nx, ny)
-        Gap that moving roughness adds on the finest grid at the new instant. A peak adds a negative gap.
-
-    Returns
-    -------
-    list of Level
-        Grids in the order of ``levels``.
-
-    Notes
-    -----
     With r = step/last step, the BDF2 weights of the new, the last and the earlier mass are (1 + 2r)/(1 + r),
     -(1 + r) and r^2/(1 + r), all divided by the step. Where the line of the earlier mass begins upstream of
     the inlet, the difference is over one step only.
@@ -119,21 +103,9 @@ def _mass_term(shape: tuple[int, int], rates: Array) -> Stencil:
 
 
 def carried(values: Array, distance: float) -> Array:
-    """Nodal values after they have been carried downstream along x.
-
-    Parameters
-    ----------
-    values : ndarray, shape (nx, ny)
-        Values at the nodes.
-    distance : float
-        Distance in grid spacings, >= 0. For whole numbers the result is exact; otherwise the values are
-        interpolated by a cubic.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Values at the nodes afterwards. Values from outside the domain are extrapolated by a parabola, which
-        is about the shape of the gap there.
+    """Nodal values after they have been carried downstream along x. ``values``, values at the nodes,
+    shape (nx, ny); ``distance``, distance in grid spacings, >= 0. Returns values at the nodes afterwards,
+    shape (nx, ny).
 
     Examples
     --------
@@ -183,15 +155,7 @@ def mass_after(step: GridSolution) -> Array:
 
     At cavitated nodes it is the mass of the oil that is left, which does not fill the gap.
 
-    Parameters
-    ----------
-    step : GridSolution
-        Solution on the grids of ``step_levels``.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Oil mass, dimensionless, not negative.
+    Returns oil mass, dimensionless, not negative, shape (nx, ny).
     """
     level, final = step.level, step.final
     mass = final.coefficients.density * step.state.thickness
@@ -208,15 +172,7 @@ def stationary_mass(stationary: GridSolution) -> Array:
 
     At cavitated nodes behind X = 0 it is the mass of the oil that flows in.
 
-    Parameters
-    ----------
-    stationary : GridSolution
-        Stationary film with the wedge term of second order.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Oil mass, dimensionless, not negative.
+    Returns oil mass, dimensionless, not negative, shape (nx, ny).
     """
     level, final = stationary.level, stationary.final
     full = final.coefficients.density * stationary.state.thickness
@@ -233,17 +189,10 @@ def stationary_mass(stationary: GridSolution) -> Array:
 
 @dataclass(frozen=True)
 class Oil:
-    """Oil at one instant, from which the next one takes it.
+    """Oil at one instant, from which the next one takes it."""
 
-    Attributes
-    ----------
-    mass : ndarray, shape (nx, ny)
-        Mass theta rho H of the oil.
-    filled : ndarray of bool, shape (nx, ny)
-        Nodes where oil fills the gap, on the inlet edge those where the layer of oil does.
-    """
-
-    mass: Array
+    mass: Array  # mass theta rho H of the oil, shape (nx, ny)
+    # Nodes where oil fills the gap, on the inlet edge those where the layer of oil does, shape (nx, ny).
     filled: Mask
 
     def at_feet(self, distance: float, values: Array | None = None) -> Array:
@@ -319,26 +268,10 @@ def sums(now: Oil, before: Oil, last: float, ratio: float) -> Array:
 def supplied_step_levels(
     levels: list[Level], instants: tuple[Oil, Oil], steps: tuple[float, float], added_gap: Array
 ) -> list[Level]:
-    """Grids with the Reynolds equation of one time step of a film with a supply of oil.
+    """Grids with the Reynolds equation of one time step of a film with a supply of oil. ``added_gap``, gap
+    that moving roughness adds on the finest grid at the new instant, shape (nx, ny). Returns grids in the
+    order of ``levels``.
 
-    Parameters
-    ----------
-    levels : list of Level
-        Grids of the stationary contact, from the finest to the coarsest.
-    instants : tuple of Oil
-        Oil at the last instant and at the instant before it.
-    steps : tuple of float
-        Time T from the last instant to the new instant, and from the instant before to the last instant.
-    added_gap : ndarray, shape (nx, ny)
-        Gap that moving roughness adds on the finest grid at the new instant. A peak adds a negative gap.
-
-    Returns
-    -------
-    list of Level
-        Grids in the order of ``levels``.
-
-    Notes
-    -----
     On lines that are filled at the inlet edge the scheme is that of ``characteristics.step_levels``.
     """
     finest, mesh = levels[0], levels[0].mesh
@@ -426,26 +359,14 @@ MovingGap: TypeAlias = Callable[[float, Array, Array], Array]
 
 @dataclass(frozen=True)
 class Instant:
-    """Transient film at one instant of time, dimensionless.
-
-    Attributes
-    ----------
-    time : float
-        Time T.
-    state : State
-        Pressure P, rigid displacement H00 and film thickness H.
-    mass : ndarray, shape (nx, ny)
-        Oil mass rho H; where the film is cavitated, the mass of the oil that is left.
-    density : ndarray, shape (nx, ny)
-        Density ratio rho/rho_0.
-    full_film : ndarray of bool, shape (nx, ny)
-        Nodes with a full film; on the inlet edge, those that a given layer of oil fills.
-    """
+    """Transient film at one instant of time, dimensionless."""
 
     time: float
-    state: State
+    state: State  # pressure P, rigid displacement H00 and film thickness H
+    # Oil mass rho H; where the film is cavitated, the mass of the oil that is left, shape (nx, ny).
     mass: Array
-    density: Array
+    density: Array  # density ratio rho/rho_0, shape (nx, ny)
+    # Nodes with a full film; on the inlet edge, those that a given layer of oil fills, shape (nx, ny).
     full_film: Mask
 
     @property
@@ -462,21 +383,11 @@ class Instant:
 
 @dataclass(frozen=True)
 class Effort:
-    """Computational work of a time step.
-
-    Attributes
-    ----------
-    newton : int
-        Number of Newton steps.
-    krylov : int
-        Number of GMRES iterations in all Newton steps.
-    halvings : int
-        Number of times that a step was halved.
-    """
+    """Computational work of a time step."""
 
     newton: int = 0
-    krylov: int = 0
-    halvings: int = 0
+    krylov: int = 0  # number of GMRES iterations in all Newton steps
+    halvings: int = 0  # number of times that a step was halved
 
     def __add__(self, other: Effort) -> Effort:
         return Effort(self.newton + other.newton, self.krylov + other.krylov, self.halvings + other.halvings)
@@ -484,34 +395,17 @@ class Effort:
 
 @dataclass(frozen=True)
 class History:
-    """Last two instants of a transient film, from which the next follows.
-
-    Attributes
-    ----------
-    now, before : Instant
-        Last instant and the instant before it.
-    effort : Effort
-        Work of the last step.
-    """
+    """Last two instants of a transient film, from which the next follows."""
 
     now: Instant
     before: Instant
-    effort: Effort = Effort()
+    effort: Effort = Effort()  # work of the last step
 
 
 class UnsteadyFilm:
-    """Solver for the transient film of a contact with moving roughness.
-
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of the contact, with the wedge term of second order. Its ``added_gap`` is the
-        roughness that does not move.
-    moving_gap : callable
-        Gap that moving roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny). A peak adds a negative
-        gap.
-    layer : ndarray, shape (ny,), optional
-        Thickness H of the layer of oil at the inlet edge; None for a flooded inlet.
+    """Solver for the transient film of a contact with moving roughness. ``moving_gap``, gap that moving
+    roughness adds: function of T, X (nx,) and Y (ny,) -> (nx, ny); ``layer``, thickness H of the layer of oil
+    at the inlet edge; None for a flooded inlet, shape (ny,).
     """
 
     def __init__(self, problem: FilmProblem, moving_gap: MovingGap, layer: Array | None = None) -> None:
@@ -525,19 +419,8 @@ class UnsteadyFilm:
         return self._levels[0]
 
     def start(self, steady: GridSolution, step: float) -> History:
-        """History that starts from a stationary film.
-
-        Parameters
-        ----------
-        steady : GridSolution
-            Stationary film on the same grid.
-        step : float
-            Time T between the two instants, > 0.
-
-        Returns
-        -------
-        History
-            The stationary film at T = 0 and at T = -step.
+        """History that starts from a stationary film. ``step``, time T between the two instants, > 0. Returns
+        the stationary film at T = 0 and at T = -step.
         """
         density = steady.final.coefficients.density
         now = Instant(0.0, steady.state, stationary_mass(steady), density, steady.final.full_film)
@@ -552,23 +435,10 @@ class UnsteadyFilm:
     def advance(self, history: History, step: float) -> History:
         """Advance the film by one time step, which is halved until the film equations converge.
 
-        Parameters
-        ----------
-        history : History
-            Last two instants.
-        step : float
-            Length of the step in T, at most ``MOST_COURANT`` grid spacings.
-
-        Returns
-        -------
-        History
-            Last two instants after the step, with the work of the step.
-
-        Raises
-        ------
-        ConvergenceError
-            If the film equations do not converge after six halvings, or a film with a layer of oil is thinner
-            than the boundary film somewhere.
+        ``step``, length of the step in T, at most ``MOST_COURANT`` grid spacings. Returns last two instants
+        after the step, with the work of the step. Raises ConvergenceError if the film equations do not
+        converge after six halvings, or a film with a layer of oil is thinner than the boundary film
+        somewhere.
         """
         return self._advance(replace(history, effort=Effort()), step, _MOST_HALVINGS)
 

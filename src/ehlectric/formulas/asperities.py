@@ -51,29 +51,13 @@ def greenwood_integral(order: float, separation: ArrayLike, highest: float = np.
     F_0 is the share of the summits that are higher than the separation, F_1 their mean overlap, F_3/2 and
     F_5/2 are in the pressures of Greenwood and Williamson and of Greenwood and Tripp.
 
-    Parameters
-    ----------
-    order : float
-        Order n >= 0, dimensionless; any real number.
-    separation : array_like, shape (...)
-        Separation l in standard deviations of the heights, >= -12.
-    highest : float, optional
-        Height in standard deviations, >= -12, to which all higher summits are worn down: s is the smaller of
-        the Gaussian height and this one. By default no summit is worn.
+    ``order``, order n >= 0, dimensionless; any real number; ``separation``, separation l in standard
+    deviations of the heights, >= -12, shape (...); ``highest``, height in standard deviations, >= -12, to
+    which all higher summits are worn down: s is the smaller of the Gaussian height and this one. Returns
+    value of the integral, dimensionless; its relative error is below 1e-11, with worn summits 1e-9,
+    shape (...); it is zero where no summit reaches the separation. Raises ValueError if the order is
+    negative, or a separation or the highest summit below -12 or not a number.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Value of the integral, dimensionless; its relative error is below 1e-11, with worn summits 1e-9. It is
-        zero where no summit reaches the separation.
-
-    Raises
-    ------
-    ValueError
-        If the order is negative, or a separation or the highest summit below -12 or not a number.
-
-    Notes
-    -----
     J. A. Greenwood and J. H. Tripp, The contact of two nominally flat rough surfaces, Proc. Inst. Mech. Eng.
     185 (1970) 625-633. The integral is evaluated by the trapezoidal rule after a double exponential
     substitution. The fit 4.4086e-5 (4 - l)^6.804 for F_5/2, used in many programs, is 11 % low at l = 0 and
@@ -145,19 +129,8 @@ def separation_of_gap(gap: ArrayLike, deviation: float) -> Array:
     Overlapping peaks are pressed flat: a separation d has the mean gap d + sigma F_1(d/sigma). A film formula
     gives the volume of oil per area, which is this gap.
 
-    Parameters
-    ----------
-    gap : array_like, shape (...)
-        Mean gap [m], > 0. Gaps below a thousandth of ``deviation`` are taken as a thousandth: surfaces that
-        close them would be pressed flat.
-    deviation : float
-        Standard deviation of the gap [m], > 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Distance of the mean planes of the undeformed roughness [m]; negative for gaps below
-        0.399 ``deviation``.
+    ``gap`` [m], shape (...); ``deviation``, standard deviation of the gap [m], > 0. Returns distance of the
+    mean planes of the undeformed roughness [m]; negative for gaps below 0.399 ``deviation``, shape (...).
 
     Examples
     --------
@@ -192,15 +165,6 @@ _LEAST_INTERVALS = 8
 class SpectralMoments:
     """Spectral moments of a line over a rough surface; those of two surfaces add up.
 
-    Attributes
-    ----------
-    m0 : float
-        Mean square height about the mean, Rq^2 [m^2].
-    m2 : float
-        Mean square slope.
-    m4 : float
-        Mean square of the second derivative [1/m^2].
-
     Examples
     --------
     >>> both = SpectralMoments(1e-16, 1e-4, 1e9) + SpectralMoments(4e-16, 0.0, 0.0)
@@ -208,9 +172,9 @@ class SpectralMoments:
     (22.36, 50.0)
     """
 
-    m0: float
-    m2: float
-    m4: float
+    m0: float  # mean square height about the mean, Rq^2 [m^2]
+    m2: float  # mean square slope
+    m4: float  # mean square of the second derivative [1/m^2]
 
     def __add__(self, other: Self) -> Self:
         """Moments of the gap between two surfaces whose heights are independent."""
@@ -230,22 +194,11 @@ class SpectralMoments:
         return float(self.m0 * self.m4 / self.m2**2) if self.m2 > 0.0 else float("nan")
 
     def summits(self) -> Summits:
-        """Summits of an isotropic Gaussian surface with these moments.
+        """Summits of an isotropic Gaussian surface with these moments. Returns density m4/(6 sqrt(3) pi m2),
+        radius (3/8) sqrt(pi/m4), and standard deviation of the heights sqrt((1 - 0.8968/alpha) m0). Raises
+        ValueError if the surface is flat, or its bandwidth below 1.5: no isotropic Gaussian surface has these
+        moments.
 
-        Returns
-        -------
-        Summits
-            Density m4/(6 sqrt(3) pi m2), radius (3/8) sqrt(pi/m4), and standard deviation of the heights
-            sqrt((1 - 0.8968/alpha) m0).
-
-        Raises
-        ------
-        ValueError
-            If the surface is flat, or its bandwidth below 1.5: no isotropic Gaussian surface has these
-            moments.
-
-        Notes
-        -----
         P. R. Nayak, Random process model of rough surfaces, J. Lubr. Technol. 93 (1971) 398-407. J. I.
         McCool, Comparison of models for the contact of rough surfaces, Wear 107 (1986) 37-60. The radius is
         that of the mean curvature of all summits. Higher summits are sharper.
@@ -276,27 +229,11 @@ def profile_moments(heights: Array, spacing: float, interval: float | None = Non
     power spectrum the step between both ends would dominate m4. A wave of the length L has the
     slope of the wave times sin(pi d/L)/(pi d/L), so that waves shorter than about four intervals are damped.
 
-    Parameters
-    ----------
-    heights : ndarray, shape (n,)
-        Heights at equally spaced points [m].
-    spacing : float
-        Distance of the points [m].
-    interval : float, optional
-        Sampling interval d [m], rounded to a whole number of spacings and at least one; by default one.
+    ``heights``, heights at equally spaced points [m], shape (n,); ``spacing``, distance of the points [m];
+    ``interval``, sampling interval d [m], rounded to a whole number of spacings and at least one; by default
+    one. Returns m0 [m^2], m2, and m4 [1/m^2]. Raises ValueError if the profile is shorter than eight
+    intervals.
 
-    Returns
-    -------
-    SpectralMoments
-        m0 [m^2], m2, and m4 [1/m^2].
-
-    Raises
-    ------
-    ValueError
-        If the profile is shorter than eight intervals.
-
-    Notes
-    -----
     Rounding of the heights to steps s adds s^2/(6 d^2) to m2 and s^2/(2 d^4) to m4, if the errors of the
     points are independent. Noise of the instrument acts in the same way. Take an interval at which that is
     small.
@@ -313,13 +250,7 @@ def profile_moments(heights: Array, spacing: float, interval: float | None = Non
 
 @dataclass(frozen=True)
 class MapMoments:
-    """Spectral moments of a map along x and along y.
-
-    Attributes
-    ----------
-    along_x, along_y : SpectralMoments
-        Moments of the lines along x and along y.
-    """
+    """Spectral moments of a map along x and along y."""
 
     along_x: SpectralMoments
     along_y: SpectralMoments
@@ -345,25 +276,10 @@ def map_moments(
 ) -> MapMoments:
     """Spectral moments of a map along x and along y, from differences as in ``profile_moments``.
 
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny)
-        Heights [m].
-    spacing_x, spacing_y : float
-        Distances of the points along x and y [m].
-    interval : float, optional
-        Sampling interval [m], rounded along each axis to a whole number of spacings and at least one; by
-        default one spacing of each axis.
-
-    Returns
-    -------
-    MapMoments
-        Moments along both axes.
-
-    Raises
-    ------
-    ValueError
-        If a side of the map is shorter than eight intervals.
+    ``heights`` [m], shape (nx, ny); ``spacing_x`` and ``spacing_y``, distances of the points along x and y
+    [m]; ``interval``, sampling interval [m], rounded along each axis to a whole number of spacings and at
+    least one; by default one spacing of each axis. Returns moments along both axes. Raises ValueError if a
+    side of the map is shorter than eight intervals.
 
     Examples
     --------
@@ -393,27 +309,15 @@ def _line_moments(lines: Array, spacing: float, interval: float | None) -> Spect
 
 @dataclass(frozen=True, kw_only=True)
 class Summits:
-    """Summits of a rough surface: spherical caps of one radius with Gaussian heights.
+    """Summits of a rough surface: spherical caps of one radius with Gaussian heights."""
 
-    Attributes
-    ----------
-    density : float
-        Number of summits per area n [1/m^2], > 0.
-    radius : float
-        Radius of the caps beta [m], > 0.
-    height_deviation : float
-        Standard deviation of the summit heights [m], > 0. Of two rough surfaces it is that of the sum of both
-        heights, sqrt(sigma_s1^2 + sigma_s2^2).
-    highest : float, optional
-        Height above the mean of the summits, in standard deviations, to which all higher summits are worn
-        down; by default none is. Above this separation nothing touches. Run-in surfaces have lost their
-        highest peaks, and the number of spots of a thin film depends on them alone. Worn summits keep their
-        radius here, though they are blunt.
-    """
-
-    density: float
-    radius: float
+    density: float  # number of summits per area n [1/m^2], > 0
+    radius: float  # radius of the caps beta [m], > 0
+    # Standard deviation of the summit heights [m], > 0. Of two rough surfaces it is that of the sum of both
+    # heights, sqrt(sigma_s1^2 + sigma_s2^2).
     height_deviation: float
+    # Height above the mean of the summits, in standard deviations, to which all higher summits are worn down;
+    # by default none is.
     highest: float = np.inf
 
     @property
@@ -424,21 +328,12 @@ class Summits:
 
 @dataclass(frozen=True)
 class AsperityContact:
-    """Contact of the summits at one separation or an array of separations.
+    """Contact of the summits at one separation or an array of separations."""
 
-    Attributes
-    ----------
-    pressure : ndarray, shape (...)
-        Asperity load per nominal area [Pa].
-    area_fraction : ndarray, shape (...)
-        Real contact area over nominal area, dimensionless. The models hold while it is small.
-    spots_per_area : ndarray, shape (...)
-        Number of contact spots per nominal area [1/m^2].
-    """
-
-    pressure: Array
+    pressure: Array  # asperity load per nominal area [Pa], shape (...)
+    # Real contact area over nominal area, dimensionless. The models hold while it is small, shape (...).
     area_fraction: Array
-    spots_per_area: Array
+    spots_per_area: Array  # number of contact spots per nominal area [1/m^2], shape (...)
 
 
 def greenwood_williamson(separation: ArrayLike, summits: Summits, reduced_modulus: float) -> AsperityContact:
@@ -448,28 +343,10 @@ def greenwood_williamson(separation: ArrayLike, summits: Summits, reduced_modulu
     fraction pi n beta sigma_s F_1(l), spots per area n F_0(l). Two rough surfaces are taken as the sum of
     both heights against a flat: then ``summits`` are those of the sum.
 
-    Parameters
-    ----------
-    separation : array_like, shape (...)
-        Distance d of the mean plane of the summits to the flat [m], >= -12 standard deviations. See
-        ``summit_separation`` for that of the mean plane of the surface.
-    summits : Summits
-        Summits of the rough surface, or of the sum of two.
-    reduced_modulus : float
-        Reduced modulus E' = 2 E* [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    ``separation``, distance d of the mean plane of the summits to the flat [m], >= -12 standard deviations,
+    shape (...); ``reduced_modulus``, reduced modulus E' = 2 E* [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 -
+    nu2^2)/E2. Raises ValueError if a separation is below -12 standard deviations.
 
-    Returns
-    -------
-    AsperityContact
-        Asperity pressure, area fraction and spots per area.
-
-    Raises
-    ------
-    ValueError
-        If a separation is below -12 standard deviations.
-
-    Notes
-    -----
     J. A. Greenwood and J. B. P. Williamson, Contact of nominally flat surfaces, Proc. R. Soc. A 295 (1966)
     300-319, doi:10.1098/rspa.1966.0242. Caps are elastic, have no effect on each other and do not merge.
 
@@ -496,22 +373,11 @@ def summit_separation(separation: ArrayLike, rq: float, bandwidth: float) -> Arr
     Summits lie higher than the surface. For an isotropic Gaussian surface their mean height above the mean
     plane is 4 Rq/sqrt(pi alpha), with Nayak's bandwidth alpha = m0 m4/m2^2.
 
-    Parameters
-    ----------
-    separation : array_like, shape (...)
-        Distance of the mean plane of the surface to the other one [m].
-    rq : float
-        Rq of the surface, or of the sum of two surfaces [m].
-    bandwidth : float
-        Nayak's bandwidth alpha of the same heights, dimensionless, >= 1.5.
+    ``separation``, distance of the mean plane of the surface to the other one [m], shape (...); ``rq``, rq of
+    the surface, or of the sum of two surfaces [m]; ``bandwidth``, nayak's bandwidth alpha of the same
+    heights, dimensionless, >= 1.5. Returns distance of the mean plane of the summits to the other one [m],
+    shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Distance of the mean plane of the summits to the other one [m].
-
-    Notes
-    -----
     J. I. McCool, Comparison of models for the contact of rough surfaces, Wear 107 (1986) 37-60.
 
     Examples
@@ -527,16 +393,6 @@ def summit_separation(separation: ArrayLike, rq: float, bandwidth: float) -> Arr
 class ShareLaw:
     """Fit of the asperity load share over lambda, an entry of ``LOAD_SHARE``.
 
-    Attributes
-    ----------
-    name : str
-        Name in tables and figures.
-    share : callable
-        Function of lambda, array_like of shape (...), that returns the share from 0 to 1, shape (...). It
-        raises ``ValueError`` for a negative lambda.
-    source : str
-        Publication, and how far it is confirmed.
-
     Examples
     --------
     >>> round(float(LOAD_SHARE["clarke"].share(1.0)), 3)
@@ -544,30 +400,19 @@ class ShareLaw:
     """
 
     name: str
+    # Function of lambda, array_like of shape (...), that returns the share from 0 to 1, shape (...). It
+    # raises ``ValueError`` for a negative lambda.
     share: Callable[[ArrayLike], Array]
-    source: str
+    source: str  # publication, and how far it is confirmed
 
 
 def contact_probability(film_parameter: ArrayLike) -> Array:
     """Share of time in which a lubricated contact conducts, 1 - erf(lambda), after Clarke et al.
 
-    Parameters
-    ----------
-    film_parameter : array_like, shape (...)
-        Lambda, central film thickness over composite roughness, dimensionless, >= 0.
+    ``film_parameter``, lambda, central film thickness over composite roughness, dimensionless, >= 0,
+    shape (...). Returns share of time with metallic contact, dimensionless, from 1 at no film to 0,
+    shape (...). Raises ValueError if a lambda is negative.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Share of time with metallic contact, dimensionless, from 1 at no film to 0.
-
-    Raises
-    ------
-    ValueError
-        If a lambda is negative.
-
-    Notes
-    -----
     Clarke et al. fitted electrical contact resistances of discs; it is quoted after Arana. Contact begins
     below lambda = 2 and rises steeply below 1. The fit is of one test rig: area of the contact, speed and
     spacing of the asperities are not in it, whereas they are in ``intermittency.contact_time_share``.
@@ -582,22 +427,9 @@ def contact_probability(film_parameter: ArrayLike) -> Array:
 
 
 def patir_cheng(film_parameter: ArrayLike) -> Array:
-    """Asperity load share exp(-1.8 lambda^1.2), a fit to the model of Patir and Cheng.
-
-    Parameters
-    ----------
-    film_parameter : array_like, shape (...)
-        Lambda, dimensionless, >= 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Asperity load share, dimensionless, from 0 to 1.
-
-    Raises
-    ------
-    ValueError
-        If a lambda is negative.
+    """Asperity load share exp(-1.8 lambda^1.2), a fit to the model of Patir and Cheng. ``film_parameter``,
+    lambda, dimensionless, >= 0, shape (...). Returns asperity load share, dimensionless, from 0 to 1,
+    shape (...). Raises ValueError if a lambda is negative.
 
     Examples
     --------
@@ -613,20 +445,8 @@ def zhou_hoeprich(film_parameter: ArrayLike) -> Array:
 
     The constants are those of the raceway of a tapered roller bearing 32216. A 32208 has 2.1 and 0.85.
 
-    Parameters
-    ----------
-    film_parameter : array_like, shape (...)
-        Lambda, dimensionless, >= 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Asperity load share, dimensionless, from 0 to 1.
-
-    Raises
-    ------
-    ValueError
-        If a lambda is negative.
+    ``film_parameter``, lambda, dimensionless, >= 0, shape (...). Returns asperity load share, dimensionless,
+    from 0 to 1, shape (...). Raises ValueError if a lambda is negative.
 
     Examples
     --------
@@ -643,20 +463,8 @@ def johnson_fit(film_parameter: ArrayLike) -> Array:
     The fraction reaches one near lambda = 2. Beyond, the expression becomes negative and then rises again:
     it is no fit there, and the share is zero.
 
-    Parameters
-    ----------
-    film_parameter : array_like, shape (...)
-        Lambda, dimensionless, >= 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Asperity load share, dimensionless, from 1 to 0.
-
-    Raises
-    ------
-    ValueError
-        If a lambda is negative.
+    ``film_parameter``, lambda, dimensionless, >= 0, shape (...). Returns asperity load share, dimensionless,
+    from 1 to 0, shape (...). Raises ValueError if a lambda is negative.
 
     Examples
     --------
@@ -714,21 +522,8 @@ LOAD_SHARE: dict[str, ShareLaw] = {
 
 def load_shares(film_parameter: ArrayLike) -> dict[str, Array]:
     """Asperity load shares of every fit of ``LOAD_SHARE`` at the same lambda; their spread is their error.
-
-    Parameters
-    ----------
-    film_parameter : array_like, shape (...)
-        Lambda, dimensionless, >= 0.
-
-    Returns
-    -------
-    dict of str to ndarray, shape (...)
-        Asperity load share by key of the fit, dimensionless, from 0 to 1.
-
-    Raises
-    ------
-    ValueError
-        If a lambda is negative.
+    ``film_parameter``, lambda, dimensionless, >= 0, shape (...). Returns asperity load share by key of the
+    fit, dimensionless, from 0 to 1, shape (...). Raises ValueError if a lambda is negative.
 
     Examples
     --------
@@ -739,19 +534,9 @@ def load_shares(film_parameter: ArrayLike) -> dict[str, Array]:
 
 
 def expected_spots(spots_per_area: ArrayLike, area: ArrayLike) -> Array:
-    """Expected number of simultaneous spots in an area.
-
-    Parameters
-    ----------
-    spots_per_area : array_like, shape (...)
-        Spots per nominal area [1/m^2], >= 0, as in ``AsperityContact``.
-    area : array_like, shape (...)
-        Area of the contact, such as the area of the Hertz ellipse [m^2], >= 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Expected number of spots, dimensionless.
+    """Expected number of simultaneous spots in an area. ``spots_per_area``, spots per nominal area [1/m^2],
+    >= 0, as in ``AsperityContact``, shape (...); ``area``, area of the contact, such as the area of the Hertz
+    ellipse [m^2], >= 0, shape (...). Returns expected number of spots, dimensionless, shape (...).
 
     Examples
     --------
@@ -768,20 +553,9 @@ def contact_time_share(expected: ArrayLike) -> Array:
     Spots come and go independently of each other, so that their number is a Poisson variable. Asperities of
     a wavy or directional surface come in groups: then this share is an upper bound at the same N.
 
-    Parameters
-    ----------
-    expected : array_like, shape (...)
-        Expected number N of simultaneous spots, dimensionless, >= 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Share of time, dimensionless, from 0 to 1; accurate for small N too.
-
-    Raises
-    ------
-    ValueError
-        If a number is negative.
+    ``expected``, expected number N of simultaneous spots, dimensionless, >= 0, shape (...). Returns share of
+    time, dimensionless, from 0 to 1; accurate for small N too, shape (...). Raises ValueError if a number is
+    negative.
 
     Examples
     --------
@@ -801,17 +575,9 @@ def area_while_touching(contact: AsperityContact, area: ArrayLike) -> Array:
     With the real area fraction f and the number N = n A of spots that are expected in the nominal area A. Of
     few expected spots it is the mean area of one, f/n; of many it is A f.
 
-    Parameters
-    ----------
-    contact : AsperityContact
-        Real area fraction and spots per area, shape (...).
-    area : array_like, shape (...)
-        Nominal area, such as that of the Hertz ellipse [m^2], >= 0.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Real area [m^2]; 0 where no spot is expected.
+    ``contact``, real area fraction and spots per area, shape (...); ``area``, nominal area, such as that of
+    the Hertz ellipse [m^2], >= 0, shape (...). Returns real area [m^2]; 0 where no spot is expected,
+    shape (...).
 
     Examples
     --------
@@ -836,26 +602,11 @@ def bearing_time_share(inner: ArrayLike, outer: ArrayLike, axis: int = -1) -> Ar
     An element conducts while both its contacts do; they are in series. One conducting element shorts the
     bearing; its elements are in parallel. All contacts are taken as independent of each other.
 
-    Parameters
-    ----------
-    inner, outer : array_like, shape (..., elements)
-        Shares of time with contact at the inner and outer ring, for each element, dimensionless, 0 to 1.
-        They broadcast against each other.
-    axis : int, optional
-        Axis of the elements.
+    ``inner`` and ``outer``, shares of time with contact at the inner and outer ring, for each element,
+    dimensionless, 0 to 1, shape (..., elements). Returns share of time in which the bearing conducts,
+    dimensionless; accurate for small shares too, shape (...). Raises ValueError if a share is not from 0 to
+    1.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Share of time in which the bearing conducts, dimensionless; accurate for small shares too.
-
-    Raises
-    ------
-    ValueError
-        If a share is not from 0 to 1.
-
-    Notes
-    -----
     A vibration or a change of load thins several films at once. Where both contacts of an element close
     together, the element conducts more often than p_inner p_outer; where several elements close together,
     the bearing conducts less often than elements that take turns.
@@ -885,20 +636,9 @@ def holm_resistance(radius: ArrayLike, resistivity: float) -> Array:
     The current spreads into a half-space on both sides. Two metals count with the mean of their
     resistivities.
 
-    Parameters
-    ----------
-    radius : array_like, shape (...)
-        Radius a of the spot [m], > 0.
-    resistivity : float
-        Resistivity rho of the bodies [ohm m]; about 2.2e-7 for the steel 100Cr6 (from memory).
+    ``radius`` [m], shape (...); ``resistivity``, resistivity rho of the bodies [ohm m]; about 2.2e-7 for the
+    steel 100Cr6 (from memory). Returns resistance [ohm], shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Resistance [ohm].
-
-    Notes
-    -----
     R. Holm, Electric Contacts, 4th ed., Springer 1967. It needs a spot that is much larger than the mean free
     path of the electrons; see ``spot_resistance``.
 
@@ -912,24 +652,10 @@ def holm_resistance(radius: ArrayLike, resistivity: float) -> Array:
 
 
 def sharvin_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float) -> Array:
-    """Resistance of a circular spot that electrons pass without a collision, 4 rho l/(3 pi a^2).
+    """Resistance of a circular spot that electrons pass without a collision, 4 rho l/(3 pi a^2). ``radius``
+    [m], shape (...); ``resistivity``, resistivity rho of the bodies [ohm m]; ``mean_free_path``, mean free
+    path l of the electrons [m], a few nanometres in steel. Returns resistance [ohm], shape (...).
 
-    Parameters
-    ----------
-    radius : array_like, shape (...)
-        Radius a of the spot [m], > 0.
-    resistivity : float
-        Resistivity rho of the bodies [ohm m].
-    mean_free_path : float
-        Mean free path l of the electrons [m], a few nanometres in steel.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Resistance [ohm].
-
-    Notes
-    -----
     Yu. V. Sharvin, Sov. Phys. JETP 21 (1965) 655.
 
     Examples
@@ -947,22 +673,9 @@ def spot_resistance(radius: ArrayLike, resistivity: float, mean_free_path: float
 
     R = 4 rho l/(3 pi a^2) + gamma(l/a) rho/(2 a) with gamma(K) = (1 + 0.83 K)/(1 + 1.33 K).
 
-    Parameters
-    ----------
-    radius : array_like, shape (...)
-        Radius a of the spot [m], > 0.
-    resistivity : float
-        Resistivity rho of the bodies [ohm m].
-    mean_free_path : float, optional
-        Mean free path l of the electrons [m], >= 0. Zero gives Holm's resistance.
+    ``radius`` [m], shape (...); ``resistivity``, resistivity rho of the bodies [ohm m]; ``mean_free_path``,
+    mean free path l of the electrons [m], >= 0. Returns resistance [ohm], shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Resistance [ohm].
-
-    Notes
-    -----
     G. Wexler, Proc. Phys. Soc. 89 (1966) 927-941. The factor is the fit of B. Nikolic and P. B. Allen, Phys.
     Rev. B 60 (1999) 3963, arXiv:cond-mat/9811296, to their exact solution; its constants are from memory.
     The exact conductance is within 11 % of that of the plain sum of both resistances, and so is that
@@ -987,22 +700,10 @@ def greenwood_cluster(positions: ArrayLike, radii: ArrayLike, resistivity: float
     R = rho/(2 sum a_i) + (rho/pi) sum_{i != j} (a_i a_j/s_ij)/(sum a_i)^2, with the distances s_ij of the
     spots. For equal spots the second term is rho/(pi n^2) sum_{i != j} 1/s_ij.
 
-    Parameters
-    ----------
-    positions : array_like, shape (n, 2)
-        Positions of the spots [m], all different.
-    radii : array_like, shape (n,)
-        Radii a_i of the spots [m], > 0; at least one.
-    resistivity : float
-        Resistivity rho of the bodies [ohm m].
+    ``positions``, positions of the spots [m], all different, shape (n, 2); ``radii``, radii a_i of the spots
+    [m], > 0; at least one, shape (n,); ``resistivity``, resistivity rho of the bodies [ohm m]. Returns
+    resistance [ohm]; it is an upper bound of ``cluster_resistance``.
 
-    Returns
-    -------
-    float
-        Resistance [ohm]. It is an upper bound of ``cluster_resistance``.
-
-    Notes
-    -----
     J. A. Greenwood, Constriction resistance and the real area of contact, Br. J. Appl. Phys. 17 (1966)
     1621-1632 (from memory; the formula is derived from the potential of point sources on both half-spaces).
     Time and memory: n^2 and n.
@@ -1032,24 +733,10 @@ def cluster_resistance(
     resistance R_i of ``spot_resistance``, rho/(2 a_i) without a free path. Spots in the middle of a cluster
     get less current than those at its edge.
 
-    Parameters
-    ----------
-    positions : array_like, shape (n, 2)
-        Positions of the spots [m]; spots must not overlap.
-    radii : array_like, shape (n,)
-        Radii a_i of the spots [m], > 0; at least one.
-    resistivity : float
-        Resistivity rho of the bodies [ohm m].
-    mean_free_path : float, optional
-        Mean free path of the electrons [m], >= 0.
+    ``positions``, positions of the spots [m]; spots must not overlap, shape (n, 2); ``radii``, radii a_i of
+    the spots [m], > 0; at least one, shape (n,); ``resistivity``, resistivity rho of the bodies [ohm m];
+    ``mean_free_path`` [m]. Returns resistance [ohm].
 
-    Returns
-    -------
-    float
-        Resistance [ohm].
-
-    Notes
-    -----
     A spot acts on the others as a point: for two spots that touch this is wrong by a few per cent. Time and
     memory: n^3 and n^2; 2000 spots take a second.
 
@@ -1075,19 +762,8 @@ def _inverse_distances(rows: Array, at: Array, first: int) -> Array:
 
 def film_resistance(area: ArrayLike, specific_resistance: float) -> Array:
     """Resistance of a boundary film over the real contact area, sigma_f/A_c, in series with the spots.
-
-    Parameters
-    ----------
-    area : array_like, shape (...)
-        Real contact area A_c [m^2], > 0.
-    specific_resistance : float
-        Resistance of the film times its area sigma_f [ohm m^2], thickness over conductivity. A film of
-        additives of 10 to 100 nm has no generally known value: it is an input.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Resistance [ohm].
+    ``area``, real contact area A_c [m^2], > 0, shape (...); ``specific_resistance``, resistance of the film
+    times its area sigma_f [ohm m^2], thickness over conductivity. Returns resistance [ohm], shape (...).
 
     Examples
     --------

@@ -48,41 +48,18 @@ _MODES, _WAVES = 40, 10
 
 @dataclass(frozen=True)
 class Machine:
-    """Geometry of the active part of a machine.
+    """Geometry of the active part of a machine."""
 
-    Attributes
-    ----------
-    length : float
-        Length of the stack of laminations [m].
-    bore : float
-        Diameter of the bore of the stator [m].
-    gap : float
-        Air gap between the stator's teeth and the rotor [m].
-    slots : int
-        Number of slots of the stator.
-    opening : float
-        Width of a slot at the bore [m].
-    depth : float
-        Depth below the bore at which the copper begins [m].
-    permittivity : float
-        Relative permittivity of what fills the slot up to the copper.
-    liner_width : float
-        Length of the line along which copper and iron face each other in the section of a slot [m].
-    liner : float
-        Thickness of the insulation between them [m].
-    liner_permittivity : float
-        Its relative permittivity.
-    """
-
-    length: float
-    bore: float
-    gap: float
+    length: float  # length of the stack of laminations [m]
+    bore: float  # diameter of the bore of the stator [m]
+    gap: float  # air gap between the stator's teeth and the rotor [m]
     slots: int
-    opening: float
-    depth: float
-    permittivity: float
+    opening: float  # width of a slot at the bore [m]
+    depth: float  # depth below the bore at which the copper begins [m]
+    permittivity: float  # relative permittivity of what fills the slot up to the copper
+    # Length of the line along which copper and iron face each other in the section of a slot [m].
     liner_width: float
-    liner: float
+    liner: float  # thickness of the insulation between them [m]
     liner_permittivity: float
 
     @property
@@ -93,38 +70,16 @@ class Machine:
 
 @dataclass(frozen=True)
 class MachineCapacitances:
-    """Capacitances of a machine [F].
+    """Capacitances of a machine [F]."""
 
-    Attributes
-    ----------
-    winding_rotor : float
-        From the winding to the rotor, through the openings of the slots.
-    rotor_frame : float
-        From the rotor to the frame, through the air gap.
-    winding_frame : float
-        From the winding to the frame, through the insulation of the slots.
-    """
-
-    winding_rotor: float
-    rotor_frame: float
-    winding_frame: float
+    winding_rotor: float  # from the winding to the rotor, through the openings of the slots
+    rotor_frame: float  # from the rotor to the frame, through the air gap
+    winding_frame: float  # from the winding to the frame, through the insulation of the slots
 
 
 def machine_capacitances(machine: Machine) -> MachineCapacitances:
-    """Capacitances of a machine without its end windings.
+    """Capacitances of a machine without its end windings. Returns capacitances [F].
 
-    Parameters
-    ----------
-    machine : Machine
-        Geometry.
-
-    Returns
-    -------
-    MachineCapacitances
-        Capacitances [F].
-
-    Notes
-    -----
     The cylinder of the gap has the capacitance ``2 pi epsilon_0 length / log(bore / (bore - 2 gap))``; its
     parts to winding and frame are those of the unrolled gap. The insulation of the slots is a plate, as in
     Muetze and Binder, IEEE Trans. Ind. Appl. 43 (2007) 665, doi:10.1109/TIA.2007.895734.
@@ -153,23 +108,9 @@ def gap_shares(
 ) -> tuple[float, float]:
     """Capacitances of a slotted air gap, as parts of that of a smooth one.
 
-    Parameters
-    ----------
-    opening, pitch : float
-        Width of the slots and distance between them [m].
-    gap : float
-        Air gap [m].
-    depth : float
-        Depth of the copper below the teeth [m].
-    permittivity : float
-        Relative permittivity in the slot.
-
-    Returns
-    -------
-    winding : float
-        Capacitance between rotor and winding.
-    rotor : float
-        Capacitance between the rotor and all that it faces; one over Carter's coefficient for deep slots.
+    ``opening`` and ``pitch``, width of the slots and distance between them [m]; ``gap`` [m]; ``depth``, depth
+    of the copper below the teeth [m]. Returns ``winding``, capacitance between rotor and winding; ``rotor``,
+    capacitance between the rotor and all that it faces; one over Carter's coefficient for deep slots.
 
     Examples
     --------
@@ -211,21 +152,10 @@ _SETTLED = 1e-12
 def charge_density(gap: ArrayLike, tilt: ArrayLike, far: ArrayLike, near: ArrayLike) -> Array:
     """Charge density on the near one of two conducting surfaces, divided by eps0 eps V.
 
-    Parameters
-    ----------
-    gap : array_like, shape (...)
-        Distance delta from a point of the near surface along the normal of the far surface [m].
-    tilt : array_like, shape (...)
-        Angle beta between this normal and the normal of the near surface at the point, from 0 to below pi
-        [rad].
-    far, near : array_like, shape (...)
-        Sum of the two principal curvatures of the far and of the near surface [1/m]. It is positive where the
-        centre lies beyond the far surface, for example 2/r for a ball and 2/(r + h) for a shell around it.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Charge density over eps0 eps V [1/m].
+    ``gap``, distance delta from a point of the near surface along the normal of the far surface [m],
+    shape (...); ``tilt``, angle beta between this normal and the normal of the near surface at the point,
+    from 0 to below pi [rad], shape (...); ``far`` and ``near``, sum of the two principal curvatures of the
+    far and of the near surface [1/m], shape (...). Returns charge density over eps0 eps V [1/m], shape (...).
 
     Examples
     --------
@@ -255,18 +185,8 @@ def stretched(start: ArrayLike, end: ArrayLike, scale: ArrayLike, nodes: int) ->
     of pi/2 from the path of integration, however small the scale is. The length of the path grows only with
     the logarithm of the end over the scale.
 
-    Parameters
-    ----------
-    start, end, scale : array_like, shapes that broadcast to (...)
-        Ends of the integral, and distance over which the function changes, in the unit of x. ``scale`` is
-        positive.
-    nodes : int
-        Number of nodes.
-
-    Returns
-    -------
-    x, weights : ndarray, shape (..., nodes)
-        Nodes and weights, in the unit of x.
+    ``start``, ``end`` and ``scale``, ends of the integral, and distance over which the function changes, in
+    the unit of x. Returns nodes and weights, in the unit of x, shape (..., nodes).
 
     Examples
     --------
@@ -289,20 +209,10 @@ def matched_offset(missing: Callable[[Array], Array], thickness: Array) -> tuple
     With this offset the error of 1/h adds up to zero over the edge. The gap need not fit at every point.
     Several films are matched at once.
 
-    Parameters
-    ----------
-    missing : callable
-        Function that gives, for offsets of shape (..., 1) [m], the film thickness less the gap at each point
-        of the edge, shape (..., n) [m]. The gap grows with the offset, at a small angle to it.
-    thickness : ndarray, shape (..., n)
-        Film thickness at the points [m].
-
-    Returns
-    -------
-    offset : ndarray, shape (...)
-        Offset [m].
-    mismatch : ndarray, shape (...)
-        Largest difference between film thickness and gap over the film thickness, dimensionless.
+    ``missing``, function that gives, for offsets of shape (..., 1) [m], the film thickness less the gap at
+    each point of the edge, shape (..., n) [m]; ``thickness``, film thickness at the points [m],
+    shape (..., n). Returns ``offset``, offset [m], shape (...); ``mismatch``, largest difference between film
+    thickness and gap over the film thickness, dimensionless, shape (...).
 
     Examples
     --------

@@ -54,16 +54,6 @@ class Formula(Generic[_Contact]):
     To add a formula, write its function and add an entry to ``FORMULAS``. Results, summaries and tables then
     contain it.
 
-    Attributes
-    ----------
-    name : str
-        Name of the formula in printed tables.
-    function : callable
-        Function of a contact that returns its ``Thickness``.
-    piezoviscous : bool
-        Whether the formula holds for piezoviscous lubricants only. It then gives no film thickness for an
-        isoviscous lubricant.
-
     Examples
     --------
     >>> contact = LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 0.0)
@@ -72,7 +62,9 @@ class Formula(Generic[_Contact]):
     """
 
     name: str
-    function: Callable[[_Contact], Thickness]
+    function: Callable[[_Contact], Thickness]  # function of a contact that returns its ``Thickness``
+    # Whether the formula holds for piezoviscous lubricants only. It then gives no film thickness for an
+    # isoviscous lubricant.
     piezoviscous: bool = False
 
     def __call__(self, contact: _Contact) -> Thickness:
@@ -86,21 +78,11 @@ class Formula(Generic[_Contact]):
 class LineContact:
     """Line contact with the inputs of the film-thickness formulas, in SI units.
 
-    Parameters
-    ----------
-    reduced_radius : float
-        Reduced radius R [m], with 1/R = 1/R1 + 1/R2.
-    reduced_modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    load_per_length : float
-        Load per length w [N/m].
-    entrainment_speed : float
-        Mean surface speed (u1 + u2)/2 [m/s].
-    viscosity : float
-        Viscosity eta0 at zero pressure [Pa s].
-    pressure_viscosity_coefficient : float
-        Reciprocal asymptotic coefficient alpha of the oil's law [1/Pa], which is the slope of ln(eta)
-        for Barus' law; zero for an isoviscous lubricant.
+    ``reduced_radius`` [m]; ``reduced_modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 -
+    nu2^2)/E2; ``load_per_length`` [N/m]; ``entrainment_speed``, mean surface speed (u1 + u2)/2 [m/s];
+    ``viscosity``, viscosity eta0 at zero pressure [Pa s]; ``pressure_viscosity_coefficient``, reciprocal
+    asymptotic coefficient alpha of the oil's law [1/Pa], which is the slope of ln(eta) for Barus' law; zero
+    for an isoviscous lubricant.
     """
 
     reduced_radius: float
@@ -148,18 +130,8 @@ def dowson_higginson(contact: LineContact) -> Thickness:
     U = eta0 u/(E' R) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = w/(E' R). The formula is for
     piezoviscous lubricants: for alpha = 0 it gives zero.
 
-    Parameters
-    ----------
-    contact : LineContact
-        Radius, modulus, load, speed and lubricant of the contact.
+    Returns minimum film thickness [m].
 
-    Returns
-    -------
-    Thickness
-        Minimum film thickness [m].
-
-    Notes
-    -----
     D. Dowson, Elastohydrodynamics, Proc. Inst. Mech. Eng. 182 (3A), 1967-68, 151-167.
 
     Examples
@@ -178,18 +150,8 @@ def dowson_toyoda(contact: LineContact) -> CentralThickness:
     U = eta0 u/(E' R) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = w/(E' R). The formula is for
     piezoviscous lubricants: for alpha = 0 it gives zero.
 
-    Parameters
-    ----------
-    contact : LineContact
-        Radius, modulus, load, speed and lubricant of the contact.
+    Returns central film thickness [m].
 
-    Returns
-    -------
-    CentralThickness
-        Central film thickness [m].
-
-    Notes
-    -----
     D. Dowson and S. Toyoda, A central film thickness formula for elastohydrodynamic line contacts,
     Proc. 5th Leeds-Lyon Symposium on Tribology, 1978.
 
@@ -211,18 +173,8 @@ def pan_hamrock(contact: LineContact) -> BothThicknesses:
     U = eta0 u/(E' R) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = w/(E' R). The formulas are for
     piezoviscous lubricants: for alpha = 0 they give zero.
 
-    Parameters
-    ----------
-    contact : LineContact
-        Radius, modulus, load, speed and lubricant of the contact.
+    Returns minimum and central film thickness [m].
 
-    Returns
-    -------
-    BothThicknesses
-        Minimum and central film thickness [m].
-
-    Notes
-    -----
     P. Pan and B. J. Hamrock, J. Tribol. 111 (1989) 246-251, doi:10.1115/1.3261900.
 
     Examples
@@ -259,18 +211,8 @@ def moes(contact: LineContact) -> CentralThickness:
     H = (h/R) (eta0 u_s/(E' R))^(-1/2), and M and L are the Moes groups of the contact, all with the sum of
     the surface speeds u_s = u1 + u2.
 
-    Parameters
-    ----------
-    contact : LineContact
-        Radius, modulus, load, speed and lubricant of the contact.
+    Returns central film thickness [m].
 
-    Returns
-    -------
-    CentralThickness
-        Central film thickness [m].
-
-    Notes
-    -----
     In the isoviscous-rigid limit (Martin's contact) 3/M is the film thickness where the pressure gradient
     vanishes; the minimum there is 2.447/M.
 
@@ -307,16 +249,6 @@ def regime(contact: LineContact) -> str:
     piezoviscous regimes, the one with the thinner film. The thicker film of these two names the regime. The
     Moes formula combines the four films in the same way.
 
-    Parameters
-    ----------
-    contact : LineContact
-        Radius, modulus, load, speed and lubricant of the contact.
-
-    Returns
-    -------
-    str
-        "isoviscous-rigid", "isoviscous-elastic", "piezoviscous-rigid" or "piezoviscous-elastic".
-
     Examples
     --------
     >>> regime(LineContact(14.1e-3, 226e9, 1.57e6, 4.0, 0.04, 22e-9))
@@ -332,16 +264,6 @@ def dominant(films: Mapping[str, float]) -> str:
 
     The thicker film of the isoviscous pair and the thinner film of the piezoviscous pair are compared, and
     the thicker of the two names the regime.
-
-    Parameters
-    ----------
-    films : mapping of str to float
-        Film thickness by name of the regime, in any unit.
-
-    Returns
-    -------
-    str
-        Name of the regime.
 
     Examples
     --------

@@ -19,21 +19,11 @@ from ehlectric.formulas.hertz import axis_ratio
 class PointContact:
     """Point contact with the inputs of the film-thickness formulas, in SI units.
 
-    Parameters
-    ----------
-    radius_x, radius_y : float
-        Reduced radii Rx along and Ry across entrainment [m].
-    reduced_modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    load : float
-        Load F [N].
-    entrainment_speed : float
-        Mean surface speed (u1 + u2)/2 [m/s].
-    viscosity : float
-        Viscosity eta0 at zero pressure [Pa s].
-    pressure_viscosity_coefficient : float
-        Reciprocal asymptotic coefficient alpha of the oil's law [1/Pa], which is the slope of ln(eta)
-        for Barus' law; zero for an isoviscous lubricant.
+    ``radius_x`` and ``radius_y``, reduced radii Rx along and Ry across entrainment [m]; ``reduced_modulus``,
+    reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; ``load`` [N]; ``entrainment_speed``,
+    mean surface speed (u1 + u2)/2 [m/s]; ``viscosity``, viscosity eta0 at zero pressure [Pa s];
+    ``pressure_viscosity_coefficient``, reciprocal asymptotic coefficient alpha of the oil's law [1/Pa], which
+    is the slope of ln(eta) for Barus' law; zero for an isoviscous lubricant.
     """
 
     radius_x: float
@@ -80,18 +70,8 @@ def hamrock_dowson(contact: PointContact) -> BothThicknesses:
     semi-axis of the dry contact across entrainment over the semi-axis along it. The formulas are for
     piezoviscous lubricants: for alpha = 0 they give zero.
 
-    Parameters
-    ----------
-    contact : PointContact
-        Radii, modulus, load, speed and lubricant of the contact.
+    Returns minimum and central film thickness [m].
 
-    Returns
-    -------
-    BothThicknesses
-        Minimum and central film thickness [m].
-
-    Notes
-    -----
     B. J. Hamrock and D. Dowson, J. Lubr. Technol. 99 (1977) 264-275, doi:10.1115/1.3453074. The formulas are
     fits to solutions for hard contacts (steel and oil) with k from 1 to 8 and entrainment along the minor
     axis. Contacts with Ry below Rx are outside their range. The exact k replaces the fit of the paper,
@@ -123,18 +103,8 @@ def chittenden(contact: PointContact) -> BothThicknesses:
     U = eta0 u/(E' Rx) with the mean speed u = (u1 + u2)/2, G = alpha E' and W = F/(E' Rx^2). The formulas are
     for piezoviscous lubricants: for alpha = 0 they give zero.
 
-    Parameters
-    ----------
-    contact : PointContact
-        Radii, modulus, load, speed and lubricant of the contact.
+    Returns minimum and central film thickness [m].
 
-    Returns
-    -------
-    BothThicknesses
-        Minimum and central film thickness [m].
-
-    Notes
-    -----
     R. J. Chittenden, D. Dowson, J. F. Dunn and C. M. Taylor, Proc. R. Soc. Lond. A 397 (1985) 245-294,
     doi:10.1098/rspa.1985.0014, and the paper that follows it in the same volume. Their radii Re and Rs are Rx
     and Ry here. The formulas are fits to solutions for hard contacts, with entrainment along either axis of
@@ -180,18 +150,8 @@ def nijenbanning_venner_moes(contact: PointContact) -> CentralThickness:
     H = (h/Rx) (eta0 u_s/(E' Rx))^(-1/2), and M and L are the Moes groups of the contact, all with the sum of
     the surface speeds u_s = u1 + u2.
 
-    Parameters
-    ----------
-    contact : PointContact
-        Radii, modulus, load, speed and lubricant of the contact.
+    Returns central film thickness [m].
 
-    Returns
-    -------
-    CentralThickness
-        Central film thickness [m].
-
-    Notes
-    -----
     G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3. The
     formula holds for D up to 1, that is, entrainment along the minor axis, and for all M and L.
 
@@ -232,16 +192,6 @@ def regime(contact: PointContact) -> str:
     Of the two isoviscous regimes, rigid and elastic, the one with the thicker film counts; of the two
     piezoviscous regimes, the one with the thinner film. The thicker film of these two names the regime. The
     formula combines the four films in the same way.
-
-    Parameters
-    ----------
-    contact : PointContact
-        Radii, modulus, load, speed and lubricant of the contact.
-
-    Returns
-    -------
-    str
-        "isoviscous-rigid", "isoviscous-elastic", "piezoviscous-rigid" or "piezoviscous-elastic".
 
     Examples
     --------

@@ -46,17 +46,9 @@ _BLOCK, _FEW = 2048, 500
 
 
 def both_rd(x: Array, y: Array, z: Array) -> tuple[Array, Array]:
-    """Carlson's R_D(x, y, z) and R_D(x, z, y), which share their duplications.
-
-    Parameters
-    ----------
-    x, y, z : ndarray, shapes that broadcast to (...)
-        Arguments; ``x`` not negative, ``y`` and ``z`` positive.
-
-    Returns
-    -------
-    first, second : ndarray, shape (...)
-        R_D(x, y, z) and R_D(x, z, y), with a relative error below 1e-14.
+    """Carlson's R_D(x, y, z) and R_D(x, z, y), which share their duplications. ``x``, ``y`` and ``z``,
+    arguments; ``x`` not negative, ``y`` and ``z`` positive. Returns R_D(x, y, z) and R_D(x, z, y), with a
+    relative error below 1e-14, shape (...).
 
     Examples
     --------
@@ -117,20 +109,10 @@ def _series(x: Array, y: Array, z: Array) -> Array:
 
 
 def reduced_radius(radius_1: float, radius_2: float) -> float:
-    """Reduced radius R of two cylinders, 1/R = 1/R1 + 1/R2.
+    """Reduced radius R of two cylinders, 1/R = 1/R1 + 1/R2. ``radius_1`` and ``radius_2``, radii R1 and R2
+    [m]; negative for a concave body, infinite for a plane. Returns R [m]; it is negative if the radius of a
+    concave body is smaller than that of the other body.
 
-    Parameters
-    ----------
-    radius_1, radius_2 : float
-        Radii R1 and R2 [m]; negative for a concave body, infinite for a plane.
-
-    Returns
-    -------
-    float
-        R [m]. It is negative if the radius of a concave body is smaller than that of the other body.
-
-    Notes
-    -----
     Eq. (4) of Morris et al. (2022), doi:10.3390/lubricants10050087.
 
     Examples
@@ -142,19 +124,8 @@ def reduced_radius(radius_1: float, radius_2: float) -> float:
 
 
 def body_compliance(youngs_modulus: float, poissons_ratio: float) -> float:
-    """Plane-strain compliance of one body, (1 - nu^2)/E [1/Pa].
-
-    Parameters
-    ----------
-    youngs_modulus : float
-        Young's modulus E [Pa].
-    poissons_ratio : float
-        Poisson's ratio nu, dimensionless.
-
-    Returns
-    -------
-    float
-        Compliance [1/Pa].
+    """Plane-strain compliance of one body, (1 - nu^2)/E [1/Pa]. ``youngs_modulus``, young's modulus E [Pa];
+    ``poissons_ratio``, poisson's ratio nu, dimensionless.
 
     Examples
     --------
@@ -165,20 +136,9 @@ def body_compliance(youngs_modulus: float, poissons_ratio: float) -> float:
 
 
 def reduced_modulus(compliance_1: float, compliance_2: float) -> float:
-    """Reduced modulus E' of two bodies, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    """Reduced modulus E' of two bodies, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. ``compliance_1`` and
+    ``compliance_2``, plane-strain compliances (1 - nu^2)/E of the two bodies [1/Pa]. Returns E' [Pa].
 
-    Parameters
-    ----------
-    compliance_1, compliance_2 : float
-        Plane-strain compliances (1 - nu^2)/E of the two bodies [1/Pa].
-
-    Returns
-    -------
-    float
-        E' [Pa].
-
-    Notes
-    -----
     Eq. (3) of Morris et al. (2022), doi:10.3390/lubricants10050087.
 
     Examples
@@ -193,24 +153,10 @@ def reduced_modulus(compliance_1: float, compliance_2: float) -> float:
 
 
 def line_half_width(load_per_length: float, radius: float, modulus: float) -> float:
-    """Half-width of a dry line contact, b = sqrt(8 w R/(pi E')).
+    """Half-width of a dry line contact, b = sqrt(8 w R/(pi E')). ``load_per_length`` [N/m]; ``radius``,
+    reduced radius R [m]; ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    Returns b [m].
 
-    Parameters
-    ----------
-    load_per_length : float
-        Load per length w [N/m].
-    radius : float
-        Reduced radius R [m].
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-
-    Returns
-    -------
-    float
-        b [m].
-
-    Notes
-    -----
     Eq. (2) of Morris et al. (2022), doi:10.3390/lubricants10050087.
 
     Examples
@@ -222,21 +168,9 @@ def line_half_width(load_per_length: float, radius: float, modulus: float) -> fl
 
 
 def line_max_pressure(load_per_length: float, radius: float, modulus: float) -> float:
-    """Largest Hertz pressure of a line contact, p_h = 2 w/(pi b).
-
-    Parameters
-    ----------
-    load_per_length : float
-        Load per length w [N/m].
-    radius : float
-        Reduced radius R [m].
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-
-    Returns
-    -------
-    float
-        p_h [Pa].
+    """Largest Hertz pressure of a line contact, p_h = 2 w/(pi b). ``load_per_length`` [N/m]; ``radius``,
+    reduced radius R [m]; ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    Returns p_h [Pa].
 
     Examples
     --------
@@ -249,20 +183,8 @@ def line_max_pressure(load_per_length: float, radius: float, modulus: float) -> 
 
 def line_load(max_pressure: float, radius: float, modulus: float) -> float:
     """Load per length of a line contact from its largest Hertz pressure, w = 2 pi R p_h^2/E'.
-
-    Parameters
-    ----------
-    max_pressure : float
-        Largest Hertz pressure p_h [Pa].
-    radius : float
-        Reduced radius R [m].
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-
-    Returns
-    -------
-    float
-        w [N/m].
+    ``max_pressure``, largest Hertz pressure p_h [Pa]; ``radius``, reduced radius R [m]; ``modulus``, reduced
+    modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Returns w [N/m].
 
     Examples
     --------
@@ -273,17 +195,9 @@ def line_load(max_pressure: float, radius: float, modulus: float) -> float:
 
 
 def line_pressure(x: ArrayLike) -> Array:
-    """Hertz pressure of a line contact, P = sqrt(1 - X^2) inside the contact and zero outside.
-
-    Parameters
-    ----------
-    x : array_like, shape (...)
-        Position X = x/b with the half-width b, dimensionless.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        P = p/p_h, dimensionless.
+    """Hertz pressure of a line contact, P = sqrt(1 - X^2) inside the contact and zero outside. ``x``,
+    position X = x/b with the half-width b, dimensionless, shape (...). Returns P = p/p_h, dimensionless,
+    shape (...).
 
     Examples
     --------
@@ -298,18 +212,9 @@ def line_gap(x: ArrayLike) -> Array:
 
     H = (abs(X) sqrt(X^2 - 1) - ln(abs(X) + sqrt(X^2 - 1)))/2 for abs(X) > 1
 
-    Parameters
-    ----------
-    x : array_like, shape (...)
-        Position X = x/b with the half-width b, dimensionless.
+    ``x``, position X = x/b with the half-width b, dimensionless, shape (...). Returns H = h R/b^2,
+    dimensionless, shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        H = h R/b^2, dimensionless.
-
-    Notes
-    -----
     K. L. Johnson, Contact Mechanics, 1985, section 4.2, doi:10.1017/CBO9781139171731.
 
     Examples
@@ -325,18 +230,8 @@ def line_gap(x: ArrayLike) -> Array:
 
 def line_opening(x: ArrayLike, half_width: float, radius: float) -> Array:
     """Elastic deflection of a dry line contact: the distance by which it opens the gap of two parabolas.
-
-    Parameters
-    ----------
-    x : array_like, shape (...)
-        Position [m].
-    half_width, radius : float
-        Half-width b of the dry contact and reduced radius R [m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Deflection [m], up to a constant: it is zero at x = 0.
+    ``x`` [m], shape (...); ``half_width`` and ``radius``, half-width b of the dry contact and reduced radius
+    R [m]. Returns deflection [m], up to a constant: it is zero at x = 0, shape (...).
 
     Examples
     --------
@@ -360,21 +255,13 @@ class DryContact:
     """Semi-axes, largest pressure and approach of the dry (Hertz) contact of two bodies.
 
     The values may be arrays that broadcast with positions, for several contacts at once.
-
-    Attributes
-    ----------
-    semi_axis_x, semi_axis_y : float
-        Semi-axes of the contact ellipse, b along and a across entrainment [m].
-    max_pressure : float
-        Largest Hertz pressure p_h [Pa].
-    approach : float
-        Distance by which points of the two bodies far from the contact approach each other [m].
     """
 
+    # semi_axis_x and semi_axis_y: semi-axes of the contact ellipse, b along and a across entrainment [m].
     semi_axis_x: float
     semi_axis_y: float
-    max_pressure: float
-    approach: float
+    max_pressure: float  # largest Hertz pressure p_h [Pa]
+    approach: float  # distance by which points of the two bodies far from the contact approach each other [m]
 
 
 @lru_cache(maxsize=256)
@@ -383,18 +270,9 @@ def axis_ratio(radius_x: float, radius_y: float) -> float:
 
     The equation Ry/Rx = R_D(0, k^2, 1)/R_D(0, 1, k^2) is solved for k, with Carlson's elliptic integral R_D.
 
-    Parameters
-    ----------
-    radius_x, radius_y : float
-        Reduced radii Rx along and Ry across entrainment [m].
+    ``radius_x`` and ``radius_y``, reduced radii Rx along and Ry across entrainment [m]. Returns k,
+    dimensionless; above 1 if ``radius_y`` is larger than ``radius_x``.
 
-    Returns
-    -------
-    float
-        k, dimensionless; above 1 if ``radius_y`` is larger than ``radius_x``.
-
-    Notes
-    -----
     K. L. Johnson, Contact Mechanics, 1985, eq. (4.28), doi:10.1017/CBO9781139171731.
 
     Examples
@@ -423,23 +301,10 @@ def dry_contact(load: float, radius_x: float, radius_y: float, modulus: float) -
     b^3 = 2 F Rx R_D(0, k^2, 1)/(pi E') for the semi-axis b along entrainment, with Carlson's elliptic
     integral R_D. The semi-axis across entrainment is k b, and p_h = 3 F/(2 pi k b^2).
 
-    Parameters
-    ----------
-    load : float
-        Load F [N].
-    radius_x, radius_y : float
-        Reduced radii Rx along and Ry across entrainment [m].
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    ``load`` [N]; ``radius_x`` and ``radius_y``, reduced radii Rx along and Ry across entrainment [m];
+    ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Returns semi-axes [m],
+    largest pressure [Pa] and approach [m].
 
-    Returns
-    -------
-    DryContact
-        Semi-axes [m], largest pressure [Pa] and approach [m]. For equal radii R they are those of a circle
-        with b^3 = 3 F R/(2 E') and the approach b^2/R.
-
-    Notes
-    -----
     K. L. Johnson, Contact Mechanics, 1985, section 4.2, doi:10.1017/CBO9781139171731.
 
     Examples
@@ -462,19 +327,9 @@ def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: f
 
     F = (2 pi k/3) p_h b^2 with b = 4 p_h Rx k R_D(0, k^2, 1)/(3 E'), with Carlson's elliptic integral R_D.
 
-    Parameters
-    ----------
-    max_pressure : float
-        Largest Hertz pressure p_h [Pa].
-    radius_x, radius_y : float
-        Reduced radii Rx along and Ry across entrainment [m].
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-
-    Returns
-    -------
-    float
-        Load F [N], proportional to the cube of the pressure.
+    ``max_pressure``, largest Hertz pressure p_h [Pa]; ``radius_x`` and ``radius_y``, reduced radii Rx along
+    and Ry across entrainment [m]; ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 -
+    nu2^2)/E2. Returns load F [N], proportional to the cube of the pressure.
 
     Examples
     --------
@@ -489,17 +344,9 @@ def point_load(max_pressure: float, radius_x: float, radius_y: float, modulus: f
 def point_pressure(x: ArrayLike, y: ArrayLike, ratio: float) -> Array:
     """Hertz pressure of a point contact, P = sqrt(1 - X^2 - (Y/k)^2) inside the contact and zero outside.
 
-    Parameters
-    ----------
-    x, y : array_like, shapes that broadcast to (...)
-        Positions X = x/b and Y = y/b with the semi-axis b along entrainment, dimensionless.
-    ratio : float
-        k, the semi-axis across entrainment over the semi-axis along it, dimensionless.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        P = p/p_h, dimensionless.
+    ``x`` and ``y``, positions X = x/b and Y = y/b with the semi-axis b along entrainment, dimensionless;
+    ``ratio``, k, the semi-axis across entrainment over the semi-axis along it, dimensionless. Returns P =
+    p/p_h, dimensionless, shape (...).
 
     Examples
     --------
@@ -515,22 +362,10 @@ def point_deflection(x: ArrayLike, y: ArrayLike, contact: DryContact, modulus: f
 
     The deflection is computed both inside and outside the contact ellipse.
 
-    Parameters
-    ----------
-    x, y : array_like, shapes that broadcast to (...)
-        Positions along and across entrainment [m].
-    contact : DryContact
-        Semi-axes b along and a across entrainment, and largest pressure p_h.
-    modulus : float
-        Reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+    ``x`` and ``y``, positions along and across entrainment [m]; ``modulus``, reduced modulus E' [Pa], with
+    2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Returns deflection [m], shape (...); in the middle of the contact
+    it is the approach, far away 2 F/(pi E' r).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Deflection [m]. In the middle of the contact it is the approach, far away 2 F/(pi E' r).
-
-    Notes
-    -----
     The deflection is (p_h a b/E') I with the integral
     I = int_w0^inf (1 - x^2/(b^2 + w) - y^2/(a^2 + w)) dw/sqrt(w (a^2 + w) (b^2 + w)). Inside the ellipse w0
     is zero; outside it is the positive root w of x^2/(b^2 + w) + y^2/(a^2 + w) = 1. See K. L. Johnson,

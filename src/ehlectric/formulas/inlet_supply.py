@@ -32,24 +32,11 @@ def inlet_shear_factor(viscosity: float, slope: float, speed: float, conductivit
 
     1/(1 + 0.241 L^0.64) with the thermal loading parameter L = eta0 beta u^2/k
 
-    Parameters
-    ----------
-    viscosity : float
-        Viscosity eta0 at the inlet temperature [Pa s].
-    slope : float
-        Temperature coefficient of viscosity beta = -d ln(eta0)/dT [1/K].
-    speed : float
-        Mean speed u of both surfaces [m/s].
-    conductivity : float
-        Thermal conductivity k of the oil [W/(m K)].
+    ``viscosity``, viscosity eta0 at the inlet temperature [Pa s]; ``slope``, temperature coefficient of
+    viscosity beta = -d ln(eta0)/dT [1/K]; ``speed``, mean speed u of both surfaces [m/s]; ``conductivity``,
+    thermal conductivity k of the oil [W/(m K)]. Returns central film thickness over the isothermal one, from
+    0 to 1.
 
-    Returns
-    -------
-    float
-        Central film thickness over the isothermal one, from 0 to 1.
-
-    Notes
-    -----
     W. R. D. Wilson and S. Sheu, Effect of inlet shear heating due to sliding on elastohydrodynamic film
     thickness, ASME J. Lubr. Technol. 105 (1983) 187, doi:10.1115/1.3254563, eq. (8). It was derived for the
     inlet of a line contact, and is used for elliptical contacts too. Of three published formulas it is the
@@ -84,26 +71,11 @@ def replenishment_factor(
 
     phi = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), with nu in mm^2/s, n in rpm, d and D in mm
 
-    Parameters
-    ----------
-    speed : array_like, shape (...)
-        Rotational speed n of the inner ring [rad/s], >= 0.
-    viscosity : array_like, shape (...)
-        Kinematic viscosity nu of the oil, or of the base oil of a grease, in operation [m^2/s].
-    bore, outer_diameter : float
-        Bore d and outside diameter D of the bearing [m].
-    supply : str
-        Key of ``SUPPLY_CONSTANTS``.
-    kind : str
-        Key of ``GEOMETRY_CONSTANTS``.
+    ``speed``, rotational speed n of the inner ring [rad/s], >= 0, shape (...); ``viscosity``, kinematic
+    viscosity nu of the oil, or of the base oil of a grease, in operation [m^2/s], shape (...); ``bore`` and
+    ``outer_diameter``, bore d and outside diameter D of the bearing [m]. Returns factor from 0 to 1,
+    dimensionless, shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Factor from 0 to 1, dimensionless.
-
-    Notes
-    -----
     SKF, Rolling bearings, PUB BU/P1 17000, and The SKF model for calculating the frictional moment. The form,
     K_rs, and K_Z of ball bearings agree in three or more independent programs; the K_Z of cylindrical rollers
     with a cage, 5.1, is from memory. SKF reduces the rolling frictional moment by the factor, and explains it
@@ -139,28 +111,12 @@ def decay_rate(
 
     F = (2/l) (p_h/b^2) (a/eta0) pi ((pi alpha p_h/2)^(3/2) + 1)^(-2/3)
 
-    Parameters
-    ----------
-    max_pressure : float
-        Hertz pressure p_h [Pa].
-    semi_axes : tuple of float
-        Semi-axes a along and b across the track [m].
-    viscosity : float
-        Viscosity eta0 of the oil at ambient pressure [Pa s].
-    pressure_viscosity_coefficient : float
-        Pressure-viscosity coefficient alpha [1/Pa].
-    density_ratio : float
-        Density rho of the oil at the Hertz pressure over that at ambient pressure, dimensionless.
-    track_length : float
-        Length l of the tracks on both surfaces together from which one contact presses oil [m].
+    ``max_pressure``, Hertz pressure p_h [Pa]; ``semi_axes``, semi-axes a along and b across the track [m];
+    ``viscosity``, viscosity eta0 of the oil at ambient pressure [Pa s]; ``pressure_viscosity_coefficient``
+    [1/Pa]; ``density_ratio``, density rho of the oil at the Hertz pressure over that at ambient pressure,
+    dimensionless; ``track_length``, length l of the tracks on both surfaces together from which one contact
+    presses oil [m]. Returns rate [1/(m^2 s)].
 
-    Returns
-    -------
-    float
-        Rate [1/(m^2 s)].
-
-    Notes
-    -----
     M. T. van Zoelen, C. H. Venner and P. M. Lugt, Proc. IMechE J 223 (2009) 541; C. H. Venner, M. T. van
     Zoelen and P. M. Lugt, Tribol. Int. 47 (2012) 175; both second-hand, as later work on grease prints the
     law. The pressure gradient across the track drives the oil
@@ -182,14 +138,8 @@ def decay_rate(
 
 
 def film_half_time(thickness: ArrayLike, rate: ArrayLike) -> Array:
-    """Time after which a film without supply has half of its thickness, t = 3/(rate h0^2) [s].
-
-    Parameters
-    ----------
-    thickness : array_like, shape (...)
-        Central film thickness h0 at the start [m].
-    rate : array_like, shape (...)
-        Rate of ``decay_rate`` [1/(m^2 s)].
+    """Time after which a film without supply has half of its thickness, t = 3/(rate h0^2) [s]. ``thickness``,
+    central film thickness h0 at the start [m], shape (...); ``rate`` [1/(m^2 s)], shape (...).
 
     Examples
     --------
@@ -215,21 +165,8 @@ def line_rolling_force(contact: LineContact, load_per_length: ArrayLike) -> Arra
 
     F/(E' R) = 1.016 U^(3/4) 1.4 M^(1/2)/(1 + (0.966 M^(1/2))^10)^(1/10), U = 2 eta0 u/(E' R), M = W/U^(1/2)
 
-    Parameters
-    ----------
-    contact : LineContact
-        Contact; its load and its pressure-viscosity coefficient have no effect.
-    load_per_length : array_like, shape (...)
-        Loads per length [N/m], >= 0.
+    ``load_per_length`` [N/m], shape (...). Returns force [N/m], shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Force [N/m]. It goes with the square root of the load for light loads, and does not depend on heavy
-        ones.
-
-    Notes
-    -----
     Equations (40) to (42) of N. Biboulet and L. Houpert, Hydrodynamic force and moment in pure rolling
     lubricated contacts, part 1: line contacts, Proc. IMechE J 224 (2010), doi:10.1243/13506501JET790. The
     fit holds for M from 0.2 to 200 and L from 4 to 16.
@@ -256,20 +193,10 @@ def point_rolling_force(contact: PointContact, load: ArrayLike) -> Array:
     with U = 2 eta0 u/(E' Rx), M = c^(1/4) k W/U^(3/4), W = Q/(E' Rx^2), c = b E'/(pi p_h Rx), and k = b/a of
     the semi-axes b along and a across entrainment.
 
-    Parameters
-    ----------
-    contact : PointContact
-        Contact with a load > 0; the load and the pressure-viscosity coefficient have no effect.
-    load : array_like, shape (...)
-        Loads Q [N], >= 0.
+    ``contact``, contact with a load > 0; the load and the pressure-viscosity coefficient have no effect;
+    ``load`` [N], shape (...). Returns force [N], shape (...); it goes with the cube root of the load, as the
+    width 2 a, for light and for heavy loads.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Force [N]. It goes with the cube root of the load, as the width 2 a, for light and for heavy loads.
-
-    Notes
-    -----
     Equation (32) of N. Biboulet and L. Houpert, Hydrodynamic force and moment in pure rolling lubricated
     contacts, part 2: point contacts, Proc. IMechE J 224 (2010), doi:10.1243/13506501JET791. The fit holds
     for k up to 1, M from 0.2 to 800 and L from 4 to 16.

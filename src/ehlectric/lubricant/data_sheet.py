@@ -54,16 +54,6 @@ _B = 0.00715
 def grade_middle(grade: int) -> float:
     """Kinematic viscosity at 40 degC in the middle of the range of a viscosity grade of ISO 3448 [m^2/s].
 
-    Parameters
-    ----------
-    grade : int
-        Viscosity grade, one of ``GRADES``.
-
-    Returns
-    -------
-    float
-        Kinematic viscosity at 40 degC [m^2/s].
-
     Examples
     --------
     >>> grade_middle(46), grade_middle(5)
@@ -79,25 +69,11 @@ def _reference(at_100: float) -> tuple[float, float]:
 
 
 def viscosity_index(at_40: float, at_100: float) -> float:
-    """Viscosity index of an oil, by procedures A (up to 100) and B (above) of ASTM D2270.
+    """Viscosity index of an oil, by procedures A (up to 100) and B (above) of ASTM D2270. ``at_40`` and
+    ``at_100``, kinematic viscosities at 40 and 100 degC [m^2/s]; at 100 degC at least 2 mm^2/s. Returns
+    viscosity index, dimensionless, not rounded. Raises ValueError if the viscosity at 100 degC is below 2
+    mm^2/s.
 
-    Parameters
-    ----------
-    at_40, at_100 : float
-        Kinematic viscosities at 40 and 100 degC [m^2/s]; at 100 degC at least 2 mm^2/s.
-
-    Returns
-    -------
-    float
-        Viscosity index, dimensionless, not rounded.
-
-    Raises
-    ------
-    ValueError
-        If the viscosity at 100 degC is below 2 mm^2/s.
-
-    Notes
-    -----
     ASTM D2270-10, Standard Practice for Calculating Viscosity Index from Kinematic Viscosity at 40 and
     100 degC, with the quadratic equations of its appendix X2 for the reference oils.
 
@@ -116,24 +92,9 @@ def viscosity_index(at_40: float, at_100: float) -> float:
 
 
 def viscosity_at_100(at_40: float, index: float) -> float:
-    """Kinematic viscosity at 100 degC of an oil with a viscosity index: ASTM D2270 solved for it.
-
-    Parameters
-    ----------
-    at_40 : float
-        Kinematic viscosity at 40 degC [m^2/s].
-    index : float
-        Viscosity index, from 0.
-
-    Returns
-    -------
-    float
-        Kinematic viscosity at 100 degC [m^2/s].
-
-    Raises
-    ------
-    ValueError
-        If the oil has less than 2 mm^2/s at 100 degC, or more than the equations are solved for.
+    """Kinematic viscosity at 100 degC of an oil with a viscosity index: ASTM D2270 solved for it. ``at_40``,
+    kinematic viscosity at 40 degC [m^2/s]. Returns kinematic viscosity at 100 degC [m^2/s]. Raises ValueError
+    if the oil has less than 2 mm^2/s at 100 degC, or more than the equations are solved for.
 
     Examples
     --------
@@ -173,22 +134,10 @@ GOLD = (
 
 @dataclass(frozen=True)
 class Estimate:
-    """Estimated value of a property, with its scatter and its source.
+    """Estimated value of a property, with its scatter and its source."""
 
-    Attributes
-    ----------
-    value : float
-        Estimated value, SI units.
-    scatter : float
-        Relative deviation of measured values from the estimate, which nine of ten do not exceed.
-    source : str
-        Publication of the correlation.
-    base_oil : str
-        Type of base oil for which the estimate holds.
-    """
-
-    value: float
-    scatter: float
+    value: float  # estimated value, SI units
+    scatter: float  # relative deviation of measured values from the estimate, which nine of ten do not exceed
     source: str
     base_oil: str
     of: ClassVar[str] = "viscosity"
@@ -209,22 +158,11 @@ def so_klaus(kinematic_viscosity: float, slope: float, density: float) -> float:
     alpha = 1.216 + 4.143 L^3.0627 + 2.848e-4 b^5.1903 L^1.5976 - 3.999 L^3.0975 rho^0.1162, in 10 1/GPa, with
     L = log10(nu), nu in mm^2/s and rho in g/cm^3
 
-    Parameters
-    ----------
-    kinematic_viscosity : float
-        Kinematic viscosity nu at ambient pressure and the temperature of the oil [m^2/s].
-    slope : float
-        Slope b of log10 log10(nu + 0.7) over log10 T, constant B of ASTM D341, dimensionless.
-    density : float
-        Density rho at ambient pressure and the temperature of the oil [kg/m^3].
+    ``kinematic_viscosity``, kinematic viscosity nu at ambient pressure and the temperature of the oil
+    [m^2/s]; ``slope``, slope b of log10 log10(nu + 0.7) over log10 T, constant B of ASTM D341, dimensionless;
+    ``density``, density rho at ambient pressure and the temperature of the oil [kg/m^3]. Returns
+    pressure-viscosity coefficient alpha, the slope of ln(eta) at zero pressure [1/Pa].
 
-    Returns
-    -------
-    float
-        Pressure-viscosity coefficient alpha, the slope of ln(eta) at zero pressure [1/Pa].
-
-    Notes
-    -----
     B. Y. C. So and E. E. Klaus, ASLE Trans. 23 (1980) 409-421, doi:10.1080/05698198008982986, as a public
     program quotes it; the paper itself was not read. Of 36 coefficients of mineral oils that ESDU 85027
     (1985) prints in table 10.2, the formula gives 0.94 to 1.38 times the printed value, 1.09 in the mean.
@@ -246,17 +184,13 @@ class Gold:
     With nu in mm^2/s, alpha is in 1/GPa. The constants are those of the programs GearC and Contact Mechanics
     of the University of Porto; the paper itself was not read.
 
-    Attributes
-    ----------
-    s, t : float
-        Constants of the type of base oil, dimensionless.
-
     Examples
     --------
     >>> round(Gold(7.382, 0.1335)(94.1e-6, 3.0, 830.0) * 1e9, 2)
     13.54
     """
 
+    # s and t: constants of the type of base oil, dimensionless.
     s: float
     t: float
 
@@ -267,20 +201,11 @@ class Gold:
 
 @dataclass(frozen=True)
 class BaseOil:
-    """Type of base oil: its correlation for the pressure-viscosity coefficient.
+    """Type of base oil: its correlation for the pressure-viscosity coefficient."""
 
-    Attributes
-    ----------
-    correlation : callable
-        Coefficient [1/Pa] as a function of kinematic viscosity [m^2/s], slope and density [kg/m^3].
-    scatter : float
-        Relative deviation that nine of ten measured coefficients do not exceed.
-    source : str
-        Publication of the correlation.
-    """
-
+    # Coefficient [1/Pa] as a function of kinematic viscosity [m^2/s], slope and density [kg/m^3].
     correlation: Callable[[float, float, float], float]
-    scatter: float
+    scatter: float  # relative deviation that nine of ten measured coefficients do not exceed
     source: str
 
 
@@ -296,30 +221,12 @@ BASE_OILS = {
 def alpha_estimate(base_oil: str, kinematic_viscosity: float, *, slope: float, density: float) -> Estimate:
     """Pressure-viscosity coefficient of an oil, estimated from its type of base oil.
 
-    Parameters
-    ----------
-    base_oil : str
-        Type of base oil, one of ``BASE_OILS``.
-    kinematic_viscosity : float
-        Kinematic viscosity at ambient pressure and the temperature of the oil [m^2/s].
-    slope : float
-        Constant B of ASTM D341, dimensionless; see ``Walther``.
-    density : float
-        Density at ambient pressure and the temperature of the oil [kg/m^3].
+    ``kinematic_viscosity``, kinematic viscosity at ambient pressure and the temperature of the oil [m^2/s];
+    ``slope``, constant B of ASTM D341, dimensionless; see ``Walther``; ``density``, density at ambient
+    pressure and the temperature of the oil [kg/m^3]. Returns coefficient [1/Pa], with its scatter and its
+    source. Raises InputError if the type is not known, or the viscosity is outside the range in which the
+    correlations were compared with measurements.
 
-    Returns
-    -------
-    Estimate
-        Coefficient [1/Pa], with its scatter and its source.
-
-    Raises
-    ------
-    InputError
-        If the type is not known, or the viscosity is outside the range in which the correlations were
-        compared with measurements.
-
-    Notes
-    -----
     The publications' own scatter could not be read. The scatter given here is that of the coefficients in
     the unit tests of this module: table 10.2 of ESDU 85027 (1985) with 13 mineral oils, castor oil, a
     sebacate and polyglycols, the oils FVA 3, M100, N100 and PAO100 of the library, and four polyalphaolefins

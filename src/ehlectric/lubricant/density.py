@@ -30,35 +30,14 @@ def tait(
 
     V/V0 = 1 - ln(1 + p (1 + K0')/K0)/(1 + K0') with the bulk modulus K0 = K00 exp(-beta_K T) at p = 0.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    tait_k0_prime : float
-        Pressure derivative K0' of the bulk modulus at zero pressure, dimensionless.
-    tait_k00 : float
-        Bulk modulus K00 at zero pressure, extrapolated to zero temperature [Pa].
-    tait_beta_k : float
-        Temperature coefficient beta_K of the bulk modulus [1/K].
-    tait_expansion, reference_temperature : float
-        Thermal expansion a_V [1/K] of the volume at zero pressure and its temperature [K]. The ratio to the
-        density at zero pressure and the same temperature does not contain them.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``tait_k0_prime``, pressure derivative K0' of the
+    bulk modulus at zero pressure, dimensionless; ``tait_k00``, bulk modulus K00 at zero pressure,
+    extrapolated to zero temperature [Pa]; ``tait_beta_k``, temperature coefficient beta_K of the bulk modulus
+    [1/K]; ``tait_expansion`` and ``reference_temperature``, thermal expansion a_V [1/K] of the volume at zero
+    pressure and its temperature [K]. Returns density over that at zero pressure and the same temperature,
+    dimensionless, and its derivative by pressure [1/Pa], shape (...). Raises InputError if the temperature is
+    missing.
 
-    Returns
-    -------
-    ratio, slope : ndarray, shape (...)
-        Density over that at zero pressure and the same temperature, dimensionless, and its derivative by
-        pressure [1/Pa].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing.
-
-    Notes
-    -----
     The form of S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, as later
     works quote it, after P. G. Tait. The volume is held at half of that at zero pressure, with a slope of
     zero, because the equation gives no volume at all at a finite pressure. Oils reach the half at tens of
@@ -81,16 +60,8 @@ def tait(
 
 
 def tait_modulus(temperature: ArrayLike | None, k00: float, beta_k: float, law: str = "tait") -> Array:
-    """Bulk modulus at zero pressure, K0 = K00 exp(-beta_K T), in Pa.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    k00, beta_k : float
-        Constants K00 [Pa] and beta_K [1/K].
-    law : str, optional
-        Name of the density law, for the message about a missing temperature.
+    """Bulk modulus at zero pressure, K0 = K00 exp(-beta_K T), in Pa. ``temperature`` [K], shape (...);
+    ``k00`` and ``beta_k``, constants K00 [Pa] and beta_K [1/K].
 
     Examples
     --------
@@ -110,16 +81,9 @@ def tait_pressure(
     tait_expansion: float,
     reference_temperature: float,
 ) -> Array:
-    """Pressure [Pa] at which Tait's equation has a density ratio; the inverse of ``tait``.
-
-    Parameters
-    ----------
-    density_ratio : array_like, shape (...)
-        Density over that at zero pressure and the same temperature, dimensionless, from 1 to 2.
-    temperature : array_like
-        Temperature [K].
-    tait_k0_prime, tait_k00, tait_beta_k, tait_expansion, reference_temperature : float
-        Parameters of ``tait``.
+    """Pressure [Pa] at which Tait's equation has a density ratio; the inverse of ``tait``. ``density_ratio``,
+    density over that at zero pressure and the same temperature, dimensionless, from 1 to 2, shape (...);
+    ``temperature`` [K].
 
     Examples
     --------
@@ -170,35 +134,14 @@ def murnaghan(
 
     V/V0 = (1 + K0' p/K0)^(-1/K0') with the bulk modulus K0 = K00 exp(-beta_K T) at zero pressure.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    murnaghan_k0_prime : float
-        Pressure derivative K0' of the bulk modulus, dimensionless.
-    murnaghan_k00 : float
-        Bulk modulus K00 at zero pressure, extrapolated to zero temperature [Pa].
-    murnaghan_beta_k : float
-        Temperature coefficient beta_K of the bulk modulus [1/K].
-    murnaghan_expansion, reference_temperature : float
-        Thermal expansion a_V [1/K] of the volume at zero pressure and its temperature [K]. The ratio to the
-        density at zero pressure and the same temperature does not contain them.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``murnaghan_k0_prime``, pressure derivative K0' of
+    the bulk modulus, dimensionless; ``murnaghan_k00``, bulk modulus K00 at zero pressure, extrapolated to
+    zero temperature [Pa]; ``murnaghan_beta_k``, temperature coefficient beta_K of the bulk modulus [1/K];
+    ``murnaghan_expansion`` and ``reference_temperature``, thermal expansion a_V [1/K] of the volume at zero
+    pressure and its temperature [K]. Returns density over that at zero pressure and the same temperature,
+    dimensionless, and its derivative by pressure [1/Pa], shape (...). Raises InputError if the temperature is
+    missing.
 
-    Returns
-    -------
-    ratio, slope : ndarray, shape (...)
-        Density over that at zero pressure and the same temperature, dimensionless, and its derivative by
-        pressure [1/Pa].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing.
-
-    Notes
-    -----
     F. D. Murnaghan, The compressibility of media under extreme pressures, Proc. Natl. Acad. Sci. 30 (1944)
     244, doi:10.1073/pnas.30.9.244: the bulk modulus rises linearly with pressure. The law has no pole.
 
@@ -226,15 +169,8 @@ def murnaghan_pressure(
     reference_temperature: float,
 ) -> Array:
     """Pressure [Pa] at which Murnaghan's equation has a density ratio; the inverse of ``murnaghan``.
-
-    Parameters
-    ----------
-    density_ratio : array_like, shape (...)
-        Density over that at zero pressure and the same temperature, dimensionless, >= 1.
-    temperature : array_like
-        Temperature [K].
-    murnaghan_k0_prime, murnaghan_k00, murnaghan_beta_k, murnaghan_expansion, reference_temperature : float
-        Parameters of ``murnaghan``.
+    ``density_ratio``, density over that at zero pressure and the same temperature, dimensionless, >= 1,
+    shape (...); ``temperature`` [K].
 
     Examples
     --------
@@ -329,24 +265,10 @@ def dowson_higginson(
 
     rho/rho0 = (C1 + C2 p)/(C1 + p), with the density rho0 at zero pressure.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like, optional
-        Temperature [K]. The law is isothermal and ignores it.
-    density_c1 : float
-        Constant C1 [Pa].
-    density_c2 : float
-        Constant C2, the density ratio at infinite pressure, dimensionless.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``density_c1`` [Pa]; ``density_c2``, constant C2, the
+    density ratio at infinite pressure, dimensionless. Returns density ratio rho/rho0, dimensionless, and its
+    derivative by pressure [1/Pa], shape (...).
 
-    Returns
-    -------
-    ratio, slope : ndarray, shape (...)
-        Density ratio rho/rho0, dimensionless, and its derivative by pressure [1/Pa].
-
-    Notes
-    -----
     Eq. (12) of Morris et al. (2022), doi:10.3390/lubricants10050087.
 
     Examples
@@ -363,20 +285,8 @@ def dowson_higginson_pressure(
     density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, density_c1: float, density_c2: float
 ) -> Array:
     """Pressure [Pa] of a density ratio after Dowson and Higginson; the inverse of ``dowson_higginson``.
-
-    Parameters
-    ----------
-    density_ratio : array_like, shape (...)
-        Density over that at zero pressure, dimensionless, from 1 to below C2.
-    temperature : array_like, optional
-        Temperature [K]. The law is isothermal and ignores it.
-    density_c1, density_c2 : float
-        Parameters of ``dowson_higginson``.
-
-    Raises
-    ------
-    InputError
-        If no pressure has the density ratio.
+    ``density_ratio``, density over that at zero pressure, dimensionless, from 1 to below C2, shape (...);
+    ``temperature`` [K]. Raises InputError if no pressure has the density ratio.
 
     Examples
     --------
@@ -395,18 +305,8 @@ def dowson_higginson_pressure(
 
 def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
     """Density ratio of an incompressible lubricant, which is one, and its derivative, which is zero.
-
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure [Pa].
-    temperature : array_like, optional
-        Temperature [K]. The law is isothermal and ignores it.
-
-    Returns
-    -------
-    ratio, slope : ndarray, shape (...)
-        Ones, dimensionless, and zeros [1/Pa].
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]. Returns ones, dimensionless, and zeros [1/Pa],
+    shape (...).
 
     Examples
     --------

@@ -35,40 +35,15 @@ def doolittle(
     eta = eta_R exp(B R0 (w/(v - R0 w) - 1/(1 - R0))), with the volume v = V/V_R of Tait's equation and the
     occupied volume w = 1 + epsilon (T - T_R), both over their values at the reference temperature T_R.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    doolittle_viscosity : float
-        Viscosity eta_R at zero pressure and the reference temperature [Pa s].
-    doolittle_b : float
-        Doolittle's constant B, dimensionless.
-    doolittle_r0 : float
-        Occupied volume over the volume at zero pressure and the reference temperature, R0, dimensionless.
-    doolittle_epsilon : float
-        Thermal expansion epsilon of the occupied volume [1/K].
-    tait_k0_prime, tait_k00, tait_beta_k : float
-        Parameters of Tait's equation, see ``equation_of_state.tait``.
-    tait_expansion : float
-        Thermal expansion a_V of the volume at zero pressure [1/K]: V/V_R = (1 + a_V (T - T_R)) V/V0.
-    reference_temperature : float
-        Reference temperature T_R [K].
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``doolittle_viscosity``, viscosity eta_R at zero
+    pressure and the reference temperature [Pa s]; ``doolittle_b``, doolittle's constant B, dimensionless;
+    ``doolittle_r0``, occupied volume over the volume at zero pressure and the reference temperature, R0,
+    dimensionless; ``doolittle_epsilon``, thermal expansion epsilon of the occupied volume [1/K];
+    ``tait_expansion``, thermal expansion a_V of the volume at zero pressure [1/K]: V/V_R = (1 + a_V (T -
+    T_R)) V/V0; ``reference_temperature``, reference temperature T_R [K]. Returns ln(eta/eta0), dimensionless,
+    with the viscosity eta0 of ``doolittle_ambient``, and its derivative by pressure [1/Pa], shape (...).
+    Raises InputError if the temperature is missing, or the oil is a glass at it and at zero pressure.
 
-    Returns
-    -------
-    exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, with the viscosity eta0 of ``doolittle_ambient``, and its derivative by
-        pressure [1/Pa].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing, or the oil is a glass at it and at zero pressure.
-
-    Notes
-    -----
     A. K. Doolittle, J. Appl. Phys. 22 (1951) 1471, doi:10.1063/1.1699894, in the form of S. Bair,
     High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, as later works quote it. The
     law has a pole where the free volume v - R0 w vanishes. The viscosity is held at 1e12 Pa s, with a slope
@@ -164,29 +139,11 @@ def doolittle_ambient(
 
     eta0 = eta_R exp(B R0 (w/(1 + a_V (T - T_R) - R0 w) - 1/(1 - R0))) with w = 1 + epsilon (T - T_R).
 
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    doolittle_viscosity, doolittle_b, doolittle_r0, doolittle_epsilon : float
-        Constants eta_R [Pa s], B, R0, dimensionless, and epsilon [1/K].
-    tait_expansion, reference_temperature : float
-        Thermal expansion a_V [1/K] and reference temperature T_R [K].
-    tait_k0_prime, tait_k00, tait_beta_k : float
-        Constants of the law at other pressures; not used.
+    ``temperature`` [K], shape (...); ``doolittle_viscosity``, ``doolittle_b``, ``doolittle_r0`` and
+    ``doolittle_epsilon``, constants eta_R [Pa s], B, R0, dimensionless, and epsilon [1/K]; ``tait_expansion``
+    and ``reference_temperature``, thermal expansion a_V [1/K] and reference temperature T_R [K]. Returns
+    viscosity eta0 [Pa s], shape (...). Raises InputError if the oil is a glass at the temperature.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Viscosity eta0 [Pa s].
-
-    Raises
-    ------
-    InputError
-        If the oil is a glass at the temperature.
-
-    Notes
-    -----
     Sources of ``doolittle``.
 
     Examples

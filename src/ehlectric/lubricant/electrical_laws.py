@@ -22,27 +22,11 @@ def clausius_mossotti(
 
     eps = (eps_r + 2 + 2 (eps_r - 1) rho/rho0)/(eps_r + 2 - (eps_r - 1) rho/rho0)
 
-    Parameters
-    ----------
-    density_ratio : array_like, shape (...)
-        Density over the density at zero pressure, rho/rho0, dimensionless, > 0.
-    temperature : array_like, optional
-        Temperature [K]. The law ignores it: temperature acts through the density.
-    relative_permittivity : float
-        Relative permittivity eps_r at the density rho0, dimensionless, >= 1.
+    ``density_ratio``, density over the density at zero pressure, rho/rho0, dimensionless, > 0, shape (...);
+    ``temperature`` [K]; ``relative_permittivity``, relative permittivity eps_r at the density rho0,
+    dimensionless, >= 1. Returns relative permittivity, dimensionless, shape (...). Raises InputError if the
+    density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Relative permittivity, dimensionless.
-
-    Raises
-    ------
-    InputError
-        If the density ratio reaches the pole of the law, (eps_r + 2)/(eps_r - 1).
-
-    Notes
-    -----
     Eq. (14) of Morris et al. (2022), doi:10.3390/lubricants10050087. The law holds for molecules without a
     dipole moment. For polar liquids use ``constant_permittivity``.
 
@@ -67,21 +51,9 @@ def clausius_mossotti(
 def constant_permittivity(
     density_ratio: ArrayLike, temperature: ArrayLike | None = None, *, relative_permittivity: float
 ) -> Array:
-    """Relative permittivity that does not change with density.
-
-    Parameters
-    ----------
-    density_ratio : array_like, shape (...)
-        Density over the density at zero pressure, rho/rho0, dimensionless. The law uses only its shape.
-    temperature : array_like, optional
-        Temperature [K]. The law is isothermal and ignores it.
-    relative_permittivity : float
-        Relative permittivity eps_r, dimensionless.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Relative permittivity, dimensionless.
+    """Relative permittivity that does not change with density. ``density_ratio``, density over the density at
+    zero pressure, rho/rho0, dimensionless, shape (...); ``temperature`` [K]; ``relative_permittivity``,
+    relative permittivity eps_r, dimensionless. Returns relative permittivity, dimensionless, shape (...).
 
     Examples
     --------
@@ -106,19 +78,8 @@ PERMITTIVITY_LAWS = {
 
 
 def constant_conductivity(temperature: ArrayLike | None = None, *, conductivity: float) -> Array:
-    """Electrical conductivity that does not change with temperature.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (...), optional
-        Temperature [K]. The law uses only its shape.
-    conductivity : float
-        Electrical conductivity sigma [S/m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Electrical conductivity [S/m].
+    """Electrical conductivity that does not change with temperature. ``temperature`` [K], shape (...);
+    ``conductivity``, electrical conductivity sigma [S/m]. Returns electrical conductivity [S/m], shape (...).
 
     Examples
     --------
@@ -137,29 +98,11 @@ def arrhenius(
 ) -> Array:
     """Electrical conductivity after Arrhenius, sigma = sigma_ref exp(-(E/R)(1/T - 1/T_ref)).
 
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    conductivity : float
-        Electrical conductivity sigma_ref at the temperature T_ref [S/m].
-    conductivity_activation : float
-        Activation energy E [J/mol].
-    conductivity_temperature : float
-        Temperature T_ref of the given conductivity [K].
+    ``temperature`` [K], shape (...); ``conductivity``, electrical conductivity sigma_ref at the temperature
+    T_ref [S/m]; ``conductivity_activation``, activation energy E [J/mol]; ``conductivity_temperature``,
+    temperature T_ref of the given conductivity [K]. Returns electrical conductivity sigma [S/m], shape (...).
+    Raises InputError if the temperature is missing.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Electrical conductivity sigma [S/m].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing.
-
-    Notes
-    -----
     S. Arrhenius, Z. Phys. Chem. 4 (1889) 226, doi:10.1515/zpch-1889-0416, with the gas constant
     R = 8.314 J/(mol K). Ions of a dissociated additive are created and move by thermal activation.
 
@@ -180,18 +123,8 @@ def arrhenius_temperature(
     value: ArrayLike, *, conductivity: float, conductivity_activation: float, conductivity_temperature: float
 ) -> Array:
     """Temperature [K] at which an oil has an electrical conductivity; the inverse of ``arrhenius``.
-
-    Parameters
-    ----------
-    value : array_like, shape (...)
-        Electrical conductivity [S/m].
-    conductivity, conductivity_activation, conductivity_temperature : float
-        Parameters of ``arrhenius``.
-
-    Raises
-    ------
-    InputError
-        If no temperature has the conductivity.
+    ``value``, electrical conductivity [S/m], shape (...). Raises InputError if no temperature has the
+    conductivity.
 
     Examples
     --------

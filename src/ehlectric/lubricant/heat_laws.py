@@ -65,21 +65,9 @@ def larsson_constant(letter: str, k: int, of: str) -> Parameter:
 def constant_thermal_conductivity(
     pressure: ArrayLike, temperature: ArrayLike | None = None, *, thermal_conductivity: float
 ) -> tuple[Array, Array]:
-    """Thermal conductivity that changes neither with pressure nor with temperature.
-
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure [Pa]. The law uses only its shape.
-    temperature : array_like, optional
-        Temperature [K]. The law ignores it.
-    thermal_conductivity : float
-        Thermal conductivity k [W/(m K)].
-
-    Returns
-    -------
-    conductivity, slope : ndarray, shape (...)
-        Thermal conductivity [W/(m K)], and its derivative by pressure, which is zero.
+    """Thermal conductivity that changes neither with pressure nor with temperature. ``pressure`` [Pa],
+    shape (...); ``temperature`` [K]; ``thermal_conductivity`` [W/(m K)]. Returns thermal conductivity
+    [W/(m K)], and its derivative by pressure, which is zero, shape (...).
 
     Examples
     --------
@@ -100,24 +88,10 @@ def larsson_thermal_conductivity(
 ) -> tuple[Array, Array]:
     """Thermal conductivity after Larsson et al., k = k0 (1 + c1 p/(1 + c2 p)), and its derivative.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like, optional
-        Temperature [K]. The law ignores it.
-    thermal_conductivity : float
-        Thermal conductivity k0 at zero pressure [W/(m K)].
-    larsson_c1, larsson_c2 : float
-        Constants c1 and c2 [1/Pa].
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``thermal_conductivity``, thermal conductivity k0 at
+    zero pressure [W/(m K)]; ``larsson_c1`` and ``larsson_c2`` [1/Pa]. Returns thermal conductivity k
+    [W/(m K)], and its derivative by pressure [W/(m K Pa)], shape (...).
 
-    Returns
-    -------
-    conductivity, slope : ndarray, shape (...)
-        Thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)].
-
-    Notes
-    -----
     R. Larsson, P. O. Larsson, E. Eriksson, M. Sjoberg and E. Hoglund, Lubricant properties for input to
     hydrodynamic and elastohydrodynamic lubrication analyses, Proc. IMechE J 214 (2000) 17, as later programs
     quote it. The measurements go up to 1.1 GPa and 107 degC.
@@ -154,31 +128,11 @@ def scaled_thermal_conductivity(
 
     k = B + C kappa^-s with kappa = v (1 + A (T/T_R) v^q) and the volume v = V/V_R of Tait's equation.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    scaling_k_base, scaling_k_factor : float
-        Constants B and C [W/(m K)].
-    scaling_k_exponent, scaling_a, scaling_q : float
-        Constants s, A and q, dimensionless.
-    tait_k0_prime, tait_k00, tait_beta_k, tait_expansion, reference_temperature : float
-        Parameters of Tait's equation, see ``equation_of_state.tait``.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``scaling_k_base`` and ``scaling_k_factor``,
+    constants B and C [W/(m K)]; ``scaling_k_exponent``, ``scaling_a`` and ``scaling_q``, constants s, A and
+    q, dimensionless. Returns thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)],
+    shape (...). Raises InputError if the temperature is missing, or kappa is not positive.
 
-    Returns
-    -------
-    conductivity, slope : ndarray, shape (...)
-        Thermal conductivity k [W/(m K)], and its derivative by pressure [W/(m K Pa)].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing, or kappa is not positive.
-
-    Notes
-    -----
     Habchi and others, Tribol. Int. 43 (2010) 1842, for the mineral oil Shell T9, as later works quote it. The
     constants A and q have not been compared with the printed ones.
 
@@ -287,21 +241,9 @@ def constant_heat_capacity(
 ) -> tuple[Array, Array]:
     """Volumetric heat capacity rho c that changes neither with pressure nor with temperature.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure [Pa]. The law uses only its shape.
-    temperature : array_like, optional
-        Temperature [K]. The law ignores it.
-    heat_capacity : float
-        Specific heat capacity c [J/(kg K)].
-    density : float
-        Density rho [kg/m^3].
-
-    Returns
-    -------
-    capacity, slope : ndarray, shape (...)
-        Volumetric heat capacity [J/(m^3 K)], and its derivative by pressure, which is zero.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``heat_capacity``, specific heat capacity c
+    [J/(kg K)]; ``density`` [kg/m^3]. Returns volumetric heat capacity [J/(m^3 K)], and its derivative by
+    pressure, which is zero, shape (...).
 
     Examples
     --------
@@ -328,35 +270,13 @@ def larsson_heat_capacity(
 
     rho c = (rho c)_0 (1 + beta (T - T_0)) (1 + k1 p/(1 + k2 p)) with beta = beta_0 (1 + b1 p + b2 p^2).
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    volumetric_heat_capacity : float
-        Volumetric heat capacity (rho c)_0 at zero pressure and the temperature T_0 [J/(m^3 K)].
-    larsson_temperature : float
-        Temperature T_0 [K].
-    larsson_beta : float
-        Temperature coefficient beta_0 at zero pressure [1/K].
-    larsson_b1, larsson_b2 : float
-        Constants b1 [1/Pa] and b2 [1/Pa^2] of the temperature coefficient.
-    larsson_k1, larsson_k2 : float
-        Constants k1 and k2 [1/Pa].
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``volumetric_heat_capacity``, volumetric heat
+    capacity (rho c)_0 at zero pressure and the temperature T_0 [J/(m^3 K)]; ``larsson_temperature`` [K];
+    ``larsson_beta``, temperature coefficient beta_0 at zero pressure [1/K]; ``larsson_b1`` and
+    ``larsson_b2``, constants b1 [1/Pa] and b2 [1/Pa^2] of the temperature coefficient; ``larsson_k1`` and
+    ``larsson_k2`` [1/Pa]. Returns volumetric heat capacity [J/(m^3 K)], and its derivative by pressure
+    [J/(m^3 K Pa)], shape (...). Raises InputError if the temperature is missing.
 
-    Returns
-    -------
-    capacity, slope : ndarray, shape (...)
-        Volumetric heat capacity [J/(m^3 K)], and its derivative by pressure [J/(m^3 K Pa)].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing.
-
-    Notes
-    -----
     Source of ``larsson_thermal_conductivity``. The product is the capacity of a volume: a later
     program divides it by the density ratio for the capacity of a mass. That program has the last factor
     within the brackets of the temperature. Where b2 < 0, beta would become negative at pressures above those
@@ -399,31 +319,11 @@ def scaled_heat_capacity(
 
     rho c = C0 + m chi with chi = (T/T_R) v^-g and the volume v = V/V_R of Tait's equation.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    scaling_c_base, scaling_c_factor : float
-        Constants C0 and m [J/(m^3 K)].
-    scaling_c_exponent : float
-        Constant g, dimensionless.
-    tait_k0_prime, tait_k00, tait_beta_k, tait_expansion, reference_temperature : float
-        Parameters of Tait's equation, see ``equation_of_state.tait``.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``scaling_c_base`` and ``scaling_c_factor``,
+    constants C0 and m [J/(m^3 K)]; ``scaling_c_exponent``, constant g, dimensionless. Returns volumetric heat
+    capacity [J/(m^3 K)], and its derivative by pressure [J/(m^3 K Pa)], shape (...). Raises InputError if the
+    temperature is missing.
 
-    Returns
-    -------
-    capacity, slope : ndarray, shape (...)
-        Volumetric heat capacity [J/(m^3 K)], and its derivative by pressure [J/(m^3 K Pa)].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing.
-
-    Notes
-    -----
     Source of ``scaled_thermal_conductivity``; the exponent g has not been compared with the printed one.
 
     Examples

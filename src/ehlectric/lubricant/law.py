@@ -44,16 +44,9 @@ class PressureLaw(Protocol):
 
 @dataclass(frozen=True)
 class Derivation:
-    """Relation that gives a parameter of a law from the viscosity eta0 [Pa s] and other parameters.
+    """Relation that gives a parameter of a law from the viscosity eta0 [Pa s] and other parameters."""
 
-    Attributes
-    ----------
-    function : callable
-        ``function(viscosity, *values)`` returns the value of the parameter in SI units.
-    parameters : tuple of str
-        Names of the other parameters, in the order of ``values``.
-    """
-
+    # ``function(viscosity, *values)`` returns the value of the parameter in SI units.
     function: Callable[..., float]
     parameters: tuple[str, ...]
 
@@ -62,29 +55,6 @@ class Derivation:
 class Parameter:
     """Parameter of a lubricant law: a key of ``[lubricant]`` with its unit, bounds and labels.
 
-    Attributes
-    ----------
-    name : str
-        Key of the case file, and keyword argument of the law's function.
-    unit : str
-        SI unit in the notation of pint; empty for a dimensionless parameter.
-    meaning : str
-        One sentence for the table of keys in the documentation, in Markdown.
-    title, symbol : str
-        Name and symbol on the axis of a figure. Without a title it is the key with spaces. Title, symbol and
-        meaning are empty for a parameter that stands in the book of inputs, since it has a field in the app.
-    least, most : float
-        Smallest and largest allowed values in ``unit``.
-    above, below : float
-        Bounds in ``unit`` that are not allowed themselves.
-    reason : str
-        Reason for the bounds.
-    derivation : Derivation, optional
-        For a parameter that changes with temperature: the relation that gives its value at the temperature of
-        a bearing, if the bearing file does not contain it.
-    difference : bool
-        Whether the parameter is a difference of temperatures, for which a degree Celsius is a kelvin.
-
     Examples
     --------
     >>> limit = Parameter("limiting_stress", "Pa", "of the oil", least=1e5, most=1e9)
@@ -92,17 +62,23 @@ class Parameter:
     ('Pa', -inf)
     """
 
-    name: str
-    unit: str
-    meaning: str = ""
+    name: str  # key of the case file, and keyword argument of the law's function
+    unit: str  # SI unit in the notation of pint; empty for a dimensionless parameter
+    meaning: str = ""  # one sentence for the table of keys in the documentation, in Markdown
+    # title and symbol: name and symbol on the axis of a figure.
     title: str = ""
     symbol: str = ""
+    # least and most: smallest and largest allowed values in ``unit``
     least: float = -math.inf
     most: float = math.inf
+    # above and below: bounds in ``unit`` that are not allowed themselves.
     above: float = -math.inf
     below: float = math.inf
     reason: str = ""
+    # For a parameter that changes with temperature: the relation that gives its value at the temperature of a
+    # bearing, if the bearing file does not contain it.
     derivation: Derivation | None = None
+    # Whether the parameter is a difference of temperatures, for which a degree Celsius is a kelvin.
     difference: bool = False
 
     @property
@@ -115,65 +91,38 @@ class Parameter:
 class Law:
     """Law of the lubricant, an entry of the table of its module.
 
-    Attributes
-    ----------
-    function : callable
-        Function of the law; its keyword arguments are the names of the parameters.
-    parameters : tuple of Parameter
-        Parameters that the case must give.
-    warnings : callable, optional
-        ``warnings(max_pressure, viscosity, temperature, **parameters)`` yields a ``ResultWarning`` for each
-        reason not to trust the law in a contact with this Hertz pressure [Pa], viscosity eta0 [Pa s] and
-        temperature [K]. The temperature is None where the case gives none.
-    hint : callable, optional
-        ``hint(viscosity, given)`` returns a text for the end of the error message about missing parameters.
-        ``given`` has the values of the parameters in the case, by name.
-    needs_temperature : bool
-        Whether the law has no value without a temperature.
-    atmospheric : callable, optional
-        ``atmospheric(temperature, **parameters)`` returns the viscosity eta0 [Pa s] at zero pressure and a
-        temperature [K], for a viscosity law that has one of its own.
-    thermal_expansion : str, optional
-        Name of the parameter of a density law that is the thermal expansion of the volume at zero pressure.
-    coefficient : callable, optional
-        ``coefficient(temperature, **parameters)`` returns the temperature coefficient -d ln(eta0)/dT [1/K] at
-        zero pressure, for a law that gives the viscosity at zero pressure.
-    inverse : callable, optional
-        ``inverse(value, **parameters)`` returns the temperature [K] at which a law at ambient pressure has a
-        value. For a law of density it is ``inverse(ratio, temperature, **parameters)`` and returns the
-        pressure [Pa] of a density ratio.
-
     Examples
     --------
     >>> Law(lambda pressure, temperature=None: (0.0, 0.0)).parameters
     ()
     """
 
-    function: Callable[..., Any]
-    parameters: tuple[Parameter, ...] = ()
+    function: Callable[..., Any]  # function of the law; its keyword arguments are the names of the parameters
+    parameters: tuple[Parameter, ...] = ()  # parameters that the case must give
+    # ``warnings(max_pressure, viscosity, temperature, **parameters)`` yields a ``ResultWarning`` for each
+    # reason not to trust the law in a contact with this Hertz pressure [Pa], viscosity eta0 [Pa s] and
+    # temperature [K]. The temperature is None where the case gives none.
     warnings: Callable[..., Iterator[ResultWarning]] | None = None
+    # ``hint(viscosity, given)`` returns a text for the end of the error message about missing parameters.
     hint: Callable[[float, Mapping[str, float]], str] | None = None
     needs_temperature: bool = False
+    # ``atmospheric(temperature, **parameters)`` returns the viscosity eta0 [Pa s] at zero pressure and a
+    # temperature [K], for a viscosity law that has one of its own.
     atmospheric: Callable[..., Array] | None = None
+    # Name of the parameter of a density law that is the thermal expansion of the volume at zero pressure.
     thermal_expansion: str | None = None
+    # ``coefficient(temperature, **parameters)`` returns the temperature coefficient -d ln(eta0)/dT [1/K] at
+    # zero pressure, for a law that gives the viscosity at zero pressure.
     coefficient: Callable[..., Array] | None = None
+    # ``inverse(value, **parameters)`` returns the temperature [K] at which a law at ambient pressure has a
+    # value. For a law of density it is ``inverse(ratio, temperature, **parameters)`` and returns the pressure
+    # [Pa] of a density ratio.
     inverse: Callable[..., Array] | None = None
 
 
 def required(temperature: ArrayLike | None, law: str) -> Array:
-    """Temperature [K] that a law needs, as an array.
-
-    Parameters
-    ----------
-    temperature : array_like or None
-        Temperature [K].
-    law : str
-        Key and name of the law, for the message.
-
-    Raises
-    ------
-    InputError
-        If the temperature is None.
+    """Temperature [K] that a law needs, as an array. ``temperature`` [K]. Raises InputError if the
+    temperature is None.
 
     Examples
     --------
@@ -198,12 +147,8 @@ def refused(values: Array, allowed: Mask, unit: str) -> str:
 
 
 def within(temperature: Array, law: str, least: float, most: float, reason: str) -> None:
-    """Check that temperatures [K] lie in the range of a law, whose ends are not part of it.
-
-    Raises
-    ------
-    InputError
-        If a temperature is outside; the message names the law and its range.
+    """Check that temperatures [K] lie in the range of a law, whose ends are not part of it. Raises InputError
+    if a temperature is outside; the message names the law and its range.
 
     Examples
     --------
@@ -229,17 +174,8 @@ LARGEST_EXPONENT = 35.0
 
 def glass_warnings(law: str, max_pressure: float, cap: float, limit: str) -> Iterator[ResultWarning]:
     """Warning that the Hertz pressure of a contact exceeds the pressure at which a law is capped.
-
-    Parameters
-    ----------
-    law : str
-        Name of the viscosity law.
-    max_pressure : float
-        Hertz pressure [Pa].
-    cap : float
-        Pressure at which the cap of the law begins [Pa]; infinite if the law has none.
-    limit : str
-        Viscosity of the cap, for the text.
+    ``max_pressure`` [Pa]; ``cap``, pressure at which the cap of the law begins [Pa]; infinite if the law has
+    none.
 
     Examples
     --------

@@ -28,29 +28,12 @@ def modulus(
 
     ln(eta/eta0) = p/(A + B p) with A = a1 + a2 T and B = b1 + b2 T, with the viscosity eta0 at zero pressure.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    modulus_a1, modulus_a2 : float
-        Constants a1 [Pa] and a2 [Pa/K], for temperatures in kelvin.
-    modulus_b1, modulus_b2 : float
-        Constants b1, dimensionless, and b2 [1/K], for temperatures in kelvin.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``modulus_a1`` and ``modulus_a2``, constants a1 [Pa]
+    and a2 [Pa/K], for temperatures in kelvin; ``modulus_b1`` and ``modulus_b2``, constants b1, dimensionless,
+    and b2 [1/K], for temperatures in kelvin. Returns ln(eta/eta0), dimensionless, and its derivative by
+    pressure [1/Pa], shape (...). Raises InputError if the temperature is missing, or A is not positive at it:
+    viscosity would fall with pressure.
 
-    Returns
-    -------
-    exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing, or A is not positive at it: viscosity would fall with pressure.
-
-    Notes
-    -----
     Wingertszahn et al. (2023), doi:10.3390/lubricants11090369, table A1, with constants for a mineral oil.
     For B > 0 the exponent tends to 1/B at high pressure, and for B < 0 the law has a pole at p = -A/B. The
     exponent is held at 35, with a slope of zero, which is before a pole. An oil of 1 mPa s has 1.6e12 Pa s

@@ -27,15 +27,6 @@ Permittivity = Callable[[ArrayLike, ArrayLike], Array]
 class BoundLaw:
     """Law with the parameters of an oil, at the temperature of the oil unless another one is given.
 
-    Attributes
-    ----------
-    function : callable
-        Function of the law.
-    parameters : mapping
-        Values of its parameters by name, SI units.
-    temperature : float or None
-        Temperature of the oil [K]; None if the case gives none.
-
     Examples
     --------
     >>> from ehlectric.lubricant.viscosity import barus
@@ -45,8 +36,8 @@ class BoundLaw:
     """
 
     function: Callable[..., Any]
-    parameters: Mapping[str, float]
-    temperature: float | None = None
+    parameters: Mapping[str, float]  # values of its parameters by name, SI units
+    temperature: float | None = None  # temperature of the oil [K]; None if the case gives none
 
     def __call__(self, argument: ArrayLike, temperature: ArrayLike | None = None, /) -> Any:
         """Value of the law at a pressure [Pa] or a density ratio, and at a temperature [K]."""
@@ -56,15 +47,9 @@ class BoundLaw:
 
 @dataclass(frozen=True)
 class OfDensity:
-    """Permittivity of a law over density ratio, as a function of pressure and density ratio.
+    """Permittivity of a law over density ratio, as a function of pressure and density ratio."""
 
-    Attributes
-    ----------
-    law : callable
-        Relative permittivity as a function of the density ratio.
-    """
-
-    law: Callable[[ArrayLike], Array]
+    law: Callable[[ArrayLike], Array]  # relative permittivity as a function of the density ratio
 
     def __call__(self, pressure: ArrayLike, density_ratio: ArrayLike) -> Array:  # noqa: ARG002
         """Relative permittivity at a density ratio; the pressure acts only through it."""
@@ -73,27 +58,13 @@ class OfDensity:
 
 @dataclass(frozen=True)
 class RangeCheck:
-    """Check of a law's range in a contact, with the parameters of an oil.
-
-    Attributes
-    ----------
-    function : callable
-        Function ``warnings`` of the law.
-    viscosity : float
-        Viscosity of the oil at zero pressure [Pa s].
-    parameters : mapping
-        Values of the parameters by name, SI units.
-    temperature : float or None
-        Temperature of the oil [K]; None if the case gives none.
-    of : str
-        What the law describes, one of ``LAW_NAMES``.
-    """
+    """Check of a law's range in a contact, with the parameters of an oil."""
 
     function: Callable[..., Iterator[ResultWarning]]
-    viscosity: float
-    parameters: Mapping[str, float]
-    temperature: float | None = None
-    of: str = ""
+    viscosity: float  # viscosity of the oil at zero pressure [Pa s]
+    parameters: Mapping[str, float]  # values of the parameters by name, SI units
+    temperature: float | None = None  # temperature of the oil [K]; None if the case gives none
+    of: str = ""  # what the law describes, one of ``LAW_NAMES``
 
     def __call__(self, max_pressure: float) -> Iterator[ResultWarning]:
         """Warnings about the law in a contact with this Hertz pressure [Pa]."""
@@ -103,40 +74,6 @@ class RangeCheck:
 @dataclass(frozen=True, eq=False)
 class Oil:
     """Oil at one temperature.
-
-    Attributes
-    ----------
-    viscosity : float
-        Viscosity eta0 at zero pressure [Pa s].
-    relative_permittivity : float
-        Relative permittivity at zero pressure, dimensionless.
-    ambient_pressure : float
-        Pressure around the contact [Pa].
-    log_viscosity : callable
-        ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
-    density_ratio : callable
-        Density over that at zero pressure, and its derivative [1/Pa], as a function of the pressure [Pa].
-    permittivity : callable
-        Relative permittivity as a function of the pressure [Pa] and of the density ratio.
-    laws : mapping of str to str
-        Names of the laws by "viscosity", "density", "permittivity" and others that the oil has.
-    checks : tuple of callable
-        Checks of the laws' ranges: each yields warnings about a contact with a Hertz pressure [Pa].
-    film_checks : tuple of callable
-        Checks that yield warnings about a solved film with a maximum pressure [Pa].
-    inputs : mapping
-        Keys of the case from which the oil is made, SI units, for files.
-    name : str
-        Name of the oil in the library; empty for an oil of the user's own.
-    temperature : float or None
-        Temperature [K]; None if the case gives none.
-    density, conductivity : float or None
-        Density [kg/m^3] and electrical conductivity [S/m] at zero pressure; None where they are not known.
-    conductivity_over : callable or None
-        Electrical conductivity [S/m] as a function of the temperature [K]; None where it is not known.
-    thermal_conductivity_law, heat_capacity_law : callable or None
-        Thermal conductivity [W/(m K)] and volumetric heat capacity [J/(m^3 K)], each with its derivative by
-        pressure, as functions of the pressure [Pa]; None where they are not known.
 
     Examples
     --------
@@ -150,21 +87,34 @@ class Oil:
     (2e-08, 20.0)
     """
 
-    viscosity: float
-    relative_permittivity: float
-    ambient_pressure: float
+    viscosity: float  # viscosity eta0 at zero pressure [Pa s]
+    relative_permittivity: float  # relative permittivity at zero pressure, dimensionless
+    ambient_pressure: float  # pressure around the contact [Pa]
+    # ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
     log_viscosity: PressureLaw
+    # Density over that at zero pressure, and its derivative [1/Pa], as a function of the pressure [Pa].
     density_ratio: PressureLaw
+    # Relative permittivity as a function of the pressure [Pa] and of the density ratio.
     permittivity: Permittivity
+    # Names of the laws by "viscosity", "density", "permittivity" and others that the oil has.
     laws: Mapping[str, str] = field(default_factory=dict)
+    # Checks of the laws' ranges: each yields warnings about a contact with a Hertz pressure [Pa].
     checks: tuple[Callable[[float], Iterator[ResultWarning]], ...] = ()
+    # Checks that yield warnings about a solved film with a maximum pressure [Pa].
     film_checks: tuple[Callable[[float], Iterator[ResultWarning]], ...] = ()
+    # Keys of the case from which the oil is made, SI units, for files.
     inputs: Mapping[str, Any] = field(default_factory=dict)
-    name: str = ""
-    temperature: float | None = None
+    name: str = ""  # name of the oil in the library; empty for an oil of the user's own
+    temperature: float | None = None  # temperature [K]; None if the case gives none
+    # density and conductivity: density [kg/m^3] and electrical conductivity [S/m] at zero pressure; None
+    # where they are not known.
     density: float | None = None
     conductivity: float | None = None
+    # Electrical conductivity [S/m] as a function of the temperature [K]; None where it is not known.
     conductivity_over: Callable[[Array], Array] | None = None
+    # thermal_conductivity_law and heat_capacity_law: thermal conductivity [W/(m K)] and volumetric heat
+    # capacity [J/(m^3 K)], each with its derivative by pressure, as functions of the pressure [Pa]; None
+    # where they are not known.
     thermal_conductivity_law: PressureLaw | None = None
     heat_capacity_law: PressureLaw | None = None
 

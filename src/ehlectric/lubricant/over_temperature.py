@@ -24,29 +24,10 @@ ROELANDS_TEMPERATURE = 138.0
 def vogel(temperature: ArrayLike | None, *, vogel_viscosity: float, vogel_b: float, vogel_c: float) -> Array:
     """Viscosity at ambient pressure after Vogel, eta = K exp(B/(T - C)).
 
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    vogel_viscosity : float
-        Constant K, the viscosity at unlimited temperature [Pa s].
-    vogel_b : float
-        Constant B [K].
-    vogel_c : float
-        Temperature C of the pole [K].
+    ``temperature`` [K], shape (...); ``vogel_viscosity``, constant K, the viscosity at unlimited temperature
+    [Pa s]; ``vogel_b`` [K]; ``vogel_c``, temperature C of the pole [K]. Returns viscosity eta [Pa s],
+    shape (...). Raises InputError if the temperature is missing, or not above the pole.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Viscosity eta [Pa s].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing, or not above the pole.
-
-    Notes
-    -----
     H. Vogel, Phys. Z. 22 (1921) 645.
 
     Examples
@@ -69,13 +50,7 @@ def vogel_coefficient(
     temperature: ArrayLike, *, vogel_viscosity: float, vogel_b: float, vogel_c: float
 ) -> Array:
     """Temperature coefficient of the viscosity after Vogel, -d ln(eta)/dT = B/(T - C)^2, in 1/K.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    vogel_viscosity, vogel_b, vogel_c : float
-        Parameters of ``vogel``.
+    ``temperature`` [K], shape (...).
 
     Examples
     --------
@@ -89,19 +64,8 @@ def vogel_coefficient(
 def vogel_temperature(
     viscosity: ArrayLike, *, vogel_viscosity: float, vogel_b: float, vogel_c: float
 ) -> Array:
-    """Temperature [K] at which an oil of Vogel's law has a viscosity; the inverse of ``vogel``.
-
-    Parameters
-    ----------
-    viscosity : array_like, shape (...)
-        Viscosity [Pa s].
-    vogel_viscosity, vogel_b, vogel_c : float
-        Parameters of ``vogel``.
-
-    Raises
-    ------
-    InputError
-        If no temperature has the viscosity.
+    """Temperature [K] at which an oil of Vogel's law has a viscosity; the inverse of ``vogel``. ``viscosity``
+    [Pa s], shape (...). Raises InputError if no temperature has the viscosity.
 
     Examples
     --------
@@ -126,29 +90,11 @@ def roelands_over_temperature(
 
     ln eta + 9.67 = (ln eta_ref + 9.67) ((T - 138 K)/(T_ref - 138 K))^-S0, with viscosities in Pa s.
 
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    viscosity : float
-        Viscosity eta_ref at the reference temperature [Pa s].
-    reference_temperature : float
-        Reference temperature T_ref [K].
-    roelands_s0 : float
-        Slope index S0, dimensionless.
+    ``temperature`` [K], shape (...); ``viscosity``, viscosity eta_ref at the reference temperature [Pa s];
+    ``reference_temperature``, reference temperature T_ref [K]; ``roelands_s0``, slope index S0,
+    dimensionless. Returns viscosity eta [Pa s], shape (...). Raises InputError if the temperature is missing
+    or not above 138 K, or the viscosity is below the pole of 6.3e-5 Pa s.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Viscosity eta [Pa s].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing or not above 138 K, or the viscosity is below the pole of 6.3e-5 Pa s.
-
-    Notes
-    -----
     C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
     lubricating oils, thesis, Delft, 1966. The pressure-viscosity coefficient at the temperature follows from
     the viscosity by ``viscosity.roelands_alpha``.
@@ -199,13 +145,7 @@ def roelands_coefficient(
     temperature: ArrayLike, *, viscosity: float, reference_temperature: float, roelands_s0: float
 ) -> Array:
     """Temperature coefficient after Roelands, -d ln(eta)/dT = S0 (ln eta + 9.67)/(T - 138 K), in 1/K.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    viscosity, reference_temperature, roelands_s0 : float
-        Parameters of ``roelands_over_temperature``.
+    ``temperature`` [K], shape (...).
 
     Examples
     --------
@@ -224,18 +164,7 @@ def roelands_temperature(
     value: ArrayLike, *, viscosity: float, reference_temperature: float, roelands_s0: float
 ) -> Array:
     """Temperature [K] at which an oil has a viscosity; the inverse of ``roelands_over_temperature``.
-
-    Parameters
-    ----------
-    value : array_like, shape (...)
-        Viscosity [Pa s].
-    viscosity, reference_temperature, roelands_s0 : float
-        Parameters of ``roelands_over_temperature``.
-
-    Raises
-    ------
-    InputError
-        If no temperature has the viscosity.
+    ``value`` [Pa s], shape (...). Raises InputError if no temperature has the viscosity.
 
     Examples
     --------
@@ -334,11 +263,6 @@ class Walther:
     log10 log10(nu + 0.7) = A - B log10 T, with nu in mm^2/s and T in K. This is the short form of ASTM D341,
     for nu of at least 2 mm^2/s.
 
-    Attributes
-    ----------
-    a, b : float
-        Constants A and B, dimensionless.
-
     Examples
     --------
     >>> oil = Walther.of(46e-6, 6.8e-6)
@@ -346,17 +270,14 @@ class Walther:
     14.85
     """
 
+    # a and b: constants A and B, dimensionless.
     a: float
     b: float
 
     @classmethod
     def of(cls, at_40: float, at_100: float) -> Walther:
-        """Walther equation of an oil from its kinematic viscosities at 40 and 100 degC [m^2/s].
-
-        Raises
-        ------
-        InputError
-            If the viscosity does not fall with temperature, or is too low for the equation.
+        """Walther equation of an oil from its kinematic viscosities at 40 and 100 degC [m^2/s]. Raises
+        InputError if the viscosity does not fall with temperature, or is too low for the equation.
         """
         if not at_40 > at_100:
             raise InputError(
@@ -375,12 +296,8 @@ class Walther:
         return cls(cold + b * math.log10(COLD), b)
 
     def viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity [m^2/s] at an absolute temperature [K].
-
-        Raises
-        ------
-        InputError
-            If the viscosity is too low for the equation, or the oil is solid at this temperature.
+        """Kinematic viscosity [m^2/s] at an absolute temperature [K]. Raises InputError if the viscosity is
+        too low for the equation, or the oil is solid at this temperature.
         """
         double = math.pow(10.0, self.a - self.b * math.log10(temperature))
         if double > 300.0:
@@ -402,21 +319,9 @@ class Walther:
 
 
 def density(at_15: float, expansion: float, temperature: float) -> float:
-    """Density of an oil at a temperature, rho = rho_15 (1 - a (T - 288.15 K)).
-
-    Parameters
-    ----------
-    at_15 : float
-        Density rho_15 at 15 degC [kg/m^3].
-    expansion : float
-        Coefficient a of thermal expansion [1/K].
-    temperature : float
-        Absolute temperature T [K].
-
-    Returns
-    -------
-    float
-        Density rho [kg/m^3].
+    """Density of an oil at a temperature, rho = rho_15 (1 - a (T - 288.15 K)). ``at_15``, density rho_15 at
+    15 degC [kg/m^3]; ``expansion``, coefficient a of thermal expansion [1/K]; ``temperature``, absolute
+    temperature T [K]. Returns density rho [kg/m^3].
 
     Examples
     --------
@@ -436,29 +341,10 @@ def interpolated(
 ) -> Array:
     """Property of an oil at a temperature, from a table over temperature.
 
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature [K].
-    temperatures : sequence of float, shape (n,)
-        Temperatures of the table [K], increasing.
-    values : sequence of float, shape (n,)
-        Values of the property; with ``arrhenius`` above zero.
-    table : str
-        Name of the table, for the message.
-    arrhenius : bool, optional
-        Whether the logarithm of the value is interpolated linearly over 1/T, as for an electrical
-        conductivity. Without it, the value is interpolated linearly over T.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Values of the property at the temperatures.
-
-    Raises
-    ------
-    InputError
-        If a temperature is outside the table; nothing is extrapolated.
+    ``temperature`` [K], shape (...); ``temperatures``, temperatures of the table [K], increasing, shape (n,);
+    ``values``, values of the property; with ``arrhenius`` above zero, shape (n,). Returns values of the
+    property at the temperatures, shape (...). Raises InputError if a temperature is outside the table;
+    nothing is extrapolated.
 
     Examples
     --------

@@ -102,17 +102,10 @@ class Laws:
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Values of a law over pressure at one temperature.
-
-    Attributes
-    ----------
-    name : str
-        Name of the law.
-    pressure, values : ndarray, shape (n,)
-        Increasing pressures from 0 [Pa], and the values there.
-    """
+    """Values of a law over pressure at one temperature."""
 
     name: str
+    # pressure and values: increasing pressures from 0 [Pa], and the values there, shape (n,).
     pressure: Array
     values: Array
 
@@ -152,15 +145,9 @@ class Samples:
 
 @dataclass(frozen=True, eq=False)
 class SampledLaws:
-    """Laws of a user's own at the temperature of a contact.
+    """Laws of a user's own at the temperature of a contact."""
 
-    Attributes
-    ----------
-    samples : mapping of str to Samples
-        Samples by "viscosity", "density", "permittivity" and "strength".
-    """
-
-    samples: Mapping[str, Samples]
+    samples: Mapping[str, Samples]  # samples by "viscosity", "density", "permittivity" and "strength"
 
     @property
     def names(self) -> dict[str, str]:

@@ -28,22 +28,10 @@ def roelands_exponent(
 
     z = alpha p0/(ln eta0 + 9.67), with eta0 in Pa s.
 
-    Parameters
-    ----------
-    viscosity : float
-        Viscosity eta0 at zero pressure [Pa s].
-    pressure_viscosity_coefficient : float
-        Slope alpha of ln eta at zero pressure [1/Pa].
-    roelands_pressure : float
-        Constant p0 [Pa].
+    ``viscosity``, viscosity eta0 at zero pressure [Pa s]; ``pressure_viscosity_coefficient``, slope alpha of
+    ln eta at zero pressure [1/Pa]; ``roelands_pressure``, constant p0 [Pa]. Returns exponent z,
+    dimensionless; infinite for a viscosity below the pole of the relation at 6.3e-5 Pa s.
 
-    Returns
-    -------
-    float
-        Exponent z, dimensionless; infinite for a viscosity below the pole of the relation at 6.3e-5 Pa s.
-
-    Notes
-    -----
     C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
     lubricating oils, thesis, Delft, 1966.
 
@@ -61,22 +49,10 @@ def roelands_alpha(viscosity: float, roelands_z: float, roelands_pressure: float
 
     alpha = z (ln eta0 + 9.67)/p0, with eta0 in Pa s.
 
-    Parameters
-    ----------
-    viscosity : float
-        Viscosity eta0 at zero pressure and at this temperature [Pa s].
-    roelands_z : float
-        Exponent z, dimensionless; it hardly changes with temperature.
-    roelands_pressure : float
-        Constant p0 [Pa].
+    ``viscosity``, viscosity eta0 at zero pressure and at this temperature [Pa s]; ``roelands_z``, exponent z,
+    dimensionless; it hardly changes with temperature; ``roelands_pressure``, constant p0 [Pa]. Returns
+    pressure-viscosity coefficient alpha [1/Pa].
 
-    Returns
-    -------
-    float
-        Pressure-viscosity coefficient alpha [1/Pa].
-
-    Notes
-    -----
     C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of
     lubricating oils, thesis, Delft, 1966.
 
@@ -100,26 +76,10 @@ def roelands(
 
     ln(eta/eta0) = (alpha p0/z) ((1 + p/p0)^z - 1), with the viscosity eta0 at zero pressure.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like, optional
-        Temperature [K]. The law is isothermal and ignores it.
-    pressure_viscosity_coefficient : float
-        Slope alpha of ln eta at zero pressure [1/Pa].
-    roelands_z : float
-        Exponent z, dimensionless.
-    roelands_pressure : float
-        Constant p0 [Pa].
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``pressure_viscosity_coefficient``, slope alpha of ln
+    eta at zero pressure [1/Pa]; ``roelands_z``, exponent z, dimensionless; ``roelands_pressure``, constant p0
+    [Pa]. Returns ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa], shape (...).
 
-    Returns
-    -------
-    exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa].
-
-    Notes
-    -----
     Eq. (13) of Morris et al. (2022), doi:10.3390/lubricants10050087, after C. J. A. Roelands,
     Correlational aspects of the viscosity-temperature-pressure relationship of lubricating oils, PhD
     thesis, TU Delft, 1966.
@@ -143,22 +103,9 @@ def barus(
 
     ln(eta/eta0) = alpha p, with the viscosity eta0 at zero pressure.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like, optional
-        Temperature [K]. The law is isothermal and ignores it.
-    pressure_viscosity_coefficient : float
-        Slope alpha of ln eta [1/Pa].
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``pressure_viscosity_coefficient``, slope alpha of ln
+    eta [1/Pa]. Returns ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa], shape (...).
 
-    Returns
-    -------
-    exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, and its derivative by pressure [1/Pa].
-
-    Notes
-    -----
     C. Barus, Am. J. Sci. 45 (1893) 87, doi:10.2475/ajs.s3-45.266.87. Above about 0.5 GPa the law
     overestimates the viscosity by orders of magnitude.
 
@@ -173,18 +120,8 @@ def barus(
 
 def constant_viscosity(pressure: ArrayLike, temperature: ArrayLike | None = None) -> tuple[Array, Array]:
     """Logarithm of the relative viscosity of an isoviscous lubricant, and its derivative; both are zero.
-
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure [Pa].
-    temperature : array_like, optional
-        Temperature [K]. The law is isothermal and ignores it.
-
-    Returns
-    -------
-    exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, and its derivative [1/Pa]; zeros.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]. Returns ln(eta/eta0), dimensionless, and its
+    derivative [1/Pa]; zeros, shape (...).
 
     Examples
     --------
@@ -292,12 +229,8 @@ _ENDS = np.concatenate([np.linspace(0.0, 40.0, 41), np.geomspace(40.0, 200.0, 17
 
 
 def initial_alpha(law: PressureLaw) -> float:
-    """Pressure-viscosity coefficient alpha at zero pressure, the slope of ln(eta), in 1/Pa.
-
-    Parameters
-    ----------
-    law : callable
-        ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
+    """Pressure-viscosity coefficient alpha at zero pressure, the slope of ln(eta), in 1/Pa. ``law``,
+    ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
 
     Examples
     --------
@@ -313,18 +246,9 @@ def reciprocal_asymptotic_alpha(law: PressureLaw) -> float:
 
     alpha* = 1/Int_0^inf eta(0)/eta(p) dp, which film formulas take.
 
-    Parameters
-    ----------
-    law : callable
-        ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
+    ``law``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns
+    coefficient alpha* [1/Pa]; zero for a viscosity that does not rise with pressure.
 
-    Returns
-    -------
-    float
-        Coefficient alpha* [1/Pa]; zero for a viscosity that does not rise with pressure.
-
-    Notes
-    -----
     S. Bair, High-Pressure Rheology for Quantitative Elastohydrodynamics, Elsevier, 2007, after Blok (1963).
     The integral ends at some 200 times the pressure that raises the viscosity e times, about 10 GPa, because
     laws that saturate or are capped have no finite integral. There the integrand of an oil is below 1e-8.
@@ -341,17 +265,8 @@ def reciprocal_asymptotic_alpha(law: PressureLaw) -> float:
 
 def unfinished_share(law: PressureLaw) -> float:
     """Share of the integral of alpha* that a further range of pressure of the same length would add, at most.
-
-    Parameters
-    ----------
-    law : callable
-        ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
-
-    Returns
-    -------
-    float
-        Share, dimensionless; far below 1e-4 for an oil. For a viscosity that saturates at a small multiple
-        of eta0, alpha* depends on where the integral ends, and the share says so.
+    ``law``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns
+    share, dimensionless; far below 1e-4 for an oil.
 
     Examples
     --------

@@ -35,36 +35,15 @@ def yasutomi(
     eta = eta_g exp(-2.303 C1 (T - Tg) F/(C2 + (T - Tg) F)) with the glass transition temperature
     Tg = Tg0 + A1 ln(1 + A2 p) and the relative thermal expansion F = (1 + b1 p)^b2 of the free volume.
 
-    Parameters
-    ----------
-    pressure : array_like, shape (...)
-        Pressure p [Pa], >= 0.
-    temperature : array_like
-        Temperature T [K].
-    yasutomi_glass_viscosity : float
-        Viscosity eta_g at the glass transition [Pa s].
-    yasutomi_glass_temperature : float
-        Glass transition temperature Tg0 at zero pressure [K].
-    yasutomi_a1, yasutomi_a2 : float
-        Constants A1 [K], a difference of temperatures, and A2 [1/Pa].
-    yasutomi_b1, yasutomi_b2 : float
-        Constants b1 [1/Pa] and b2, dimensionless, <= 0.
-    yasutomi_c1, yasutomi_c2 : float
-        Constants C1, dimensionless, and C2 [K], a difference of temperatures.
+    ``pressure`` [Pa], shape (...); ``temperature`` [K]; ``yasutomi_glass_viscosity``, viscosity eta_g at the
+    glass transition [Pa s]; ``yasutomi_glass_temperature``, glass transition temperature Tg0 at zero pressure
+    [K]; ``yasutomi_a1`` and ``yasutomi_a2``, constants A1 [K], a difference of temperatures, and A2 [1/Pa];
+    ``yasutomi_b1`` and ``yasutomi_b2``, constants b1 [1/Pa] and b2, dimensionless, <= 0; ``yasutomi_c1`` and
+    ``yasutomi_c2``, constants C1, dimensionless, and C2 [K], a difference of temperatures. Returns
+    ln(eta/eta0), dimensionless, with the viscosity eta0 of ``yasutomi_viscosity``, and its derivative by
+    pressure [1/Pa], shape (...). Raises InputError if the temperature is missing, or not above the glass
+    transition at zero pressure.
 
-    Returns
-    -------
-    exponent, slope : ndarray, shape (...)
-        ln(eta/eta0), dimensionless, with the viscosity eta0 of ``yasutomi_viscosity``, and its derivative by
-        pressure [1/Pa].
-
-    Raises
-    ------
-    InputError
-        If the temperature is missing, or not above the glass transition at zero pressure.
-
-    Notes
-    -----
     S. Yasutomi, S. Bair and W. O. Winer, J. Tribol. 106 (1984) 291, with the function F of the improved law
     of S. Bair and others (2013), as later works quote both. The original law has F = 1 - B1 ln(1 + B2 p), and
     its constants are not those of this one. The number 2.303 of the printed law is ln 10. Below the glass
@@ -109,27 +88,11 @@ def yasutomi_viscosity(
 ) -> Array:
     """Viscosity at zero pressure after Yasutomi, eta0 = eta_g exp(-2.303 C1 (T - Tg0)/(C2 + T - Tg0)).
 
-    Parameters
-    ----------
-    temperature : array_like, shape (...)
-        Temperature T [K].
-    yasutomi_glass_viscosity, yasutomi_glass_temperature, yasutomi_c1, yasutomi_c2 : float
-        Constants eta_g [Pa s], Tg0 [K], C1, dimensionless, and C2 [K].
-    yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2 : float
-        Constants of the law at other pressures; not used.
+    ``temperature`` [K], shape (...); ``yasutomi_glass_viscosity``, ``yasutomi_glass_temperature``,
+    ``yasutomi_c1`` and ``yasutomi_c2``, constants eta_g [Pa s], Tg0 [K], C1, dimensionless, and C2 [K].
+    Returns viscosity eta0 [Pa s], shape (...). Raises InputError if the temperature is not above the glass
+    transition.
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Viscosity eta0 [Pa s].
-
-    Raises
-    ------
-    InputError
-        If the temperature is not above the glass transition.
-
-    Notes
-    -----
     Sources of ``yasutomi``.
 
     Examples

@@ -28,20 +28,13 @@ STRIDE = 2
 
 @dataclass(frozen=True)
 class KeyFilms:
-    """Film thicknesses and load share of asperities by which a run is compared with its companion.
+    """Film thicknesses and load share of asperities by which a run is compared with its companion."""
 
-    Attributes
-    ----------
-    lowest : float
-        Minimum film thickness between the nodes [m]; NaN where the companion has no film.
-    central : float
-        Film thickness at the centre of the contact [m]; NaN where the companion has no film.
-    load_share : float
-        Part of the load that asperities carry; NaN where the companion has no film.
-    """
-
+    # Minimum film thickness between the nodes [m]; NaN where the companion has no film.
     lowest: float = math.nan
+    # Film thickness at the centre of the contact [m]; NaN where the companion has no film.
     central: float = math.nan
+    # Part of the load that asperities carry; NaN where the companion has no film.
     load_share: float = math.nan
 
     @classmethod
@@ -56,11 +49,6 @@ class Companion:
 
     Its steps end with every second step of the run. A run whose companion does not converge goes on without
     it, and its error is unknown.
-
-    Parameters
-    ----------
-    contact : TransientContact
-        Contact of the run.
     """
 
     def __init__(self, contact: TransientContact) -> None:
@@ -88,20 +76,9 @@ class Companion:
         return history if round(steps) == done // STRIDE else None
 
     def after(self, step: int, history: History | None) -> History | None:
-        """Films of the companion after a step of the run.
-
-        Parameters
-        ----------
-        step : int
-            Number of the step of the run.
-        history : History or None
-            Films of the companion after the step before; None if it had not converged.
-
-        Returns
-        -------
-        History or None
-            The same films after a step between two steps of the companion. None where a step of the companion
-            does not converge.
+        """Films of the companion after a step of the run. ``history``, films of the companion after the step
+        before; None if it had not converged. Returns the same films after a step between two steps of the
+        companion; None where a step of the companion does not converge.
         """
         if history is None or step % STRIDE:
             return history

@@ -20,33 +20,16 @@ from ehlectric.motion.stored_run import MotionRun
 
 @dataclass(frozen=True)
 class Touch:
-    """Asperities at one instant.
-
-    Attributes
-    ----------
-    load_share : float
-        Part of the load that they carry, from 0 to 1.
-    area_share : float
-        Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1.
-    spots : int
-        Number of spots.
-    """
+    """Asperities at one instant."""
 
     load_share: float = 0.0
+    # Part of the area of the dry smooth contact in which the surfaces touch, from 0 to 1
     area_share: float = 0.0
     spots: int = 0
 
 
 class Toucher:
-    """Asperities of the instants of a transient contact on one mesh.
-
-    Parameters
-    ----------
-    contact : TransientContact
-        Contact of the run.
-    mesh : Mesh
-        Mesh of the film, which covers the Hertz zone.
-    """
+    """Asperities of the instants of a transient contact on one mesh."""
 
     def __init__(self, contact: TransientContact, mesh: Mesh) -> None:
         self._contact, self._mesh = contact, mesh
@@ -80,30 +63,19 @@ class Toucher:
 
 @dataclass(frozen=True)
 class TouchHistory:
-    """Asperities over the time steps of a run.
+    """Asperities over the time steps of a run."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (steps,)
-        Times of the steps [s].
-    load_share, area_share, spots : ndarray, shape (steps,)
-        Values of ``Touch``.
-    coarse_share : ndarray, shape (steps,)
-        Load share in the companion of the run; NaN between its steps, where it has no film, and where a file
-        has no such variable, as nothing touched.
-    counted : ndarray of bool, shape (steps,)
-        Steps that count for statistics: those from which on the roughness fills the contact.
-    filled : bool
-        Whether it fills the contact at all; in a shorter run all steps count.
-    """
-
-    time: Array
+    time: Array  # [s], shape (steps,)
+    # load_share, area_share and spots: values of ``Touch``, shape (steps,).
     load_share: Array
     area_share: Array
     spots: Array
+    # Load share in the companion of the run; NaN between its steps, where it has no film, and where a file
+    # has no such variable, as nothing touched, shape (steps,).
     coarse_share: Array
+    # Steps that count for statistics: those from which on the roughness fills the contact, shape (steps,).
     counted: Mask
-    filled: bool = True
+    filled: bool = True  # whether it fills the contact at all; in a shorter run all steps count
 
     @classmethod
     def of(cls, run: MotionRun) -> TouchHistory | None:

@@ -54,25 +54,6 @@ _AT_REST = 1e-9
 class Schedule:
     """Time steps of a transient contact and the speeds of its surfaces.
 
-    Attributes
-    ----------
-    end : float
-        Duration T, dimensionless.
-    steps : int
-        Number of time steps, all of the same length.
-    courant : float
-        Distance travelled at the entrainment speed in one time step [grid spacings].
-    recorded : ndarray of int, shape (n,)
-        Numbers of the time steps that are recorded, from 0 to ``steps``.
-    time : float
-        Unit of time b/u, which corresponds to T = 1 [s].
-    domain : tuple of float
-        Inlet and outlet of the film's domain [half-widths].
-    speeds : tuple of float
-        Speeds of surfaces 1 and 2 divided by the entrainment speed; exactly 0 if a surface is at rest.
-    rough : tuple of int
-        Numbers of the rough surfaces, 1 or 2, in ascending order.
-
     Examples
     --------
     A bump on surface 1 in pure rolling. The domain, -4 to 2 half-widths, has 64 grid intervals:
@@ -88,14 +69,15 @@ class Schedule:
     (128, 12.0, 6.0)
     """
 
-    end: float
-    steps: int
-    courant: float
-    recorded: Array
-    time: float
-    domain: tuple[float, float]
+    end: float  # duration T, dimensionless
+    steps: int  # number of time steps, all of the same length
+    courant: float  # distance travelled at the entrainment speed in one time step [grid spacings]
+    recorded: Array  # numbers of the time steps that are recorded, from 0 to ``steps``, shape (n,)
+    time: float  # unit of time b/u, which corresponds to T = 1 [s]
+    domain: tuple[float, float]  # inlet and outlet of the film's domain [half-widths]
+    # Speeds of surfaces 1 and 2 divided by the entrainment speed; exactly 0 if a surface is at rest.
     speeds: tuple[float, float]
-    rough: tuple[int, ...]
+    rough: tuple[int, ...]  # numbers of the rough surfaces, 1 or 2, in ascending order
 
     @property
     def step(self) -> float:
@@ -161,26 +143,8 @@ class Schedule:
 
 
 def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedule:
-    """Schedule of a case with moving roughness.
-
-    Parameters
-    ----------
-    case : Case
-        A case with ``motion`` and roughness.
-    conditions : Conditions or PointConditions
-        Operating conditions of the case, from ``resolve`` or ``resolve_point``.
-
-    Returns
-    -------
-    Schedule
-        Time steps and speeds. The recorded instants include the one at which all moving roughness is at its
-        position in the case, if the run reaches it.
-
-    Raises
-    ------
-    InputError
-        If the case has no ``motion``, or all rough surfaces are at rest. Also if the run is shorter than one
-        grid spacing, or the time steps are too long.
+    """Schedule of a case with moving roughness. Returns time steps and speeds. Raises InputError if the case
+    has no ``motion``, or all rough surfaces are at rest.
     """
     if case.motion is None:
         raise InputError.worded("motion", "missing; a case whose roughness moves needs it")
@@ -248,21 +212,11 @@ def _moving(speed: float) -> float:
 
 @dataclass(frozen=True)
 class MovingRoughness:
-    """Rough surfaces that move through a contact.
+    """Rough surfaces that move through a contact."""
 
-    Attributes
-    ----------
-    surfaces : sequence of RoughSurface or RoughMap
-        Rough surfaces, long enough for the whole run.
-    schedule : Schedule
-        Time steps and speeds of the surfaces.
-    half_width : float
-        Half-width b, in a point contact the semi-axis along entrainment [m].
-    """
-
-    surfaces: Sequence[RoughSurface] | Sequence[RoughMap]
-    schedule: Schedule
-    half_width: float
+    surfaces: Sequence[RoughSurface] | Sequence[RoughMap]  # rough surfaces, long enough for the whole run
+    schedule: Schedule  # time steps and speeds of the surfaces
+    half_width: float  # half-width b, in a point contact the semi-axis along entrainment [m]
 
     @property
     def moving(self) -> list[RoughSurface | RoughMap]:
@@ -275,19 +229,9 @@ class MovingRoughness:
         return [surface for surface in self.surfaces if not self.schedule.speed_of(surface.surface)]
 
     def heights(self, time: float, *axes: Array) -> Array:
-        """Roughness heights of both surfaces at a time.
-
-        Parameters
-        ----------
-        time : float
-            Time T, dimensionless.
-        *axes : ndarray
-            Positions X, shape (nx,), and of a point contact also Y, shape (ny,) [half-widths].
-
-        Returns
-        -------
-        ndarray, shape (2, nx) or (2, nx, ny)
-            Heights, positive out of the body [m].
+        """Roughness heights of both surfaces at a time. ``time``, time T, dimensionless; ``*axes``, positions
+        X, shape (nx,), and of a point contact also Y, shape (ny,) [half-widths]. Returns heights, positive
+        out of the body [m], shape (2, nx) or (2, nx, ny).
         """
         heights = np.zeros((2, *(axis.size for axis in axes)))
         for surface in self.surfaces:
@@ -324,42 +268,24 @@ E = TypeVar("E")  # field
 
 @dataclass(frozen=True)
 class Kind(Generic[C, R, F, E]):
-    """Functions of one kind of transient contact.
+    """Functions of one kind of transient contact."""
 
-    Attributes
-    ----------
-    name : str
-        Geometry of the case, "line" or "point".
-    axes : tuple of str
-        Names of the axes of a map: x along entrainment and, for a point contact, y across it.
-    capacitance_unit : str
-        Unit of the capacitance in the field range.
-    contact : Kind
-        Functions of the stationary contact of the same kind.
-    nodes_across : callable
-        Changes to a grid that keep its nodes across entrainment when nodes along entrainment are added.
-    film_problem : callable
-        Film equations with the rough surfaces at rest only. Its arguments are the case, the case with the
-        extended domain (see ``TransientContact``), the conditions and the moving roughness.
-    shaped : callable
-        Values on the solver's mesh, shape (nx, ny), in the shape of the arrays of a film.
-    film : callable
-        Film from its solution, the film equations and the mesh.
-    column_strength : callable
-        Largest field strength across the film at its nodes [V/m]; NaN outside the field range.
-    in_hertz_zone : callable
-        Mask of the nodes in the Hertz zone, from the conditions and the positions along each axis [m].
-    """
-
-    name: str
+    name: str  # geometry of the case, "line" or "point"
+    # Names of the axes of a map: x along entrainment and, for a point contact, y across it.
     axes: tuple[str, ...]
     capacitance_unit: str
-    contact: contact_kinds.AnyKind
+    contact: contact_kinds.AnyKind  # functions of the stationary contact of the same kind
+    # Changes to a grid that keep its nodes across entrainment when nodes along entrainment are added.
     nodes_across: Callable[[Grid], dict[str, int]]
+    # Film equations with the rough surfaces at rest only.
     film_problem: Callable[[Case, Case, C, MovingRoughness], FilmProblem]
+    # Values on the solver's mesh, shape (nx, ny), in the shape of the arrays of a film.
     shaped: Callable[[Mesh, NDArray[Any]], NDArray[Any]]
+    # Film from its solution, the film equations and the mesh.
     film: Callable[[FilmSolution, FilmProblem, Mesh], F]
+    # Largest field strength across the film at its nodes [V/m]; NaN outside the field range.
     column_strength: Callable[[F, E], Array]
+    # Mask of the nodes in the Hertz zone, from the conditions and the positions along each axis [m].
     in_hertz_zone: Callable[..., Mask]
 
 
@@ -438,49 +364,20 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class TransientContact:
-    """Contact with moving roughness, ready to be solved in time steps.
-
-    Attributes
-    ----------
-    case : Case
-        Case of a line or a point contact.
-    conditions : Conditions or PointConditions
-        Operating conditions of the case.
-    schedule : Schedule
-        Time steps and speeds of the surfaces.
-    travelled : Case
-        Case whose domain is extended to the length of the surfaces that pass through the contact.
-    roughness : MovingRoughness
-        Rough surfaces, generated or read for the extended domain.
-    """
+    """Contact with moving roughness, ready to be solved in time steps."""
 
     case: Case
     conditions: Conditions | PointConditions
-    schedule: Schedule
+    schedule: Schedule  # time steps and speeds of the surfaces
+    # Case whose domain is extended to the length of the surfaces that pass through the contact.
     travelled: Case
-    roughness: MovingRoughness
+    roughness: MovingRoughness  # rough surfaces, generated or read for the extended domain
 
     @classmethod
     def of(cls, case: Case, rough: Sequence[RoughSurface | RoughMap] = ()) -> TransientContact:
-        """Contact of a case, with its surfaces generated or read.
-
-        Parameters
-        ----------
-        case : Case
-            A case with ``motion`` and roughness.
-        rough : sequence of RoughSurface or RoughMap, optional
-            Surfaces of the same case at rest. Those from files do not depend on the domain and are taken as
-            they are, so that no file is read twice.
-
-        Returns
-        -------
-        TransientContact
-            Contact that is ready to be solved in time steps.
-
-        Raises
-        ------
-        InputError
-            If the schedule is refused (see ``schedule_of``), or a surface cannot be generated or read.
+        """Contact of a case, with its surfaces generated or read. Returns contact that is ready to be solved
+        in time steps. Raises InputError if the schedule is refused (see ``schedule_of``), or a surface cannot
+        be generated or read.
         """
         kind = KINDS[case.contact.geometry]
         conditions = kind.contact.resolve(case)
@@ -514,19 +411,9 @@ class TransientContact:
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:
         """Contribution of moving roughness to the dimensionless gap; peaks reduce the gap.
 
-        Parameters
-        ----------
-        time : float
-            Time T, dimensionless.
-        x : ndarray, shape (nx,)
-            Positions X along entrainment [half-widths].
-        y : ndarray, shape (ny,)
-            Positions Y across entrainment [half-widths]; not used by a line contact.
-
-        Returns
-        -------
-        ndarray, shape (nx, ny)
-            Change of the gap divided by the scale of the film thickness, dimensionless.
+        ``time``, time T, dimensionless; ``x``, positions X along entrainment [half-widths], shape (nx,);
+        ``y``, positions Y across entrainment [half-widths]; not used by a line contact, shape (ny,). Returns
+        change of the gap divided by the scale of the film thickness, dimensionless, shape (nx, ny).
         """
         heights = self.roughness.moving_height(time, *(x, y)[: len(self.kind.axes)])
         gap: Array = -heights.reshape(x.size, y.size) / self.conditions.thickness_scale
@@ -534,20 +421,9 @@ class TransientContact:
 
 
 def travelled_case(case: Case, schedule: Schedule) -> Case:
-    """Case whose domain is extended to the length of the surfaces that pass through the contact.
-
-    Parameters
-    ----------
-    case : Case
-        A case with roughness.
-    schedule : Schedule
-        Time steps and speeds of the surfaces of this case.
-
-    Returns
-    -------
-    Case
-        Case with the same grid spacing. The domain is extended along entrainment only, so the number of nodes
-        across is the same.
+    """Case whose domain is extended to the length of the surfaces that pass through the contact. Returns case
+    with the same grid spacing; the domain is extended along entrainment only, so the number of nodes across
+    is the same.
     """
     grid, length = case.grid, schedule.length
     inlet, outlet = schedule.domain

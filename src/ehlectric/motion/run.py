@@ -38,32 +38,10 @@ def run(
 ) -> RunOutcome[xr.Dataset]:
     """Solve a contact with moving roughness, and write motion.nc and summary.json.
 
-    Parameters
-    ----------
-    case : Case
-        Case with ``motion``.
-    folder : str or Path
-        Folder of the files; it is made if it does not exist. An unfinished run of the same case there is
-        resumed. A complete run without summary.json is summed up without being solved again. The files of any
-        other result there are replaced.
-    progress : callable, optional
-        Called with the number of solved steps, the number of all steps, and a message.
-    others : sequence of str, optional
-        Names of other files in the folder that belong to its result, such as figures. Those of an earlier
-        result are removed.
-
-    Returns
-    -------
-    RunOutcome
-        Its result is the dataset of ``read_motion``. Where a time step is not solved, the steps before it are
-        summed up, and ``failure`` says why.
-
-    Raises
-    ------
-    InputError
-        Where the case or the folder cannot be used, or another command writes into the folder.
-    ConvergenceError
-        Where the film before the motion is not converged, so that there is nothing to sum up.
+    ``folder``, folder of the files; it is made if it does not exist. Returns its result is the dataset of
+    ``read_motion``. Raises InputError where the case or the folder cannot be used, or another command writes
+    into the folder; ConvergenceError where the film before the motion is not converged, so that there is
+    nothing to sum up.
     """
     prepared = check_case(case)
     contact = TransientContact.of(case, prepared.rough)

@@ -30,87 +30,43 @@ from ehlectric.runtime.threads import quiet_solution
 
 @dataclass(frozen=True)
 class Snapshot:
-    """Film, roughness and field of a contact at one instant, SI units.
+    """Film, roughness and field of a contact at one instant, SI units."""
 
-    Attributes
-    ----------
-    time : float
-        Time since the roughness began to enter [s].
-    film : Film or PointFilm
-        Film at this instant, without an error estimate.
-    roughness : ndarray, shape (2, nx) or (2, nx, ny)
-        Heights of both surfaces at the film's nodes, positive out of the body [m].
-    field : Field or PointField
-        Electric field, computed for the gap at this instant as in a stationary contact.
-    """
-
-    time: float
-    film: Film | PointFilm
+    time: float  # time since the roughness began to enter [s]
+    film: Film | PointFilm  # film at this instant, without an error estimate
+    # Heights of both surfaces at the film's nodes, positive out of the body [m], shape (2, nx) or
+    # (2, nx, ny).
     roughness: Array
+    # Electric field, computed for the gap at this instant as in a stationary contact.
     field: Field | PointField
 
 
 @dataclass(frozen=True)
 class Extremes:
-    """Minimum film thickness with its position, and largest pressure, at one instant.
+    """Minimum film thickness with its position, and largest pressure, at one instant."""
 
-    Attributes
-    ----------
-    minimum_thickness : float
-        Minimum film thickness [m].
-    minimum_position : tuple of float
-        Position along each axis of the node where the film is thinnest [m].
-    max_pressure : float
-        Largest pressure [Pa].
-    """
-
-    minimum_thickness: float
-    minimum_position: tuple[float, ...]
-    max_pressure: float
+    minimum_thickness: float  # minimum film thickness [m]
+    minimum_position: tuple[float, ...]  # position along each axis of the node where the film is thinnest [m]
+    max_pressure: float  # largest pressure [Pa]
 
 
 class TransientSolver:
-    """Solver of a contact with moving roughness.
-
-    Parameters
-    ----------
-    contact : TransientContact
-        Contact to solve.
-    """
+    """Solver of a contact with moving roughness."""
 
     def __init__(self, contact: TransientContact) -> None:
         self.contact = contact
         self._moving = MovingFilm(contact.problem, contact.moving_gap)
 
     def start(self) -> History:
-        """Stationary film before any moving roughness has entered: the initial condition of the run.
-
-        Raises
-        ------
-        ConvergenceError
-            If the stationary film does not converge.
+        """Stationary film before any moving roughness has entered: the initial condition of the run. Raises
+        ConvergenceError if the stationary film does not converge.
         """
         return self._moving.start(self.contact.schedule.step)
 
     def run(self, history: History, done: int = 0) -> Iterator[tuple[int, History]]:
-        """Solve the time steps after step ``done``.
-
-        Parameters
-        ----------
-        history : History
-            Films of the last two instants, the later one after step ``done``.
-        done : int
-            Number of the last solved step.
-
-        Yields
-        ------
-        int, History
-            Number of a step, and the films of the last two instants after it.
-
-        Raises
-        ------
-        ConvergenceError
-            If a time step does not converge, even after it was halved several times.
+        """Solve the time steps after step ``done``. Yields number of a step, and the films of the last two
+        instants after it. Raises ConvergenceError if a time step does not converge, even after it was halved
+        several times.
         """
         schedule = self.contact.schedule
         for step in range(done + 1, schedule.steps + 1):

@@ -240,11 +240,7 @@ _STATIONARY: Mapping[str, Callable[[Any], bool]] = {
 
 def solved_part(dataset: xr.Dataset) -> xr.Dataset:
     """Part of the dataset of a file with the solved steps and the recorded instants, after it is checked.
-
-    Raises
-    ------
-    UnfitError
-        Where a variable or an attribute is missing, or is not as a run writes it.
+    Raises UnfitError where a variable or an attribute is missing, or is not as a run writes it.
     """
     attributes = dataset.attrs
     kind = KINDS[case_of(attributes, Case.from_dict).contact.geometry]

@@ -33,21 +33,11 @@ NEAR_MAXIMUM = 0.9
 
 @dataclass(frozen=True)
 class FieldHistory:
-    """Largest field strength at every time step.
+    """Largest field strength at every time step."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (steps,)
-        Times of the steps [s].
-    strength : ndarray, shape (steps,)
-        Largest field strength at the steps [V/m].
-    settled_from : float
-        Time at which the statistics begin [s].
-    """
-
-    time: Array
-    strength: Array
-    settled_from: float
+    time: Array  # [s], shape (steps,)
+    strength: Array  # largest field strength at the steps [V/m], shape (steps,)
+    settled_from: float  # time at which the statistics begin [s]
 
     @cached_property
     def _settled(self) -> Mask:
@@ -79,21 +69,10 @@ def strength_between(time: Array, estimate: Array, frame_time: Array, strength: 
     The largest field strength is the voltage divided by the minimum film thickness, times a ratio that
     changes little with time. The ratio is interpolated between the recorded instants.
 
-    Parameters
-    ----------
-    time : ndarray, shape (steps,)
-        Times of the steps [s].
-    estimate : ndarray, shape (steps,)
-        Voltage divided by the minimum film thickness [V/m].
-    frame_time : ndarray, shape (frames,)
-        Times of the recorded instants [s].
-    strength : ndarray, shape (frames,)
-        Largest field strength at the recorded instants [V/m].
-
-    Returns
-    -------
-    ndarray, shape (steps,)
-        Largest field strength [V/m].
+    ``time`` [s], shape (steps,); ``estimate``, voltage divided by the minimum film thickness [V/m],
+    shape (steps,); ``frame_time``, times of the recorded instants [s], shape (frames,); ``strength``, largest
+    field strength at the recorded instants [V/m], shape (frames,). Returns largest field strength [V/m],
+    shape (steps,).
 
     Examples
     --------
@@ -106,21 +85,9 @@ def strength_between(time: Array, estimate: Array, frame_time: Array, strength: 
 
 
 def intervals_above(time: Array, values: Array, level: float) -> Array:
-    """Intervals of time in which values are above a level.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        Times, ascending.
-    values : ndarray, shape (n,)
-        Values at these times, linear in between.
-    level : float
-        Level, in the unit of the values.
-
-    Returns
-    -------
-    ndarray, shape (m, 2)
-        Start and end of each interval.
+    """Intervals of time in which values are above a level. ``time``, times, ascending, shape (n,);
+    ``values``, values at these times, linear in between, shape (n,). Returns start and end of each interval,
+    shape (m, 2).
 
     Examples
     --------
@@ -140,21 +107,9 @@ def intervals_above(time: Array, values: Array, level: float) -> Array:
 
 
 def time_above(time: Array, values: Array, level: float) -> float:
-    """Share of the time in which values are above a level.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        Times, ascending.
-    values : ndarray, shape (n,)
-        Values at these times, linear in between.
-    level : float
-        Level, in the unit of the values.
-
-    Returns
-    -------
-    float
-        Share between 0 and 1; for a single instant 0 or 1.
+    """Share of the time in which values are above a level. ``time``, times, ascending, shape (n,);
+    ``values``, values at these times, linear in between, shape (n,). Returns share between 0 and 1; for a
+    single instant 0 or 1.
 
     Examples
     --------

@@ -42,18 +42,10 @@ _LEAST = 5e-5
 
 @dataclass(frozen=True)
 class RunErrors:
-    """Relative discretisation errors of a run, of its grid and its time steps together.
+    """Relative discretisation errors of a run, of its grid and its time steps together."""
 
-    Attributes
-    ----------
-    minimum : float
-        Error of the minimum film thickness of all steps.
-    central : float
-        Largest error over time of the film thickness at the centre.
-    """
-
-    minimum: float
-    central: float
+    minimum: float  # error of the minimum film thickness of all steps
+    central: float  # largest error over time of the film thickness at the centre
 
     @property
     def largest(self) -> float:
@@ -81,21 +73,10 @@ def run_errors(run: MotionRun) -> RunErrors | None:
 def estimated(lowest: tuple[Array, Array], central: tuple[Array, Array], minimum: float) -> RunErrors:
     """Errors of a run from its film thicknesses and those of its companion at the same instants.
 
-    Parameters
-    ----------
-    lowest, central : pair of ndarray, shape (n,)
-        Minimum film thickness between the nodes and central film thickness over time, of the run and of its
-        companion, in any unit.
-    minimum : float
-        Minimum film thickness at the nodes of all steps of the run, in the same unit.
+    ``lowest`` and ``central``, minimum film thickness between the nodes and central film thickness over time,
+    of the run and of its companion, in any unit, shape (n,). Returns relative errors of the minimum and of
+    the central film thickness.
 
-    Returns
-    -------
-    RunErrors
-        Relative errors of the minimum and of the central film thickness.
-
-    Notes
-    -----
     Two minima over time may agree by chance. Their change is therefore the largest one of all instants at
     which the minimum of either film is within 5 % of its lowest value over time. The distance of the lowest
     node from the lowest place between the nodes is added.
@@ -144,21 +125,7 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
 
     The case is part of the dataset. Surface files are not needed.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Dataset of a run, complete or not, from ``read_motion``.
-
-    Returns
-    -------
-    dict
-        Results. Statistics over time begin when the roughness has filled the Hertz zone, or at the start of
-        the run if it never fills the zone.
-
-    Raises
-    ------
-    InputError
-        If the dataset is not a transient run.
+    Raises InputError if the dataset is not a transient run.
     """
     run, attributes = MotionRun.of(dataset), dataset.attrs
     complete = bool(attributes["complete"])
@@ -347,20 +314,9 @@ def _position(run: MotionRun, name: str, index: int) -> float | list[float]:
 
 
 def local_maxima(run: MotionRun, within: Mask) -> Array:
-    """Local maxima of the field strength over position, within the Hertz zone.
-
-    Parameters
-    ----------
-    run : MotionRun
-        A run.
-    within : ndarray of bool, shape (frames,)
-        Recorded instants to use.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Field strengths at nodes where the field is larger than at all neighbouring nodes, from all these
-        instants together [V/m].
+    """Local maxima of the field strength over position, within the Hertz zone. ``within``, recorded instants
+    to use, shape (frames,). Returns field strengths at nodes where the field is larger than at all
+    neighbouring nodes, from all these instants together [V/m], shape (n,).
     """
     strength = np.nan_to_num(run.dataset["strength"].values[within], nan=-np.inf)
     inside = run.kind.in_hertz_zone(run.conditions, *(run.dataset[axis].values for axis in run.kind.axes))

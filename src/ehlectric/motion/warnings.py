@@ -32,19 +32,8 @@ LEAST_STEPS, SUFFICIENT_STEPS = 8.0, 20.0
 
 
 def motion_warnings(contact: TransientContact, still: Result | PointResult) -> Iterator[ResultWarning]:
-    """Warnings about the case, its surfaces, its time steps and the film with stationary roughness.
-
-    Parameters
-    ----------
-    contact : TransientContact
-        Contact with moving roughness.
-    still : Result or PointResult
-        Solution of the same contact with stationary roughness.
-
-    Yields
-    ------
-    ResultWarning
-        Warnings that are known before the first time step.
+    """Warnings about the case, its surfaces, its time steps and the film with stationary roughness. Yields
+    warnings that are known before the first time step.
     """
     kind, conditions, travelled = contact.kind.contact, contact.conditions, contact.travelled
     domain, spacings = kind.domain(travelled, conditions), kind.spacings(contact.case, conditions)
@@ -73,15 +62,7 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
     Roughness that moves with the oil is carried along exactly. What the steps must resolve is the passage of
     waves relative to the oil, at the difference between the speeds of their surface and of entrainment.
 
-    Parameters
-    ----------
-    contact : TransientContact
-        Contact with moving roughness.
-
-    Yields
-    ------
-    ResultWarning
-        The warning, with the number of steps that is sufficient.
+    Yields the warning, with the number of steps that is sufficient.
     """
     steps, motion, case = contact.schedule.steps, contact.case.motion, contact.case
     assert motion is not None
@@ -104,18 +85,9 @@ def step_warnings(contact: TransientContact) -> Iterator[ResultWarning]:
 
 
 def touch_warnings(found: TouchHistory) -> Iterator[ResultWarning]:
-    """Warnings about a run whose surfaces touch: what it means, and a load share not resolved.
-
-    Parameters
-    ----------
-    found : TouchHistory
-        Asperities over the time steps of the run.
-
-    Yields
-    ------
-    ResultWarning
-        That the surfaces touch, and where so that their load share depends on the grid or is not known on a
-        coarser one.
+    """Warnings about a run whose surfaces touch: what it means, and a load share not resolved. Yields that
+    the surfaces touch, and where so that their load share depends on the grid or is not known on a coarser
+    one.
     """
     share, coarser = found.mean_share, found.coarser
     short = "; the roughness never fills the Hertz zone, and these are shares of the whole run: take more "

@@ -31,41 +31,23 @@ EAST, NORTH, WEST, SOUTH = range(4)
 
 @dataclass(frozen=True)
 class CartesianGrid:
-    """Cartesian grid over the gap, whose unknowns are the potentials of the nodes between the surfaces.
+    """Cartesian grid over the gap, whose unknowns are the potentials of the nodes between the surfaces."""
 
-    Attributes
-    ----------
-    x : ndarray, shape (nx,)
-        Positions of the columns [m].
-    lower, upper : ndarray, shape (nx,)
-        Heights of the two surfaces at the columns [m].
-    y : ndarray, shape (ny,)
-        Heights of the equidistant rows [m].
-    column, row : ndarray of int, shape (n,)
-        Column and row of every unknown. Unknowns with even column + row come first.
-    number : ndarray of int, shape (nx, ny)
-        Number of the unknown at a node; -1 if the node is not an unknown.
-    even : int
-        Number of unknowns with even column + row.
-    """
-
-    x: Array
+    x: Array  # positions of the columns [m], shape (nx,)
+    # lower and upper: heights of the two surfaces at the columns [m], shape (nx,).
     lower: Array
     upper: Array
-    y: Array
+    y: Array  # heights of the equidistant rows [m], shape (ny,)
+    # column and row: column and row of every unknown. Unknowns with even column + row come first, shape (n,).
     column: IntArray
     row: IntArray
-    number: IntArray
-    even: int
+    number: IntArray  # number of the unknown at a node; -1 if the node is not an unknown, shape (nx, ny)
+    even: int  # number of unknowns with even column + row
 
     @classmethod
     def over(cls, x: Array, lower: Array, upper: Array, *, rows: int) -> CartesianGrid:
-        """Create a grid with ``rows`` rows in the smallest gap.
-
-        Raises
-        ------
-        ConvergenceError
-            If the grid would have more than 3e7 nodes.
+        """Create a grid with ``rows`` rows in the smallest gap. Raises ConvergenceError if the grid would
+        have more than 3e7 nodes.
         """
         dy = float(np.min(upper - lower)) / rows
         nodes = x.size * float(np.max(upper) - np.min(lower)) / dy
@@ -95,48 +77,22 @@ class Stencil:
     """Equation (16) at every unknown: V = sum over the neighbours of share times their V, plus source.
 
     Arrays of shape (4, n) are in the order of a_1 to a_4: east, north, west, south.
-
-    Attributes
-    ----------
-    grid : CartesianGrid
-        Nodes and surfaces.
-    neighbour : ndarray of int, shape (4, n)
-        Numbers of the neighbours of every unknown; n is the lower surface and n + 1 the upper one.
-    share : ndarray, shape (4, n)
-        Coefficients a_1 to a_4 divided by a_0.
-    source : ndarray or float
-        Contribution of free charge [V], shape (n,) if there is any.
-    arm : ndarray, shape (4, n)
-        Distances to the neighbours [m].
-    permittivity : ndarray, shape (4, n)
-        Relative permittivity on the arms.
     """
 
     grid: CartesianGrid
+    # Numbers of the neighbours of every unknown; n is the lower surface and n + 1 the upper one,
+    # shape (4, n).
     neighbour: IntArray
-    share: Array
-    source: Array
-    arm: Array
-    permittivity: Array
+    share: Array  # coefficients a_1 to a_4 divided by a_0, shape (4, n)
+    source: Array  # contribution of free charge [V], shape (n,) if there is any
+    arm: Array  # distances to the neighbours [m], shape (4, n)
+    permittivity: Array  # relative permittivity on the arms, shape (4, n)
 
 
 def stencil(grid: CartesianGrid, cells: Array, charge_density: Array | None = None) -> Stencil:
-    """Coefficients of eq. (16) at every unknown, (A1) to (A5) divided by a_0.
-
-    Parameters
-    ----------
-    grid : CartesianGrid
-        Nodes and surfaces.
-    cells : ndarray, shape (nx - 1, ny - 1)
-        Relative permittivity in the cells between the nodes.
-    charge_density : ndarray, shape (n,), optional
-        Density of free charge at the unknowns [C/m^3].
-
-    Returns
-    -------
-    Stencil
-        The coefficients. No flux leaves through the first and the last column: the neighbour beyond them is
-        the mirror image of the neighbour inside.
+    """Coefficients of eq. (16) at every unknown, (A1) to (A5) divided by a_0. ``cells``, relative
+    permittivity in the cells between the nodes, shape (nx - 1, ny - 1); ``charge_density``, density of free
+    charge at the unknowns [C/m^3], shape (n,).
     """
     neighbour, arm = _arms(grid)
     east = np.minimum(grid.column, grid.x.size - 2)

@@ -22,21 +22,11 @@ from ehlectric.paper.study import Study, readings_differ_by
 
 @dataclass(frozen=True)
 class Slip:
-    """Slip in the paper.
-
-    Attributes
-    ----------
-    printed : str
-        Statement as printed.
-    should_be : str
-        Corrected statement.
-    check : callable
-        Returns, for a study, a text with computed numbers that show the slip.
-    """
+    """Slip in the paper."""
 
     printed: str
     should_be: str
-    check: Callable[[Study], str]
+    check: Callable[[Study], str]  # returns, for a study, a text with computed numbers that show the slip
 
 
 def _viscosity(_: Study) -> str:

@@ -61,28 +61,11 @@ class _Cycled:
 def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Film:
     """Film of a line contact by the paper's multigrid.
 
-    Parameters
-    ----------
-    problem : FilmProblem
-        Dimensionless problem of a line contact of elastic bodies. Repeated halving of the number of intervals
-        must lead to a grid of at most 201 nodes.
-    progress : callable, optional
-        Called with (nodes, cycle, residual) before every V-cycle on the finest grid.
+    ``problem``, dimensionless problem of a line contact of elastic bodies. Returns film in SI units, as from
+    ``film.isothermal_film.solve_film``; its ``newton_iterations`` are V-cycles. Raises InputError where the
+    grid cannot be halved to at most 201 nodes; ValueError where the problem is not a line contact of elastic
+    bodies.
 
-    Returns
-    -------
-    Film
-        Film in SI units, as from ``film.isothermal_film.solve_film``; its ``newton_iterations`` are V-cycles.
-
-    Raises
-    ------
-    InputError
-        Where the grid cannot be halved to at most 201 nodes.
-    ValueError
-        Where the problem is not a line contact of elastic bodies.
-
-    Notes
-    -----
     Eqs. (1) to (13) and (19) of Morris et al. (2022), doi:10.3390/lubricants10050087. On a coarse grid H the
     unknown is the injected iterate plus its correction. The right side of its Reynolds equation is
     L_H(I P) + R(f - L_h(P)). Here I is the injection, R is the restriction, and L_h(P) = f is the equation of
@@ -130,11 +113,7 @@ def _tolerance(problem: FilmProblem, finest: FilmEquations) -> float:
 
 def grid_sizes(nodes: int) -> list[int]:
     """Numbers of nodes of the grids, from the finest to the coarsest; each has every other node of the last.
-
-    Raises
-    ------
-    InputError
-        Where the halving ends at more than 201 nodes.
+    Raises InputError where the halving ends at more than 201 nodes.
 
     Examples
     --------
@@ -216,19 +195,9 @@ def residual_norm(equations: FilmEquations, at: Iterate) -> float:
 
 
 def v_cycle(grids: list[FilmEquations], at: Iterate) -> Iterate:
-    """One V-cycle of the full approximation scheme.
-
-    Parameters
-    ----------
-    grids : list of FilmEquations
-        Equations from the grid of ``at`` to the coarsest grid; of the coarser ones only the nodes are used.
-    at : Iterate
-        Iterate to improve.
-
-    Returns
-    -------
-    Iterate
-        New iterate, with a smaller residual if the cycles converge.
+    """One V-cycle of the full approximation scheme. ``grids``, equations from the grid of ``at`` to the
+    coarsest grid; of the coarser ones only the nodes are used. Returns new iterate, with a smaller residual
+    if the cycles converge.
     """
     fine, *coarser = grids
     if not coarser:

@@ -41,45 +41,22 @@ class Iterate:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Local quantities of an iterate at the nodes, each of shape (n,).
-
-    Attributes
-    ----------
-    thickness : ndarray
-        Film thickness H.
-    density : ndarray
-        Density over ambient density.
-    eps : ndarray
-        Poiseuille coefficient of eq. (7).
-    log_density_p, log_viscosity_p : ndarray
-        Derivatives of the logarithms of density and viscosity with respect to P.
-    """
+    """Local quantities of an iterate at the nodes, each of shape (n,)."""
 
     thickness: Array
     density: Array
     eps: Array
+    # log_density_p and log_viscosity_p: derivatives of the logarithms of density and viscosity with respect
+    # to P.
     log_density_p: Array
     log_viscosity_p: Array
 
 
 @dataclass(frozen=True)
 class FilmEquations:
-    """Equations (1), (7) and (11) of the paper on one grid.
-
-    Parameters
-    ----------
-    fluid : Fluid
-        Density and viscosity over P, velocity parameter and ambient pressure.
-    x : ndarray, shape (n,)
-        Equidistant nodes X.
-    gap : ndarray, shape (n,)
-        Right side of the film equation; the dry gap on the finest grid.
-    source : ndarray, shape (n,)
-        Right side of the Reynolds equation (7).
-    load : float
-        Right side of the load equation (11).
-    second_order : bool
-        Whether the upstream differences of the wedge term are of second order; the paper has first order.
+    """Equations (1), (7) and (11) of the paper on one grid. ``x``, equidistant nodes X, shape (n,); ``gap``,
+    right side of the film equation; the dry gap on the finest grid, shape (n,); ``source``, right side of the
+    Reynolds equation (7), shape (n,).
     """
 
     fluid: Fluid

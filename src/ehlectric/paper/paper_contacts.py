@@ -27,27 +27,13 @@ _CONTACT = {"reduced_radius": 14.1e-3, "reduced_modulus": 226e9}
 
 @dataclass(frozen=True)
 class PaperContact:
-    """One of the eight line contacts of the paper.
+    """One of the eight line contacts of the paper."""
 
-    Attributes
-    ----------
-    gigapascal : int
-        Hertz pressure [GPa], 1 or 2.
-    u_s : float
-        Sum of the surface speeds u1 + u2 [m/s].
-    load : float
-        Load per length [N/m].
-    label : str
-        Letter of its sub-figure in the paper.
-    printed : str
-        Name in the paper, from the rounded Moes numbers M and L, such as "M12L15".
-    """
-
-    gigapascal: int
-    u_s: float
-    load: float
-    label: str
-    printed: str
+    gigapascal: int  # Hertz pressure [GPa], 1 or 2
+    u_s: float  # sum of the surface speeds u1 + u2 [m/s]
+    load: float  # load per length [N/m]
+    label: str  # letter of its sub-figure in the paper
+    printed: str  # name in the paper, from the rounded Moes numbers M and L, such as "M12L15"
 
     @property
     def name(self) -> str:
@@ -56,20 +42,6 @@ class PaperContact:
 
     def case(self, *, nodes: int = SMOOTH_NODES, wedge: str = "second-order", **tables: object) -> Case:
         """Case of a smooth contact from Tables 1 and 2, with the misprinted viscosity of Table 1 corrected.
-
-        Parameters
-        ----------
-        nodes : int
-            Number of nodes of the film.
-        wedge : str
-            Order of the wedge term: "second-order", or "first-order" as in the paper.
-        **tables
-            Further tables of the case.
-
-        Returns
-        -------
-        Case
-            The case.
 
         Examples
         --------
@@ -90,19 +62,7 @@ class PaperContact:
         A parabola and wavelengths above 80 µm are removed from the profile, which is then cut at ±50 nm, as
         in the paper.
 
-        Parameters
-        ----------
-        profile : Path
-            File of the profile.
-        nodes : int
-            Number of nodes of the film.
-        shift : float
-            Distance that the profile is moved along x [m].
-
-        Returns
-        -------
-        Case
-            The case.
+        ``shift``, distance that the profile is moved along x [m].
         """
         rough = {
             "surface": 1,

@@ -149,20 +149,10 @@ _STRAIGHT: dict[str, Any] = {"color": "black", "lw": 0.6, "ls": (0, (2, 4))}
 
 @dataclass(frozen=True)
 class PaperFigure:
-    """Figure of the paper.
-
-    Attributes
-    ----------
-    caption : str
-        Caption of the figure.
-    parts : tuple of str
-        Parts of the study that it needs, attributes of ``Study``.
-    draw : callable
-        Function that draws the figure from a study.
-    """
+    """Figure of the paper."""
 
     caption: str
-    parts: tuple[str, ...]
+    parts: tuple[str, ...]  # parts of the study that it needs, attributes of ``Study``
     draw: Callable[[Study], Figure]
 
 

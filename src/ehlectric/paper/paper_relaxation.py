@@ -35,17 +35,7 @@ def relax(equations: FilmEquations, at: Iterate) -> Iterate:
     dipoles, +1 at a node and -1 at the node before. All unknowns are solved for together, each coupled to six
     neighbours on each side, because relaxation node by node stalls at the pressure spike.
 
-    Parameters
-    ----------
-    equations : FilmEquations
-        Equations on the grid.
-    at : Iterate
-        Iterate to improve.
-
-    Returns
-    -------
-    Iterate
-        New iterate, with no pressure below ambient.
+    Returns new iterate, with no pressure below ambient.
     """
     c = equations.coefficients(at)
     residual = equations.residual(at, c)

@@ -30,22 +30,7 @@ LARGEST_CHANGE = 1.0
 
 
 def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, bytes]) -> str:
-    """Report of a complete study as an HTML page.
-
-    Parameters
-    ----------
-    study : Study
-        Study with all its parts.
-    tables : mapping
-        Tables by name, all of ``ehlectric.paper.paper_tables.TABLES``.
-    figures : mapping
-        Contents of PNG files by figure number; they are embedded in the page.
-
-    Returns
-    -------
-    str
-        HTML page that needs no other files.
-    """
+    """Report of a complete study as an HTML page. Returns HTML page that needs no other files."""
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True)
     template = (resources.files("ehlectric.paper") / "report.html.jinja").read_text(encoding="utf-8")
     return environment.from_string(template).render(
@@ -72,18 +57,9 @@ def html(study: Study, tables: Mapping[str, PaperTable], figures: Mapping[int, b
 
 
 def verdicts(tables: Mapping[str, PaperTable]) -> dict[str, str]:
-    """Verdicts on Table 3 and on the three conclusions of the paper, by their criteria.
-
-    Parameters
-    ----------
-    tables : mapping
-        Tables by name, all of ``ehlectric.paper.paper_tables.TABLES``.
-
-    Returns
-    -------
-    dict
-        "table_3" has a text with the number of rows that agree; "conclusion_1" to "conclusion_3" are "holds"
-        or "does not hold".
+    """Verdicts on Table 3 and on the three conclusions of the paper, by their criteria. Returns "table_3" has
+    a text with the number of rows that agree; "conclusion_1" to "conclusion_3" are "holds" or "does not
+    hold".
     """
     printed, rough, width, constant = (
         tables[name] for name in ("table_3", "conclusion_1", "conclusion_2", "conclusion_3")

@@ -33,22 +33,11 @@ INNER = 0.9
 
 @dataclass(frozen=True)
 class PaperTable:
-    """Table of the study.
-
-    Attributes
-    ----------
-    title : str
-        Title of the table.
-    heads : tuple of str
-        Heads of the columns, with units.
-    formats : tuple of str
-        Format of the numbers of each column as shown; the saved table has six significant digits.
-    rows : tuple of tuple
-        Numbers and texts, row by row.
-    """
+    """Table of the study."""
 
     title: str
     heads: tuple[str, ...]
+    # Format of the numbers of each column as shown; the saved table has six significant digits.
     formats: tuple[str, ...]
     rows: tuple[tuple[str | float, ...], ...]
 
@@ -317,16 +306,7 @@ _SOURCES = ("Venner & Napel", "paper", "first order", "second order")
 
 def films_tables(films: PaperTable) -> Iterator[Table]:
     """Tables of the films at 2 GPa for the terminal: printed by two authors, computed with both wedges.
-
-    Parameters
-    ----------
-    films : PaperTable
-        Table that ``ehlectric.paper.paper_tables.printed_table`` returned.
-
-    Yields
-    ------
-    rich.table.Table
-        Minimum films, then mean films; one row for each contact, film thicknesses [µm].
+    Yields minimum films, then mean films; one row for each contact, film thicknesses [µm].
     """
     from rich.table import Table
     from rich.text import Text

@@ -25,24 +25,13 @@ REPORT = "report.html"
 
 @dataclass(frozen=True)
 class Reproduced:
-    """Files and results of a reproduction of the paper.
+    """Files and results of a reproduction of the paper."""
 
-    Attributes
-    ----------
-    files : list of Path
-        Files written; the report is first, if there is one.
-    tables : dict
-        Tables written, by name.
-    verdicts : dict
-        Verdicts from ``ehlectric.paper.paper_report.verdicts``; empty if only one figure or table was made.
-    converged : bool
-        Whether every film is converged.
-    """
-
-    files: list[Path]
+    files: list[Path]  # files written; the report is first, if there is one
     tables: dict[str, PaperTable]
+    # Verdicts from ``ehlectric.paper.paper_report.verdicts``; empty if only one figure or table was made.
     verdicts: dict[str, str]
-    converged: bool
+    converged: bool  # whether every film is converged
 
 
 def figure_files(number: int, formats: Sequence[str] = ("png",)) -> tuple[str, ...]:
@@ -61,34 +50,11 @@ def reproduce(
 ) -> Reproduced:
     """Solve the contacts of the paper, and write its figures and tables.
 
-    Parameters
-    ----------
-    folder : str or Path
-        Output folder; created if it does not exist.
-    figure : int, optional
-        Number of the only figure to write, 2 to 11.
-    table : int, optional
-        Number of the only table to write, 3. Without ``figure`` and ``table``, all figures, tables and
-        report.html are written.
-    progress : callable, optional
-        Called with (number done, number in all, name of what was done) after every contact and figure.
-    formats : sequence of str
-        Formats of the figures, of "png", "svg" and "pdf". The report has its own copies.
-    style : str
-        Style of the figures, "screen" or "journal".
+    ``folder``, output folder; created if it does not exist; ``figure``, number of the only figure to write, 2
+    to 11; ``table``, number of the only table to write, 3. Returns files written, tables and verdicts. Raises
+    InputError if there is no such figure or table, the folder cannot be used, or another command writes into
+    it.
 
-    Returns
-    -------
-    Reproduced
-        Files written, tables and verdicts.
-
-    Raises
-    ------
-    InputError
-        If there is no such figure or table, the folder cannot be used, or another command writes into it.
-
-    Notes
-    -----
     H. Morris, M. Leighton and N. Morris, Lubricants 2022, 10(5), 87, doi:10.3390/lubricants10050087.
     """
     figures, tables = _requested(figure, table)

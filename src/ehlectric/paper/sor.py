@@ -29,21 +29,11 @@ MOST_SWEEPS = 100_000
 
 @dataclass(frozen=True)
 class Relaxed:
-    """Result of the over-relaxation.
+    """Result of the over-relaxation."""
 
-    Attributes
-    ----------
-    potential : ndarray, shape (n + 2,)
-        Potential of the unknowns, then of the lower and the upper surface [V].
-    sweeps : int
-        Number of sweeps.
-    factor : float
-        Damping factor zeta of eq. (17).
-    """
-
-    potential: Array
+    potential: Array  # potential of the unknowns, then of the lower and the upper surface [V], shape (n + 2,)
     sweeps: int
-    factor: float
+    factor: float  # damping factor zeta of eq. (17)
 
 
 def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: float = TOLERANCE) -> Relaxed:
@@ -51,26 +41,9 @@ def over_relax(equations: Stencil, start: Array, *, factor: float, tolerance: fl
 
     A sweep updates the nodes with even column + row first, and then the others.
 
-    Parameters
-    ----------
-    equations : Stencil
-        Equations of the unknowns.
-    start : ndarray, shape (n + 2,)
-        Initial guess of the potential, then the potential of the lower and the upper surface [V].
-    factor : float
-        Damping factor zeta, from 0 to 2.
-    tolerance : float
-        Largest residual, divided by the voltage, at which the sweeps stop.
-
-    Returns
-    -------
-    Relaxed
-        Potential, and number of sweeps.
-
-    Raises
-    ------
-    ConvergenceError
-        If 100 000 sweeps do not reach the tolerance.
+    ``start``, initial guess of the potential, then the potential of the lower and the upper surface [V],
+    shape (n + 2,). Returns potential, and number of sweeps. Raises ConvergenceError if 100 000 sweeps do not
+    reach the tolerance.
     """
     v = start.copy()
     voltage = abs(v[-1] - v[-2])
@@ -113,25 +86,10 @@ def young_factor(grid: CartesianGrid) -> float:
 def cartesian(problem: FieldProblem, rows: int) -> tuple[Stencil, Array]:
     """Equations of a field problem on a Cartesian grid, and an initial guess of the potential.
 
-    Parameters
-    ----------
-    problem : FieldProblem
-        Geometry, permittivity by column and potentials, SI units.
-    rows : int
-        Number of rows in the smallest gap.
-
-    Returns
-    -------
-    equations : Stencil
-        Equation (16) at every unknown.
-    start : ndarray, shape (n + 2,)
-        Potential that is linear across the gap, then the potentials of the lower and the upper surface [V].
-
-    Raises
-    ------
-    ValueError
-        If the problem has something that the paper's method lacks: free charge, potentials on the end faces,
-        or a permittivity that varies across the gap.
+    Returns ``equations``, equation (16) at every unknown; ``start``, potential that is linear across the gap,
+    then the potentials of the lower and the upper surface [V], shape (n + 2,). Raises ValueError if the
+    problem has something that the paper's method lacks: free charge, potentials on the end faces, or a
+    permittivity that varies across the gap.
     """
     if problem.charge_density is not None or problem.end_potentials is not None:
         raise ValueError("the paper's field has no free charge and no given end potentials")
@@ -152,26 +110,10 @@ def cartesian(problem: FieldProblem, rows: int) -> tuple[Stencil, Array]:
 def solve_field(problem: FieldProblem, *, rows: int = ROWS) -> Field:
     """Field between two conducting walls by the paper's successive over-relaxation.
 
-    Parameters
-    ----------
-    problem : FieldProblem
-        Geometry, permittivity by column and potentials, SI units; its ``x`` are the columns of the grid.
-    rows : int
-        Number of rows of the grid in the smallest gap, at least 4.
-
-    Returns
-    -------
-    Field
-        Field at the same nodes as from ``field.line_field.solve_field``. Between the rows, the potential
-        is interpolated by cubic splines along the columns. ``capacitance`` follows from the energy of the
-        field, ``capacitance_by_charge`` from the field on wall 1; they agree within the error of the grid.
-
-    Raises
-    ------
-    ValueError
-        If the problem has free charge, end potentials or a permittivity that varies across the gap.
-    ConvergenceError
-        If the grid would have too many nodes, or 100 000 sweeps do not reach the tolerance.
+    ``rows``, number of rows of the grid in the smallest gap, at least 4. Returns field at the same nodes as
+    from ``field.line_field.solve_field``. Raises ValueError if the problem has free charge, end potentials or
+    a permittivity that varies across the gap; ConvergenceError if the grid would have too many nodes, or 100
+    000 sweeps do not reach the tolerance.
 
     Examples
     --------

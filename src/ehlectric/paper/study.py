@@ -39,20 +39,10 @@ PLACEMENTS = (0.0, 50e-6, 100e-6, 150e-6)
 
 @dataclass(frozen=True)
 class Placed:
-    """Result of a rough contact with its profile moved, or on another grid.
+    """Result of a rough contact with its profile moved, or on another grid."""
 
-    Attributes
-    ----------
-    minimum_thickness : float
-        Minimum film thickness h_min [m].
-    largest : float
-        Largest dimensionless field strength, E_max h_min/V12.
-    converged : bool
-        Whether the film is converged.
-    """
-
-    minimum_thickness: float
-    largest: float
+    minimum_thickness: float  # minimum film thickness h_min [m]
+    largest: float  # largest dimensionless field strength, E_max h_min/V12
     converged: bool
 
 
@@ -61,63 +51,36 @@ class Methods:
     """Convergence of the paper's own methods on one contact, and their differences from ehlectric's solvers.
 
     Both films have the first-order wedge.
-
-    Attributes
-    ----------
-    cycles : int
-        Number of V-cycles to a residual of 1e-6 on the finest grid.
-    factor : float
-        Mean reduction of the residual by a cycle, from the third cycle on.
-    film_difference : float
-        Largest relative difference between the two films.
-    unknowns : int
-        Number of unknowns of the Cartesian grid.
-    sweeps : int
-        Fewest sweeps of the over-relaxation.
-    damping : float
-        Damping factor of the fewest sweeps.
-    capacitance_difference, strength_difference : float
-        Relative differences of the capacitance and of the largest field from those of ehlectric's solver.
     """
 
-    cycles: int
-    factor: float
-    film_difference: float
-    unknowns: int
-    sweeps: int
-    damping: float
+    cycles: int  # number of V-cycles to a residual of 1e-6 on the finest grid
+    factor: float  # mean reduction of the residual by a cycle, from the third cycle on
+    film_difference: float  # largest relative difference between the two films
+    unknowns: int  # number of unknowns of the Cartesian grid
+    sweeps: int  # fewest sweeps of the over-relaxation
+    damping: float  # damping factor of the fewest sweeps
+    # capacitance_difference and strength_difference: relative differences of the capacitance and of the
+    # largest field from those of ehlectric's solver.
     capacitance_difference: float
     strength_difference: float
 
 
 @dataclass(frozen=True)
 class Study:
-    """Results of the study by contact; a part that was not requested is empty.
+    """Results of the study by contact; a part that was not requested is empty."""
 
-    Attributes
-    ----------
-    smooth : dict
-        Smooth contacts with the second-order wedge.
-    first_order : dict
-        Smooth contacts with the first-order wedge of the paper.
-    fine : dict
-        Smooth contacts with twice the number of intervals.
-    rough : dict
-        Rough contacts.
-    placed : dict
-        Rough contacts on half the number of intervals, with the profile as it is and moved.
-    constant : dict
-        Smooth contacts with a constant permittivity.
-    methods : dict
-        Comparison of the paper's own methods with the solvers of ehlectric.
-    """
-
+    # Smooth contacts with the second-order wedge.
     smooth: dict[PaperContact, Result] = field(default_factory=dict)
+    # Smooth contacts with the first-order wedge of the paper.
     first_order: dict[PaperContact, Result] = field(default_factory=dict)
+    # Smooth contacts with twice the number of intervals.
     fine: dict[PaperContact, Result] = field(default_factory=dict)
     rough: dict[PaperContact, Result] = field(default_factory=dict)
+    # Rough contacts on half the number of intervals, with the profile as it is and moved.
     placed: dict[PaperContact, tuple[Placed, ...]] = field(default_factory=dict)
+    # Smooth contacts with a constant permittivity.
     constant: dict[PaperContact, Result] = field(default_factory=dict)
+    # Comparison of the paper's own methods with the solvers of ehlectric.
     methods: dict[PaperContact, Methods] = field(default_factory=dict)
 
     @property
@@ -129,24 +92,8 @@ class Study:
 
 
 def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None] | None = None) -> Study:
-    """Solve parts of the study in parallel, with one process for each core.
-
-    Parameters
-    ----------
-    parts : iterable of str
-        Names of the parts, attributes of ``Study``.
-    progress : callable, optional
-        Called with (number done, number in all, name of what was done) after every contact.
-
-    Returns
-    -------
-    Study
-        Results of the requested parts.
-
-    Raises
-    ------
-    LostError
-        If the process of a contact was killed four times.
+    """Solve parts of the study in parallel, with one process for each core. Raises LostError if the process
+    of a contact was killed four times.
     """
     requested = dict.fromkeys(parts)
     with measured_profile() as profile:
@@ -178,18 +125,8 @@ def straight_line(result: Result) -> Array:
     The line lies half of the average film thickness above the average lower surface, both averaged over the
     Hertz zone.
 
-    Parameters
-    ----------
-    result : Result
-        Result of a line contact.
+    Returns abs(E) at the columns of the field [V/m]; NaN where the line is outside the film, shape (nx,).
 
-    Returns
-    -------
-    ndarray, shape (nx,)
-        abs(E) at the columns of the field [V/m]; NaN where the line is outside the film.
-
-    Notes
-    -----
     Between smooth equal bodies, with surfaces at -h/2 and h/2, this is the line s = 1/2.
     """
     field, b = result.field, result.conditions.half_width

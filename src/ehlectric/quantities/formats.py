@@ -16,21 +16,11 @@ _CELSIUS = 273.15
 
 @dataclass(frozen=True)
 class Scale:
-    """Unit in which values are shown.
-
-    Attributes
-    ----------
-    factor : float
-        Factor from values in SI units to values in this unit.
-    unit : str
-        Unit as printed, such as "µm".
-    offset : float
-        Number added after the multiplication, for temperatures in °C.
-    """
+    """Unit in which values are shown."""
 
     factor: float
-    unit: str
-    offset: float = 0.0
+    unit: str  # unit as printed, such as "µm"
+    offset: float = 0.0  # number added after the multiplication, for temperatures in °C
 
     def of(self, values: Any) -> Any:
         """Numbers of SI values in this unit.

@@ -16,37 +16,21 @@ Bound: TypeAlias = Literal["", "≤", "≥"]
 
 @dataclass(frozen=True)
 class Quantity:
-    """Label, symbol, units, digits and meaning of one quantity.
-
-    Attributes
-    ----------
-    meaning : str
-        Meaning of the value, as a phrase for the documentation.
-    unit : str
-        SI unit as pint writes it, such as "V/m"; empty for a dimensionless number, a text or a choice.
-    label : str
-        Label, such as "minimum film thickness"; if it is empty, outputs show the dotted key.
-    symbol : str
-        Symbol in labels, in LaTeX; empty if there is none.
-    shown : str
-        Unit in which the value is shown, such as "nm"; if it is empty, the usual one of its SI unit, or if
-        there is none, or for "prefixed", the SI unit with the prefix that suits the value.
-    digits : str
-        Format of the shown number.
-    bound : str
-        What an ideal film makes of the value: "≤" for an upper bound, "≥" for a lower one. ``bounds`` says
-        whether it holds for a result.
-    head : str
-        Short label at the head of a column; if it is empty, the label.
-    """
+    """Label, symbol, units, digits and meaning of one quantity."""
 
     meaning: str
+    # SI unit as pint writes it, such as "V/m"; empty for a dimensionless number, a text or a choice.
     unit: str = ""
-    label: str = ""
-    symbol: str = ""
+    label: str = ""  # label, such as "minimum film thickness"; if it is empty, outputs show the dotted key
+    symbol: str = ""  # symbol in labels, in LaTeX; empty if there is none
+    # Unit in which the value is shown, such as "nm"; if it is empty, the usual one of its SI unit, or if
+    # there is none, or for "prefixed", the SI unit with the prefix that suits the value.
     shown: str = field(default="", kw_only=True)
-    digits: str = field(default=".4g", kw_only=True)
+    digits: str = field(default=".4g", kw_only=True)  # format of the shown number
+    # What an ideal film makes of the value: "≤" for an upper bound, "≥" for a lower one. ``bounds`` says
+    # whether it holds for a result.
     bound: Bound = field(default="", kw_only=True)
+    # Short label at the head of a column; if it is empty, the label.
     head: str = field(default="", kw_only=True)
 
 
@@ -56,19 +40,8 @@ Keys = Mapping[str, Quantity]
 
 
 def under(table: str, keys: Keys) -> dict[str, Quantity]:
-    """Convert the keys of a table to dotted keys of the summary that contains the table.
-
-    Parameters
-    ----------
-    table : str
-        Dotted key of the table.
-    keys : mapping of str to Quantity
-        Keys within the table.
-
-    Returns
-    -------
-    dict of str to Quantity
-        The same keys, each preceded by ``table`` and a dot.
+    """Convert the keys of a table to dotted keys of the summary that contains the table. Returns the same
+    keys, each preceded by ``table`` and a dot.
 
     Examples
     --------
@@ -79,19 +52,8 @@ def under(table: str, keys: Keys) -> dict[str, Quantity]:
 
 
 def key_of(keys: Keys, dotted: str) -> Quantity | None:
-    """Look up a dotted key of a summary.
-
-    Parameters
-    ----------
-    keys : mapping of str to Quantity
-        Keys of the summary.
-    dotted : str
-        Dotted key; items of lists are numbered, as in "contacts.0.load".
-
-    Returns
-    -------
-    Quantity or None
-        Meaning, unit, name and symbol of the key; None if the key is unknown.
+    """Look up a dotted key of a summary. Returns meaning, unit, name and symbol of the key; None if the key
+    is unknown.
 
     Examples
     --------

@@ -16,31 +16,8 @@ Summary: TypeAlias = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Row:
-    """Row of a table: a name, a value with its unit, and a note. A row with a name alone is a heading.
-
-    Attributes
-    ----------
-    name : str
-        Label of the quantity, which a reader understands without the other rows.
-    value : float, str or None
-        Number in the SI unit of ``unit``, or a string; None for a row with a name and a note only.
-    unit : str
-        Unit in which a number is shown, one of ``UNITS``, or the unit of a string.
-    note : str
-        Note that follows the unit, or the value if there is no unit.
-    digits : str
-        Format of the shown number.
-    alarm : bool
-        True if the row says that the numbers must not be used.
-    bound : str
-        "≤" for a value that is an upper bound, "≥" for a lower bound; it holds for both ends of a range.
-    key : str
-        Dotted key of the quantity; empty for a row that shows none.
-
-    Raises
-    ------
-    ValueError
-        If the unit of a number is not in ``UNITS``.
+    """Row of a table: a name, a value with its unit, and a note. A row with a name alone is a heading. Raises
+    ValueError if the unit of a number is not in ``UNITS``.
 
     Examples
     --------
@@ -53,14 +30,16 @@ class Row:
     '≤ 5.88 V'
     """
 
-    name: str
+    name: str  # label of the quantity, which a reader understands without the other rows
+    # Number in the SI unit of ``unit``, or a string; None for a row with a name and a note only.
     value: float | str | None = None
-    unit: str = ""
-    note: str = ""
-    digits: str = field(default=".4g", kw_only=True)
-    alarm: bool = field(default=False, kw_only=True)
+    unit: str = ""  # unit in which a number is shown, one of ``UNITS``, or the unit of a string
+    note: str = ""  # note that follows the unit, or the value if there is no unit
+    digits: str = field(default=".4g", kw_only=True)  # format of the shown number
+    alarm: bool = field(default=False, kw_only=True)  # True if the row says that the numbers must not be used
+    # "≤" for a value that is an upper bound, "≥" for a lower bound; it holds for both ends of a range.
     bound: Bound = field(default="", kw_only=True)
-    key: str = field(default="", kw_only=True)
+    key: str = field(default="", kw_only=True)  # dotted key of the quantity; empty for a row that shows none
 
     def __post_init__(self) -> None:
         if isinstance(self.value, int | float) and self.unit not in UNITS:
@@ -110,27 +89,17 @@ Sheet: TypeAlias = tuple[Section, ...]
 
 @dataclass(frozen=True)
 class Words:
-    """What stands beside the numbers of a kind of result, by dotted key; functions of the summary.
-
-    Attributes
-    ----------
-    notes : mapping
-        Note of a quantity, as ``Row`` has it.
-    values : mapping
-        Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
-        text with its unit, or None where there is nothing to show.
-    alarms : mapping
-        Whether a quantity says that the numbers must not be used.
-    rows : mapping
-        Rows of a key that stands for several quantities, as "film_formulas.*.minimum_thickness".
-    hidden : callable
-        Keys that are not shown for a summary, although it has a value.
-    """
+    """What stands beside the numbers of a kind of result, by dotted key; functions of the summary."""
 
     notes: Mapping[str, Callable[[Summary], str]] = field(default_factory=dict)
+    # Value in place of the stored one, or of a quantity that is not stored: a number in SI units, a text, a
+    # text with its unit, or None where there is nothing to show.
     values: Mapping[str, Callable[[Summary], Any]] = field(default_factory=dict)
+    # Whether a quantity says that the numbers must not be used.
     alarms: Mapping[str, Callable[[Summary], bool]] = field(default_factory=dict)
+    # Rows of a key that stands for several quantities, as "film_formulas.*.minimum_thickness"
     rows: Mapping[str, Callable[[Summary], Iterable[Row]]] = field(default_factory=dict)
+    # Keys that are not shown for a summary, although it has a value.
     hidden: Callable[[Summary], Container[str]] = lambda _: ()
 
     def __or__(self, other: Words) -> Words:
@@ -152,19 +121,7 @@ def sheet_rows(
     bounds: Mapping[str, Bound] = MappingProxyType({}),
 ) -> Iterator[Row]:
     """Rows of a sheet, without quantities that a summary lacks and without sections that have none.
-
-    Parameters
-    ----------
-    sheet : iterable of Section
-        Sections of the kind of result.
-    book : mapping of str to Quantity
-        Its quantities by dotted key.
-    summary : mapping
-        Nested tables of the result, SI units.
-    words : Words, optional
-        What stands beside its numbers.
-    bounds : mapping of str to str, optional
-        "≤" or "≥" by the keys of numbers that are bounds only.
+    ``bounds``, "≤" or "≥" by the keys of numbers that are bounds only.
 
     Examples
     --------

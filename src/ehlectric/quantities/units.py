@@ -250,12 +250,8 @@ def _rotation(written: str) -> str:
 
 
 def absolute(number: float, written: str) -> float:
-    """Convert an absolute temperature to kelvin: 70 degC is 343.15 K, not a difference of 70 K.
-
-    Raises
-    ------
-    ValueError
-        If ``written`` is not a unit of an absolute temperature.
+    """Convert an absolute temperature to kelvin: 70 degC is 343.15 K, not a difference of 70 K. Raises
+    ValueError if ``written`` is not a unit of an absolute temperature.
     """
     if written not in _ZEROS:
         raise ValueError(f"{shown(written)} is not a unit of an absolute temperature: {', '.join(_ZEROS)}")
@@ -285,24 +281,9 @@ def on_scale(entry: object) -> bool:
 
 
 def from_pint(entry: pint.Quantity[float], unit: str) -> float:
-    """Convert a quantity of pint, of any registry, to a value in an SI unit.
-
-    Parameters
-    ----------
-    entry : pint.Quantity
-        Quantity with a single number.
-    unit : str
-        SI unit of the quantity, as pint writes it; empty for a dimensionless quantity.
-
-    Returns
-    -------
-    float
-        Value in ``unit``.
-
-    Raises
-    ------
-    ValueError
-        If the quantity has another dimension, or leaves open what is meant.
+    """Convert a quantity of pint, of any registry, to a value in an SI unit. ``unit``, SI unit of the
+    quantity, as pint writes it; empty for a dimensionless quantity. Raises ValueError if the quantity has
+    another dimension, or leaves open what is meant.
     """
     import pint
 
@@ -462,12 +443,8 @@ def to_fraction(text: str) -> float:
 
 
 def length_unit(text: str) -> str:
-    """Check that a string is a unit of length, and return it.
-
-    Raises
-    ------
-    InputError
-        If the string is not a unit of length.
+    """Check that a string is a unit of length, and return it. Raises InputError if the string is not a unit
+    of length.
 
     Examples
     --------

@@ -48,24 +48,12 @@ _REPLACED = {"bearing.inner_speed": "speed", "bearing.temperature": "temperature
 
 @dataclass(frozen=True)
 class Input:
-    """Input of a case with its origin.
+    """Input of a case with its origin."""
 
-    Attributes
-    ----------
-    key : str
-        Dotted key; the tables of rough surfaces are numbered from 1.
-    value : object
-        Value in SI units.
-    origin : str
-        One of ``WORDS``, or the name of the file of the library.
-    source : Source or None
-        Source of a value of the library; None for others.
-    """
-
-    key: str
+    key: str  # dotted key; the tables of rough surfaces are numbered from 1
     value: Any
-    origin: str
-    source: Source | None = None
+    origin: str  # one of ``WORDS``, or the name of the file of the library
+    source: Source | None = None  # source of a value of the library; None for others
 
     @property
     def assumed(self) -> bool:
@@ -78,14 +66,6 @@ def inputs_of(case: SweptCase, *, apart: bool = False) -> Iterator[Input]:
 
     A value is that of the library where it equals the one of the base that the case names, and a default
     where it equals the default of its key: a case does not keep whether somebody typed it.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Case of a contact, of a bearing or of a drive.
-    apart : bool
-        Whether two equal bearings of a drive have keys of their own; otherwise their keys begin with
-        "bearings".
     """
     tables = _tables(case, apart=apart)
     of_library = {
@@ -124,31 +104,13 @@ def _parts(case: SweptCase, *, apart: bool = False) -> dict[str, Case | BearingC
 
 
 def input_text(case: SweptCase, key: str, value: Any) -> str:
-    """Value of an input as a report shows it, in a unit that suits it.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Case with the input.
-    key : str
-        Dotted key of the input.
-    value : object
-        Value in SI units.
-    """
+    """Value of an input as a report shows it, in a unit that suits it."""
     text = input_row(case, key, value).text
     return with_units_kept(printable(text.replace("ohm", "Ω") if is_number(value) else text))
 
 
 def replaced_by(case: SweptCase, key: str) -> str:
-    """Key of a drive whose value takes the place of that of its bearings; empty where none does.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Case with the input.
-    key : str
-        Dotted key of the input.
-    """
+    """Key of a drive whose value takes the place of that of its bearings; empty where none does."""
     end, own = end_and_key(key)
     if not end or own not in _REPLACED or not isinstance(case, DriveCase):
         return ""
@@ -278,15 +240,7 @@ _GIVEN = "Given values count as known: only the author of the input file can say
 
 
 def input_section(case: SweptCase, varied: Iterable[str] = ()) -> Section:
-    """Section of all inputs with their origin, and of those that are assumptions.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Case of the result, or base case of a sweep.
-    varied : iterable of str
-        Dotted keys that a sweep varies.
-    """
+    """Section of all inputs with their origin, and of those that are assumptions."""
     varied = tuple(varied)
     either = {*varied, *(key for each in varied for key in of_both_ends(each))}
     apart = any(end_and_key(key)[0] in ENDS for key in varied)
@@ -406,11 +360,7 @@ def file_section(toml: str, command: str) -> Section:
 
 def date_of_report() -> str:
     """Date and time of a report in UTC; SOURCE_DATE_EPOCH sets it, for reports that are byte for byte equal.
-
-    Raises
-    ------
-    InputError
-        If SOURCE_DATE_EPOCH is no number of seconds.
+    Raises InputError if SOURCE_DATE_EPOCH is no number of seconds.
     """
     given = os.environ.get("SOURCE_DATE_EPOCH")
     if given is None:

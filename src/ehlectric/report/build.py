@@ -39,22 +39,8 @@ from ehlectric.tables.motion_tables import run_rows
 
 
 def report_of(path: str | Path) -> Report:
-    """Report of a stored result, as data.
-
-    Parameters
-    ----------
-    path : str or Path
-        Folder of a result of any kind, or its result.nc, bearing.nc, drive.nc or motion.nc.
-
-    Returns
-    -------
-    Report
-        Title, date and sections.
-
-    Raises
-    ------
-    InputError
-        If the folder has no result or several, or the result cannot be read.
+    """Report of a stored result, as data. Returns title, date and sections. Raises InputError if the folder
+    has no result or several, or the result cannot be read.
     """
     date = date_of_report()
     path = stored_result(path)

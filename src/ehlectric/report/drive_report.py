@@ -91,17 +91,7 @@ _OF_BEARINGS: Mapping[str, str] = MappingProxyType(
 def assumption_section(
     case: DriveCase, summary: Mapping[str, Any] | None = None, varied: Iterable[str] = ()
 ) -> Section:
-    """Section of the values that decide the result and that no model gives.
-
-    Parameters
-    ----------
-    case : DriveCase
-        Case of the drive, or base case of a sweep.
-    summary : mapping, optional
-        Summary of the drive; not of a sweep.
-    varied : iterable of str
-        Dotted keys that a sweep varies, which get their values from there.
-    """
+    """Section of the values that decide the result and that no model gives."""
     apart = any(end_and_key(key)[0] in ENDS for key in varied)
     origins = {one.key: _ORIGINS.get(one.origin, one.origin) for one in inputs_of(case, apart=apart)}
     values = [*_of_tables(case), *_renewal(case, summary), *_of_bearings(case, apart=apart)]
@@ -173,13 +163,7 @@ _SHARES_OF_EVENTS = (0.09, 0.15, 0.17, 0.12, 0.11, 0.12, 0.11, 0.13)
 
 
 def event_blocks(result: DriveResult) -> Iterator[Block]:
-    """Table of the discharges with the largest energy, and sentences about the others.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of a drive.
-    """
+    """Table of the discharges with the largest energy, and sentences about the others."""
     rows = result.events()
     total = int(np.sum(result.solution.record.counts))
     if not rows:
@@ -381,15 +365,7 @@ AS_IT_IS = "as it is"
 
 
 def remedy_blocks(result: DriveResult, summary: Mapping[str, Any]) -> Iterator[Block]:
-    """Tables of the remedies: what they change, and their numbers beside those of the drive as it is.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of a drive with remedies.
-    summary : mapping
-        Its summary.
-    """
+    """Tables of the remedies: what they change, and their numbers beside those of the drive as it is."""
     yield Text(
         "Each remedy is a copy of the drive with the changes below, simulated with the same random numbers. "
         "Remedies whose bounds overlap can hardly be told apart in the simulated time. Where films cannot "
@@ -477,24 +453,12 @@ _LEADS = {
 
 
 def swept_values(results: SweepResults) -> tuple[str, ...]:
-    """Keys of the summary that a report of a sweep shows: of one end where both bearings are the same.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep of a drive.
-    """
+    """Keys of the summary that a report of a sweep shows: of one end where both bearings are the same."""
     return (*_BOTH, *(f"{end}.{key}" for key in _EACH for end in _ends(results)))
 
 
 def listed_values(results: SweepResults) -> tuple[str, ...]:
-    """Keys of the summary that the table of the points has: of equal bearings with the bounds of the rate.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep of a drive.
-    """
+    """Keys of the summary that the table of the points has: of equal bearings with the bounds of the rate."""
     ends = _ends(results)
     keys = _LISTED_OF_ONE if len(ends) == 1 else _LISTED
     return ("drive.events_per_second", *(f"{end}.{key}" for end in ends for key in keys))
@@ -509,18 +473,9 @@ def _ends(results: SweepResults) -> tuple[str, ...]:
 
 
 def swept_verdict(results: SweepResults) -> Verdict | None:
-    """Verdict on a sweep of a drive from those of its points; None without a solved point.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep of a drive.
-
-    Returns
-    -------
-    Verdict or None
-        Green where no point is expected to discharge, red where all are, else yellow. Points that are not
-        solved, or must not be used, leave neither green nor red.
+    """Verdict on a sweep of a drive from those of its points; None without a solved point. Returns green
+    where no point is expected to discharge, red where all are, else yellow; points that are not solved, or
+    must not be used, leave neither green nor red.
     """
     assert isinstance(results.case, DriveCase)
     counts = Counter(
@@ -561,18 +516,7 @@ def _range(results: SweepResults) -> list[str]:
 
 
 def drive_part(result: DriveResult) -> Part:
-    """Part of a report about a drive.
-
-    Parameters
-    ----------
-    result : DriveResult
-        Result of a drive.
-
-    Returns
-    -------
-    Part
-        What the report says of this result.
-    """
+    """Part of a report about a drive. Returns what the report says of this result."""
     summary, case = result.summary(), result.case
     verdict = result.verdict
     return Part(

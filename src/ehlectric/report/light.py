@@ -43,24 +43,13 @@ _LONGEST = 30
 
 @dataclass(frozen=True)
 class Light:
-    """Verdict of a result, with its traffic light.
-
-    Attributes
-    ----------
-    level : str
-        Colour of the light, which is the level of the verdict.
-    words : str
-        Heading, so that the colour is not the only sign; it says where the verdict is that of an ideal film.
-    text : str
-        Sentences of the verdict.
-    bound : str
-        "upper bound" for a verdict on one, which stands beside the heading; empty otherwise.
-    """
+    """Verdict of a result, with its traffic light."""
 
     level: Level
+    # Heading, so that the colour is not the only sign; it says where the verdict is that of an ideal film.
     words: str
     text: str
-    bound: str = ""
+    bound: str = ""  # "upper bound" for a verdict on one, which stands beside the heading; empty otherwise
 
     @property
     def rest(self) -> str:
@@ -71,13 +60,6 @@ class Light:
 
 def light_of(level: Level, text: str) -> Light:
     """Traffic light of a verdict.
-
-    Parameters
-    ----------
-    level : str
-        Level of the verdict.
-    text : str
-        Its sentences.
 
     Examples
     --------

@@ -179,20 +179,10 @@ def after_roelands(case: AnyCase) -> bool:
 
 @dataclass(frozen=True)
 class Limit:
-    """Effect that a model neglects.
-
-    Attributes
-    ----------
-    topic : str
-        Part of the model.
-    text : str
-        What is left out, and which way it moves the numbers.
-    holds : callable
-        Whether the limit holds for a case.
-    """
+    """Effect that a model neglects."""
 
     topic: str
-    text: str
+    text: str  # what is left out, and which way it moves the numbers
     holds: Callable[[Any], bool] = lambda _case: True
 
 
@@ -339,23 +329,11 @@ def limits_of(case: AnyCase) -> Iterator[Limit]:
 
 @dataclass(frozen=True)
 class Reference:
-    """Publication behind an equation.
-
-    Attributes
-    ----------
-    topic : str
-        What is taken from it.
-    citation : str
-        Authors, journal and year.
-    doi : str
-        Its DOI; empty where it has none, as a standard.
-    used : callable
-        Whether it is used in a case.
-    """
+    """Publication behind an equation."""
 
     topic: str
-    citation: str
-    doi: str
+    citation: str  # authors, journal and year
+    doi: str  # its DOI; empty where it has none, as a standard
     used: Callable[[Any], bool] = lambda _case: True
 
 

@@ -54,15 +54,7 @@ _METADATA = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}}
 
 
 def image_of(picture: Picture, kind: Literal["png", "svg"]) -> bytes:
-    """Content of an image file of a figure.
-
-    Parameters
-    ----------
-    picture : Picture
-        Figure with its title, which the file has as metadata.
-    kind : str
-        "png", or "svg" for vectors.
-    """
+    """Content of an image file of a figure."""
     content = BytesIO()
     with figure_style():
         metadata = {**_METADATA[kind], "Title": picture.title}
@@ -309,17 +301,8 @@ _LONGEST = 90
 
 
 def pdf_of(report: Report) -> bytes:
-    """PDF document of a report.
-
-    Parameters
-    ----------
-    report : Report
-        Content of the report. Its texts are escaped: a title with markup stays a text.
-
-    Returns
-    -------
-    bytes
-        Content of the file. The document has no date of its own, so that equal reports are equal files.
+    """PDF document of a report. Returns content of the file; the document has no date of its own, so that
+    equal reports are equal files.
     """
     document = _Document(report)
     document.build(list(_story(report)), canvasmaker=_Numbered)
@@ -355,13 +338,7 @@ class _Numbered(Canvas):  # type: ignore[misc]
 
 
 class _Document(BaseDocTemplate):  # type: ignore[misc]
-    """Document with a header, page numbers and an outline.
-
-    Attributes
-    ----------
-    content : BytesIO
-        Bytes of the file, once it is built.
-    """
+    """Document with a header, page numbers and an outline."""
 
     def __init__(self, report: Report) -> None:
         self.content = BytesIO()

@@ -23,34 +23,19 @@ Tone = Literal["plain", "alarm", "code"]
 
 @dataclass(frozen=True)
 class Text:
-    """Paragraph of a report.
+    """Paragraph of a report."""
 
-    Attributes
-    ----------
-    text : str
-        Plain text without any markup.
-    tone : str
-        "plain"; "alarm" for what a reader must not miss; "code" for text with its line breaks, as of a file.
-    """
-
-    text: str
+    text: str  # plain text without any markup
+    # "plain"; "alarm" for what a reader must not miss; "code" for text with its line breaks, as of a file.
     tone: Tone = "plain"
 
 
 @dataclass(frozen=True)
 class Link:
-    """Text of a cell that leads to a page.
+    """Text of a cell that leads to a page."""
 
-    Attributes
-    ----------
-    text : str
-        Plain text before the address.
-    address : str
-        Address of the page, which begins with "https://doi.org/".
-    """
-
-    text: str
-    address: str
+    text: str  # plain text before the address
+    address: str  # address of the page, which begins with "https://doi.org/"
 
 
 Cell: TypeAlias = str | Link
@@ -86,23 +71,11 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """Figure of a report.
-
-    Attributes
-    ----------
-    name : str
-        Name of the figure, as of its file.
-    title : str
-        Finding of the figure, which is its title.
-    caption : str
-        What the figure shows, in a sentence.
-    figure : Figure
-        The figure of matplotlib.
-    """
+    """Figure of a report."""
 
     name: str
     title: str
-    caption: str
+    caption: str  # what the figure shows, in a sentence
     figure: Figure
 
 
@@ -136,22 +109,10 @@ class Section:
 
 @dataclass(frozen=True)
 class Report:
-    """Report of a result.
-
-    Attributes
-    ----------
-    title : str
-        Title of the case, or what the result is.
-    kind : str
-        What the result is, in a few words.
-    date : str
-        Date of the report, ISO 8601.
-    sections : tuple of Section
-        Sections in their order.
-    """
+    """Report of a result."""
 
     title: str
-    kind: str
+    kind: str  # what the result is, in a few words
     date: str
     sections: tuple[Section, ...]
 
@@ -167,71 +128,29 @@ NO_VERDICT = "This result has no verdict: it has no breakdown voltage, or no vol
 
 @dataclass(frozen=True, kw_only=True)
 class Part:
-    """Content of a report that depends on the kind of the result.
+    """Content of a report that depends on the kind of the result."""
 
-    Attributes
-    ----------
-    kind : str
-        What the result is, in a few words.
-    command : str
-        Command that solves the input file.
-    lead : str
-        Main numbers in a sentence.
-    failure : str
-        What is not solved; empty where all is.
-    verdict : Verdict or None
-        Answer of the result; None where it has none.
-    no_verdict : str
-        Why it has none.
-    warnings : tuple of ResultWarning
-        Warnings of the result.
-    before : tuple of Section
-        Sections before the key numbers.
-    numbers : tuple
-        Tables of key numbers.
-    pictures : tuple
-        Figures.
-    further : tuple of Section
-        Sections after the figures.
-    limits : tuple of Limit
-        What the models leave out.
-    references : tuple of Reference
-        Publications behind the equations.
-    details : dict
-        What is known of the computation, by name.
-    toml : str
-        Input file.
-    varied : tuple of str
-        Dotted keys that a sweep varies.
-    """
-
-    kind: str
-    command: str
-    lead: str
-    failure: str
-    verdict: Verdict | None
+    kind: str  # what the result is, in a few words
+    command: str  # command that solves the input file
+    lead: str  # main numbers in a sentence
+    failure: str  # what is not solved; empty where all is
+    verdict: Verdict | None  # answer of the result; None where it has none
     no_verdict: str = NO_VERDICT
     warnings: tuple[ResultWarning, ...]
     before: tuple[Section, ...] = ()
     numbers: tuple[Block, ...]
     pictures: tuple[Block, ...]
     further: tuple[Section, ...] = ()
-    limits: tuple[Limit, ...]
-    references: tuple[Reference, ...]
-    details: dict[str, str]
+    limits: tuple[Limit, ...]  # what the models leave out
+    references: tuple[Reference, ...]  # publications behind the equations
+    details: dict[str, str]  # what is known of the computation, by name
     toml: str
-    varied: tuple[str, ...] = ()
+    varied: tuple[str, ...] = ()  # dotted keys that a sweep varies
 
 
 def details_of(summary: Mapping[str, Any], date: str) -> dict[str, str]:
-    """Version, date and state of a computation, by name.
-
-    Parameters
-    ----------
-    summary : mapping
-        Summary of a result.
-    date : str
-        Date of the result; empty where it is not known.
+    """Version, date and state of a computation, by name. ``date``, date of the result; empty where it is not
+    known.
     """
     return {
         "result computed by": f"ehlectric {summary['version']}",
@@ -250,13 +169,7 @@ def _seconds(seconds: float | Mapping[str, float] | None) -> str:
 
 
 def lead_of(result: Any) -> str:
-    """Main numbers of a result: its representation without the name of its class, title and verdict.
-
-    Parameters
-    ----------
-    result : object
-        Result of a contact, of moving roughness, of a bearing, or of a sweep.
-    """
+    """Main numbers of a result: its representation without the name of its class, title and verdict."""
     line = repr(result)[1:-1].partition(" ")[2]
     title = shorten(getattr(result, "title", "") or result.case.title, 60)
     line = re.sub(r", verdict \w+$", "", line.removeprefix(f"{title!r}: "))

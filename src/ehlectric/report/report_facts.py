@@ -35,15 +35,7 @@ BOUNDS: Mapping[str, str] = MappingProxyType(
 
 
 def row_tables(rows: Iterable[Row], title: str) -> Iterator[Table | Text]:
-    """Tables of rows, one for each heading, and a sentence about the bounds in them.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-        Rows that a command prints.
-    title : str
-        Caption of the rows before the first heading.
-    """
+    """Tables of rows, one for each heading, and a sentence about the bounds in them."""
     groups: list[tuple[str, list[Row]]] = [(title, [])]
     for row in rows:
         if row.heading:
@@ -78,17 +70,7 @@ def unbroken(text: str) -> str:
 
 
 def cell_table(table: RichTable, caption: str, first: str) -> Table:
-    """Table of a report from one of the terminal; columns that are aligned to the right stay so.
-
-    Parameters
-    ----------
-    table : rich.table.Table
-        Table that a command prints.
-    caption : str
-        Its caption.
-    first : str
-        Head of a column that has none.
-    """
+    """Table of a report from one of the terminal; columns that are aligned to the right stay so."""
     from rich.text import Text as RichText
 
     columns = table.columns
@@ -120,14 +102,8 @@ def warning_block(warnings: Sequence[ResultWarning]) -> Warnings | Text:
 
 
 def alarms_of(warnings: Iterable[ResultWarning], failure: str) -> Iterator[Text]:
-    """Sentences that stand at the top of a report: why its numbers must not be used.
-
-    Parameters
-    ----------
-    warnings : iterable of ResultWarning
-        Warnings of the result.
-    failure : str
-        What is not solved; empty where all is.
+    """Sentences that stand at the top of a report: why its numbers must not be used. ``failure``, what is not
+    solved; empty where all is.
     """
     if failure:
         yield Text(failure, "alarm")
@@ -218,13 +194,6 @@ UNCONVERGED = "NOT CONVERGED: the figure shows no solution; do not use it."
 def caption_of(name: str, *, converged: bool) -> str:
     """Caption of a figure; that of a result that is not converged says so.
 
-    Parameters
-    ----------
-    name : str
-        Name of the figure, without the ending of a file.
-    converged : bool
-        Whether the result is converged.
-
     Examples
     --------
     >>> caption_of("film_map", converged=True)
@@ -252,16 +221,8 @@ _FORMULA = re.compile(r"(?<!\\)\$|\\mathrm|[{}]")
 def pictures_of(
     result: Any, *, converged: bool, names: Iterable[str] | None = None
 ) -> Iterator[Picture | Text]:
-    """Figures of a result; a sentence in place of a figure that has nothing to show.
-
-    Parameters
-    ----------
-    result : Result, PointResult, BearingResult, DriveResult, MotionResult or SweepResults
-        Result.
-    converged : bool
-        Whether the result is converged; captions say so where it is not.
-    names : iterable of str, optional
-        Names of the figures; by default all of the result.
+    """Figures of a result; a sentence in place of a figure that has nothing to show. ``converged``, whether
+    the result is converged; captions say so where it is not.
     """
     for name in figure_names(result) if names is None else names:
         try:

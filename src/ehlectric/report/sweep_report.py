@@ -51,13 +51,7 @@ _RESULTS = ("film.minimum_thickness", "field.max_strength", "bearing.capacitance
 
 
 def sweep_part(results: SweepResults) -> Part:
-    """Part of a report about a sweep.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep.
-    """
+    """Part of a report about a sweep."""
     count, case = results.summary(), results.case
     of_drive = isinstance(case, DriveCase)
     return Part(

@@ -25,18 +25,7 @@ _NAMES: Mapping[type, str] = MappingProxyType(
 
 
 def html_of(report: Report) -> str:
-    """Page of a report.
-
-    Parameters
-    ----------
-    report : Report
-        Content of the report. Its texts are escaped: a title with markup stays a text.
-
-    Returns
-    -------
-    str
-        HTML page, to be encoded as UTF-8.
-    """
+    """Page of a report. Returns HTML page, to be encoded as UTF-8."""
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )

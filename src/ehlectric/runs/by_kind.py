@@ -37,51 +37,21 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Kind:
-    """Functions for one kind of file.
+    """Functions for one kind of file."""
 
-    Attributes
-    ----------
-    read : callable
-        Case, bearing case or sweep of a TOML file.
-    run : callable
-        ``run(case, folder, progress, **options)`` solves it and returns a ``RunOutcome``. Every run prepares
-        the folder, removes the files of an earlier result of any kind, and writes its own; it draws no
-        figures. A folder with a sweep or with another run of moving roughness is refused.
-    """
-
-    read: Callable[[str | Path], Any]
+    read: Callable[[str | Path], Any]  # case, bearing case or sweep of a TOML file
+    # ``run(case, folder, progress, **options)`` solves it and returns a ``RunOutcome``
     run: Callable[..., RunOutcome[Any]]
 
 
 def run(path: str | Path, folder: str | Path, progress: Progress = silent, **options: Any) -> RunOutcome[Any]:
     """Solve a file of any kind, and write its results.
 
-    Parameters
-    ----------
-    path : str or Path
-        A case file, bearing file, drive file or sweep file, TOML.
-    folder : str or Path
-        Folder of the results; it is made if it does not exist.
-    progress : callable, optional
-        Called with the number of parts done, the number of all parts (0 where it is not known), and a text.
-    **options
-        Options of the kind of file: ``solver`` of a contact; ``contacts`` and ``workers`` of a bearing and
-        of a drive;
-        ``measured`` of both; ``workers`` and ``scheduler`` of a sweep.
-
-    Returns
-    -------
-    RunOutcome
-        Result, summary, files, warnings and, where something was not solved, a failure.
-
-    Raises
-    ------
-    InputError
-        Where the file, the options or the folder cannot be used.
-    ConvergenceError
-        Where the film before a motion is not converged.
-    LostError
-        Where the processes or the cluster of a sweep no longer work.
+    ``folder``, folder of the results; it is made if it does not exist; ``progress``, called with the number
+    of parts done, the number of all parts (0 where it is not known), and a text. Returns result, summary,
+    files, warnings and, where something was not solved, a failure. Raises InputError where the file, the
+    options or the folder cannot be used; ConvergenceError where the film before a motion is not converged;
+    LostError where the processes or the cluster of a sweep no longer work.
     """
     kind = RUNS[kind_of_file(path)]
     return kind.run(kind.read(path), folder, progress, **options)
@@ -100,34 +70,10 @@ def run_and_draw(
 ) -> RunOutcome[Any]:
     """Solve a case of a kind, write its results, and draw its figures.
 
-    Parameters
-    ----------
-    kind : str
-        "contact", "motion", "bearing", "drive" or "sweep". The figures of a sweep are not drawn here.
-    case : Case, BearingCase, DriveCase or Sweep
-        Case of this kind.
-    folder : str or Path
-        Folder of the results; it is made if it does not exist.
-    progress : callable, optional
-        Called with the number of parts done, the number of all parts (0 where it is not known), and a text.
-    draw : bool
-        Whether figures are drawn.
-    formats : sequence of str
-        Formats of the figures, of "png", "svg" and "pdf".
-    style : str
-        Style of the figures, "screen" or "journal".
-    **options
-        Options of the kind, as of ``run``.
-
-    Returns
-    -------
-    RunOutcome
-        With the figures among the files, and their warnings among the warnings.
-
-    Raises
-    ------
-    InputError, ConvergenceError, LostError
-        As ``run`` raises them.
+    ``folder``, folder of the results; it is made if it does not exist; ``progress``, called with the number
+    of parts done, the number of all parts (0 where it is not known), and a text. Returns with the figures
+    among the files, and their warnings among the warnings. Raises InputError, ConvergenceError, LostError as
+    ``run`` raises them.
     """
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         outcome = RUNS[kind].run(case, folder, progress, **options)

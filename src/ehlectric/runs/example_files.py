@@ -11,12 +11,8 @@ _HERE = Path(__file__).parent
 
 
 def examples_folder() -> Path:
-    """Folder of the examples: in an installed package beside this module, else that of the repository.
-
-    Raises
-    ------
-    InputError
-        If neither exists, as in a package that was copied without its data.
+    """Folder of the examples: in an installed package beside this module, else that of the repository. Raises
+    InputError if neither exists, as in a package that was copied without its data.
     """
     for folder in (_HERE / "examples", *(parent / "examples" for parent in _HERE.parents[2:3])):
         if (folder / "line_contact.toml").is_file():
@@ -63,11 +59,7 @@ def example(name: str) -> Path:
 
 
 def example_text(name: str) -> str:
-    """Text of an example by its name, such as "bearing_6208".
-
-    Raises
-    ------
-    InputError
-        If the examples are not part of this installation.
+    """Text of an example by its name, such as "bearing_6208". Raises InputError if the examples are not part
+    of this installation.
     """
     return (examples_folder() / f"{name}.toml").read_text(encoding="utf-8")

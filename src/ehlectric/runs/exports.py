@@ -57,15 +57,7 @@ def vtkhdf_file(result: Any) -> bytes:
     gap is thousands of times wider than high: scale its height in ParaView (Transform, Scale). With moving
     roughness the film has a time step for each recorded instant, and there is no field in the gap.
 
-    Parameters
-    ----------
-    result : Result, PointResult or MotionResult
-        Result of a contact.
-
-    Raises
-    ------
-    InputError
-        If the result is another one: it has no film and field on a grid.
+    Raises InputError if the result is another one: it has no film and field on a grid.
     """
     if not isinstance(result, Result | PointResult | MotionResult):
         raise InputError(
@@ -226,15 +218,7 @@ def mat_file(result: Tabled) -> bytes:
     ``units``, ``long_names``, ``dims`` and ``keys`` have a field for each array: unit, meaning, names of its
     dimensions, and its name in the dataset. A value of the summary that has no meaning is empty.
 
-    Parameters
-    ----------
-    result : Result, PointResult, BearingResult, DriveResult, MotionResult or SweepResults
-        Result.
-
-    Raises
-    ------
-    InputError
-        If an array is larger than 2 GB.
+    Raises InputError if an array is larger than 2 GB.
     """
     from scipy.io import savemat
 
@@ -262,13 +246,6 @@ def mat_file(result: Tabled) -> bytes:
 
 def matlab_names(keys: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:
     """Names of variables and fields in MATLAB, by the keys that they stand for; all are different.
-
-    Parameters
-    ----------
-    keys : iterable of str
-        Any texts.
-    taken : iterable of str
-        Names that none of them gets.
 
     Examples
     --------
@@ -331,18 +308,8 @@ _WIDTHS = (44, 60, 24, 12)
 
 
 def workbook(result: Exported) -> bytes:
-    """Content of a workbook (.xlsx): sheets "summary", "inputs" and "table", in SI units.
-
-    Parameters
-    ----------
-    result : Result, PointResult, BearingResult, DriveResult, MotionResult or SweepResults
-        Result. Its table is that of ``to_dataframe``: the film node by node, the contacts of a bearing, the
-        discharges of a drive, time steps, or the points of a sweep.
-
-    Raises
-    ------
-    InputError
-        If the package openpyxl is missing, or the table has more rows or columns than a sheet.
+    """Content of a workbook (.xlsx): sheets "summary", "inputs" and "table", in SI units. Raises InputError
+    if the package openpyxl is missing, or the table has more rows or columns than a sheet.
     """
     try:
         import openpyxl
@@ -483,12 +450,8 @@ def export(result: Exported | str | Path, path: str | Path) -> Path:
 
 
 def check_target(path: str | Path) -> Path:
-    """Path of a file that can be exported to.
-
-    Raises
-    ------
-    InputError
-        If the ending of its name is none of the formats, or its folder does not exist.
+    """Path of a file that can be exported to. Raises InputError if the ending of its name is none of the
+    formats, or its folder does not exist.
     """
     path = Path(path)
     if path.suffix.lower() not in WRITERS:
@@ -501,12 +464,8 @@ def check_target(path: str | Path) -> Path:
 
 
 def stored(path: str | Path) -> Exported:
-    """Result of a file or a folder, also of a sweep.
-
-    Raises
-    ------
-    InputError
-        If there is no result, or it cannot be read.
+    """Result of a file or a folder, also of a sweep. Raises InputError if there is no result, or it cannot be
+    read.
     """
     file = stored_result(path)
     return read_sweep(file.parent) if file.name == SWEEP else load(file)

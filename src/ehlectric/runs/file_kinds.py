@@ -45,41 +45,15 @@ _SUMMARY = "summary.json"
 
 
 def kind_of_file(path: str | Path) -> FileKind:
-    """Kind of a TOML file: "contact", "motion", "bearing", "drive" or "sweep", by its tables.
-
-    Parameters
-    ----------
-    path : str or Path
-        A case file, bearing file, drive file or sweep file.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not TOML.
+    """Kind of a TOML file: "contact", "motion", "bearing", "drive" or "sweep", by its tables. Raises
+    InputError if the file cannot be read or is not TOML.
     """
     return kind_of_tables(read_toml(path)) or "contact"
 
 
 def expect(path: Path, *kinds: FileKind) -> FileKind:
-    """Kind of a TOML file that a command is given; a file of another kind is told the right command.
-
-    Parameters
-    ----------
-    path : Path
-        File given to the command.
-    *kinds : str
-        Kinds that the command takes.
-
-    Returns
-    -------
-    str
-        Kind of the file, one of ``kinds``. A file that has no table of any kind gets the first of them, and
-        is refused where it is read.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is a result, is not TOML, or is of another kind.
+    """Kind of a TOML file that a command is given; a file of another kind is told the right command. Raises
+    InputError if the file cannot be read, is a result, is not TOML, or is of another kind.
     """
     _refuse_result(path)
     kind = kind_of_tables(read_toml(path))
@@ -93,28 +67,15 @@ def expect(path: Path, *kinds: FileKind) -> FileKind:
 
 
 def command_of_file(path: str | Path) -> str:
-    """Command that solves a TOML file: "run", "bearing", "drive" or "sweep".
-
-    Parameters
-    ----------
-    path : str or Path
-        A case file, bearing file, drive file or sweep file.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not TOML.
+    """Command that solves a TOML file: "run", "bearing", "drive" or "sweep". Raises InputError if the file
+    cannot be read or is not TOML.
     """
     return _NAMES[kind_of_file(path)][1]
 
 
 def refuse_input(path: Path) -> None:
-    """Refuse a TOML file where a result is expected, and name the command that solves it.
-
-    Raises
-    ------
-    InputError
-        If the file has the suffix of TOML files.
+    """Refuse a TOML file where a result is expected, and name the command that solves it. Raises InputError
+    if the file has the suffix of TOML files.
     """
     if path.suffix.lower() == ".toml" and path.is_file():
         name, command = _NAMES[kind_of_file(path)]

@@ -50,20 +50,7 @@ def schema_of(kind: str) -> dict[str, Any]:
     It is made from the tables by which files are checked. What a schema cannot state, such as the bounds of a
     value with its unit, or keys that exclude each other, is checked where the file is read.
 
-    Parameters
-    ----------
-    kind : str
-        "contact", "bearing", "drive" or "sweep".
-
-    Returns
-    -------
-    dict
-        Schema of draft 7, with plain JSON values.
-
-    Raises
-    ------
-    InputError
-        If there is no such kind.
+    Returns schema of draft 7, with plain JSON values. Raises InputError if there is no such kind.
 
     Examples
     --------

@@ -38,49 +38,22 @@ _MOST_CHECKED = 2000
 
 @dataclass(frozen=True)
 class Meaning:
-    """Meaning of a file before it is solved.
-
-    Attributes
-    ----------
-    title : str
-        Title of the case.
-    rows : tuple of Row
-        Rows of a table: dry contact, films by formula and what follows from them.
-    summary : dict
-        The same numbers as nested tables, SI units.
-    warnings : tuple of ResultWarning
-        Warnings about the case and its surfaces.
-    verdict : Verdict or None
-        Whether the film of a bearing breaks down, by formula; None for other files and without a strength.
-    """
+    """Meaning of a file before it is solved."""
 
     title: str
-    rows: tuple[Row, ...]
-    summary: dict[str, Any]
-    warnings: tuple[ResultWarning, ...]
+    rows: tuple[Row, ...]  # rows of a table: dry contact, films by formula and what follows from them
+    summary: dict[str, Any]  # the same numbers as nested tables, SI units
+    warnings: tuple[ResultWarning, ...]  # warnings about the case and its surfaces
+    # Whether the film of a bearing breaks down, by formula; None for other files and without a strength.
     verdict: Verdict | None = None
 
 
 @singledispatch
 def check(case: Case | BearingCase | DriveCase | Sweep) -> Meaning:
-    """Meaning of a case or of a sweep, at once: dry contact, groups, and what film formulas predict.
-
-    Parameters
-    ----------
-    case : Case, BearingCase, DriveCase or Sweep
-        Case of a contact, with or without motion; a bearing; a drive, of which nothing is simulated; or a
-        sweep, of which the first point is checked.
-
-    Returns
-    -------
-    Meaning
-        Rows of a table, the same numbers as nested tables, and warnings.
-
-    Raises
-    ------
-    InputError
-        If the values contradict each other, a surface cannot be used, the grid fits into no memory or no
-        point of a sweep is a valid case.
+    """Meaning of a case or of a sweep, at once: dry contact, groups, and what film formulas predict. Returns
+    rows of a table, the same numbers as nested tables, and warnings. Raises InputError if the values
+    contradict each other, a surface cannot be used, the grid fits into no memory or no point of a sweep is a
+    valid case.
 
     Examples
     --------

@@ -26,15 +26,7 @@ _UNCERTAINTY = Amount("", above=0.0, below=1.0, fraction=True, reason="relative,
 
 @dataclass(frozen=True)
 class MeasuredFile:
-    """Measurement that a command was given, with its options.
-
-    Attributes
-    ----------
-    rows : Measurement
-        Rows of the file.
-    background, uncertainty : str or None
-        Options as they were typed.
-    """
+    """Measurement that a command was given, with its options."""
 
     rows: Measurement
     background: str | None = None
@@ -42,12 +34,8 @@ class MeasuredFile:
 
     @classmethod
     def of(cls, path: Path | None, background: str | None, uncertainty: str | None) -> MeasuredFile | None:
-        """Measurement of the options of a command; None without a file.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read, or an option is wrong or stands without it.
+        """Measurement of the options of a command; None without a file. Raises InputError if the file cannot
+        be read, or an option is wrong or stands without it.
         """
         given = {"--background": background, "--uncertainty": uncertainty}
         for option, value in given.items():

@@ -51,20 +51,9 @@ _SPEED = re.compile(rf"(?:capacitance|breakdown)_over_speed_at_.*=.*{_FORMAT}")
 
 
 def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """Names of all files that a result of any kind may have in a folder.
-
-    Parameters
-    ----------
-    folder : str or Path
-        Folder of a result; it need not exist.
-    keep : tuple of str
-        Names to leave out.
-
-    Returns
-    -------
-    tuple of str
-        Names of files and figures, whether they exist or not, and of the maps of sweeps that exist. The
-        database of a sweep is not among them.
+    """Names of all files that a result of any kind may have in a folder. Returns names of files and figures,
+    whether they exist or not, and of the maps of sweeps that exist; the database of a sweep is not among
+    them.
     """
     from ehlectric.bearing.run import FILES as OF_BEARINGS
     from ehlectric.cases.film_factors import FILES as OF_MEASUREMENTS
@@ -103,21 +92,8 @@ def _maps(folder: Path) -> Iterator[str]:
 
 
 def protect(folder: str | Path, case: Case | None = None, *, sweep: bool = False) -> None:
-    """Refuse a folder with a result that may have taken hours and that a run would replace.
-
-    Parameters
-    ----------
-    folder : str or Path
-        Folder of the run; it need not exist.
-    case : Case, optional
-        Case with moving roughness. Its own run in the folder is no obstacle: it is resumed.
-    sweep : bool
-        Whether the run is a sweep, which keeps the points of a sweep in the folder.
-
-    Raises
-    ------
-    InputError
-        If the folder has a sweep, or recorded steps of another case with moving roughness.
+    """Refuse a folder with a result that may have taken hours and that a run would replace. Raises InputError
+    if the folder has a sweep, or recorded steps of another case with moving roughness.
     """
     from ehlectric.motion.stored_run import MOTION, saved_steps
     from ehlectric.sweep.store import NAME
@@ -161,23 +137,9 @@ def _case_of(path: Path) -> str:
 
 
 def stored_result(path: str | Path) -> Path:
-    """File from which the figures of a result are drawn, of a file or of a folder of any kind.
-
-    Parameters
-    ----------
-    path : str or Path
-        A result.nc, bearing.nc, drive.nc or motion.nc, which is returned as it is; any other file of a
-        result; or the folder of a result.
-
-    Returns
-    -------
-    Path
-        A NetCDF file, or the database of a sweep.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or if the folder has no result or several.
+    """File from which the figures of a result are drawn, of a file or of a folder of any kind. Returns a
+    NetCDF file, or the database of a sweep. Raises InputError if the file cannot be read, or if the folder
+    has no result or several.
     """
     from ehlectric.bearing.run import NETCDF as BEARING
     from ehlectric.contact.run import NETCDF as CONTACT

@@ -324,12 +324,8 @@ def _of_bearings(
 
 
 def case_of(given: object) -> Case | BearingCase | DriveCase:
-    """Case that is given as itself, as its nested tables, or by the path of its file.
-
-    Raises
-    ------
-    InputError
-        If it is none of these, or not valid.
+    """Case that is given as itself, as its nested tables, or by the path of its file. Raises InputError if it
+    is none of these, or not valid.
     """
     if isinstance(given, Case | BearingCase | DriveCase):
         return given
@@ -354,13 +350,7 @@ def _is_drive(name: object, table: Mapping[str, Any]) -> bool:
 
 
 def solvers_of(given: str | Solvers) -> Solvers:
-    """Solvers by their name, "ehlectric" or "paper".
-
-    Raises
-    ------
-    InputError
-        If there are no solvers of this name.
-    """
+    """Solvers by their name, "ehlectric" or "paper"; InputError for another name."""
     if isinstance(given, Solvers):
         return given
     if given == OWN.name:

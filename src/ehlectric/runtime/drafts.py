@@ -34,23 +34,8 @@ def redo_file(path: Path) -> Path:
 
 
 def write_down(path: Path, number: int, size: int, parts: Sequence[tuple[int, memoryview]]) -> None:
-    """Write down the changes of a file that is open for writing.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    number : int
-        Its descriptor.
-    size : int
-        Its new size [bytes].
-    parts : sequence of tuple of int and memoryview
-        Place and content of each part that is changed.
-
-    Raises
-    ------
-    WriteError
-        Where the changes cannot be written down, as on a full disk.
+    """Write down the changes of a file that is open for writing. ``size`` [bytes]. Raises WriteError where
+    the changes cannot be written down, as on a full disk.
     """
     state = os.fstat(number)
 
@@ -64,13 +49,7 @@ def write_down(path: Path, number: int, size: int, parts: Sequence[tuple[int, me
 
 
 def make(number: int, size: int, parts: Sequence[tuple[int, memoryview | bytes]]) -> None:
-    """Make changes in a file that is open for writing.
-
-    Raises
-    ------
-    OSError
-        Where they cannot be made.
-    """
+    """Make changes in a file that is open for writing. Raises OSError where they cannot be made."""
     for place, part in parts:
         os.lseek(number, place, os.SEEK_SET)
         view = memoryview(part)
@@ -84,17 +63,7 @@ def finish(path: Path, number: int) -> None:
 
     Changes of another file, which this one has replaced since, are forgotten.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    number : int
-        Its descriptor, open for writing and locked.
-
-    Raises
-    ------
-    OSError
-        Where the changes cannot be read or made.
+    Raises OSError where the changes cannot be read or made.
     """
     changes = redo_file(path)
     try:
@@ -129,11 +98,6 @@ class Draft:
     """Binary file in memory, which may be a changed copy of a file on the disk.
 
     It has the methods that h5py needs of a file.
-
-    Parameters
-    ----------
-    number : int, optional
-        Descriptor of the file on the disk, open for reading and writing; without it the draft is empty.
 
     Examples
     --------
@@ -230,13 +194,7 @@ class Draft:
         return content + bytes(_PAGE - len(content))
 
     def content(self) -> Iterator[memoryview]:
-        """All bytes, part by part.
-
-        Raises
-        ------
-        MemoryError
-            Where the draft had not enough memory.
-        """
+        """All bytes, part by part. Raises MemoryError where the draft had not enough memory."""
         self._check()
         for page in range(-(-self._size // _PAGE)):
             content = self._pages.get(page)
@@ -248,17 +206,7 @@ class Draft:
 
         What makes the file longer is written first: where the disk is full, the file stays as it was.
 
-        Parameters
-        ----------
-        write_down : callable, optional
-            Called with the new size and the parts that replace others, before any of them is written.
-
-        Raises
-        ------
-        OSError
-            Where the changes cannot be written.
-        MemoryError
-            Where the draft had not enough memory.
+        Raises OSError where the changes cannot be written; MemoryError where the draft had not enough memory.
         """
         self._check()
         assert self._number is not None

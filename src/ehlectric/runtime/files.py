@@ -72,23 +72,8 @@ def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
 
     Call it before anything is solved, so that no result is lost.
 
-    Parameters
-    ----------
-    folder : str or Path
-        Folder of the files; it is made if it does not exist.
-    names : iterable of str
-        Names of the files that will be written.
-
-    Returns
-    -------
-    Path
-        The folder.
-
-    Raises
-    ------
-    InputError
-        Where the folder cannot be made or written to, or a folder, a device or a broken link has one of the
-        names.
+    ``folder``, folder of the files; it is made if it does not exist. Raises InputError where the folder
+    cannot be made or written to, or a folder, a device or a broken link has one of the names.
     """
     folder = Path(folder)
     if folder.exists() and not folder.is_dir():
@@ -106,12 +91,8 @@ def prepare(folder: str | Path, names: Iterable[str] = ()) -> Path:
 
 
 def refuse_special(path: Path) -> None:
-    """Refuse to write a file where a folder, a device or a broken link is.
-
-    Raises
-    ------
-    InputError
-        Where ``path`` exists and is no regular file.
+    """Refuse to write a file where a folder, a device or a broken link is. Raises InputError where ``path``
+    exists and is no regular file.
     """
     try:
         # One look at it: another command may remove a file of its own between two.
@@ -124,12 +105,8 @@ def refuse_special(path: Path) -> None:
 
 @contextmanager
 def reading(path: str | Path) -> Iterator[None]:
-    """Context in which a file is read: an OSError becomes an InputError of one line.
-
-    Raises
-    ------
-    InputError
-        Where an OSError is raised within the context.
+    """Context in which a file is read: an OSError becomes an InputError of one line. Raises InputError where
+    an OSError is raised within the context.
 
     Examples
     --------
@@ -158,10 +135,7 @@ def whole(path: Path) -> Iterator[Path]:
     context ends without an exception, and removed otherwise. The file has the permissions of any new file of
     the process. Where ``path`` is a link, its target is replaced.
 
-    Raises
-    ------
-    WriteError
-        Where the file cannot be written, as on a full disk.
+    Raises WriteError where the file cannot be written, as on a full disk.
     """
     with _beside(path) as (beside, finish):
         yield beside
@@ -206,19 +180,8 @@ def flush(number: int) -> None:
 
 @contextmanager
 def writing(path: Path, *others: Path) -> Iterator[None]:
-    """Context in which a file is written: an OSError becomes a WriteError of one line that names it.
-
-    Parameters
-    ----------
-    path : Path
-        File that is named in the error.
-    *others : Path
-        Files that stand for it. An error about any further file is left as it is.
-
-    Raises
-    ------
-    WriteError
-        Where an OSError about these files, or about no file, is raised within the context.
+    """Context in which a file is written: an OSError becomes a WriteError of one line that names it. Raises
+    WriteError where an OSError about these files, or about no file, is raised within the context.
 
     Examples
     --------
@@ -240,11 +203,7 @@ def writing(path: Path, *others: Path) -> Iterator[None]:
 
 def refuse_full(path: Path) -> None:
     """Refuse to go on where the disk of a file is full, for programs that do not say why they cannot write.
-
-    Raises
-    ------
-    WriteError
-        Where the disk has hardly a block left.
+    Raises WriteError where the disk has hardly a block left.
     """
     with writing(path):
         if shutil.disk_usage(path.resolve().parent).free < _BLOCK:
@@ -252,46 +211,16 @@ def refuse_full(path: Path) -> None:
 
 
 def write(path: Path, content: Content) -> None:
-    """Write a file whole or not at all.
-
-    Parameters
-    ----------
-    path : Path
-        File to write; an existing one is replaced.
-    content : bytes or callable
-        Content of the file, or a function that writes it to an open binary file.
-
-    Raises
-    ------
-    WriteError
-        Where the file cannot be written, as on a full disk.
+    """Write a file whole or not at all. Raises WriteError where the file cannot be written, as on a full
+    disk.
     """
     with whole(path) as beside:
         _fill(beside, content)
 
 
 def write_together(folder: Path, contents: Mapping[str, Content], replaced: Iterable[str] = ()) -> list[Path]:
-    """Write the files of a result, all of them or none.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the files.
-    contents : mapping of str to bytes or callable
-        Content of each file by its name, as ``write`` takes it.
-    replaced : iterable of str
-        Names of the files of an earlier result. They are removed when the new ones lie on the disk, so that a
-        full disk leaves the earlier result as it is.
-
-    Returns
-    -------
-    list of Path
-        Files written, in the order of ``contents``.
-
-    Raises
-    ------
-    WriteError
-        Where a file cannot be written, as on a full disk.
+    """Write the files of a result, all of them or none. Returns files written, in the order of ``contents``.
+    Raises WriteError where a file cannot be written, as on a full disk.
     """
     files = [folder / name for name in contents]
     with ExitStack() as stack:
@@ -338,25 +267,15 @@ def clear_left_behind(folder: Path) -> None:
 
 
 def json_of(table: Mapping[str, Any]) -> bytes:
-    """Content of a JSON file.
-
-    Raises
-    ------
-    ValueError
-        Where a number is not finite; ``plain`` turns such numbers into None.
+    """Content of a JSON file. Raises ValueError where a number is not finite; ``plain`` turns such numbers
+    into None.
     """
     return (json.dumps(table, indent=2, allow_nan=False) + "\n").encode()
 
 
 def write_json(path: Path, table: Mapping[str, Any]) -> None:
-    """Write a table as a JSON file, whole or not at all.
-
-    Raises
-    ------
-    ValueError
-        Where a number is not finite; ``plain`` turns such numbers into None.
-    WriteError
-        Where the file cannot be written, as on a full disk.
+    """Write a table as a JSON file, whole or not at all. Raises ValueError where a number is not finite;
+    ``plain`` turns such numbers into None; WriteError where the file cannot be written, as on a full disk.
     """
     write(path, json_of(table))
 

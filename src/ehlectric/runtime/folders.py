@@ -41,29 +41,10 @@ def alone_in(
     The folder is made if it does not exist, and removed again where an exception leaves it empty. Hidden
     files that killed commands left there are removed. Contexts of one folder may be nested.
 
-    Parameters
-    ----------
-    folder : str or Path
-        Folder of the files.
-    names : iterable of str
-        Names of the files that will be written, as for ``prepare``.
-    locks : iterable of str
-        ``RESULT_LOCK``, ``FIGURE_LOCK`` or both: the kinds of files that will be written.
-    patience : float, optional
-        Longest time to wait for another command [s]; by default some seconds for figures, none for results.
+    ``patience``, longest time to wait for another command [s]; by default some seconds for figures, none for
+    results. Raises InputError where the folder or a name cannot be used, or another command writes into the
+    folder.
 
-    Yields
-    ------
-    Path
-        The folder.
-
-    Raises
-    ------
-    InputError
-        Where the folder or a name cannot be used, or another command writes into the folder.
-
-    Notes
-    -----
     The kernel keeps the lock on a hidden file of the folder, and releases it when the process ends, also by
     a kill. On a file system without locks the context warns in the log and goes on.
     """
@@ -94,20 +75,8 @@ def alone_in(
 @contextmanager
 def locked(folder: Path, name: str, patience: float | None = None) -> Iterator[None]:
     """Context that holds a lock of a folder, which must exist; contexts of one lock cannot be nested.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the lock.
-    name : str
-        Name of the file that is locked.
-    patience : float, optional
-        Longest time to wait for another holder [s].
-
-    Raises
-    ------
-    InputError
-        Where the lock is held already, by this process or another.
+    ``patience``, longest time to wait for another holder [s]. Raises InputError where the lock is held
+    already, by this process or another.
     """
     path = folder / name
     number = _taken(folder, path, _PATIENCE.get(name, 0.0) if patience is None else patience)
@@ -122,13 +91,7 @@ def locked(folder: Path, name: str, patience: float | None = None) -> Iterator[N
 
 
 def _taken(folder: Path, path: Path, patience: float) -> int:
-    """Descriptor of a locked file.
-
-    Raises
-    ------
-    InputError
-        Where another command holds the lock.
-    """
+    """Descriptor of a locked file. Raises InputError where another command holds the lock."""
     until = time.monotonic() + patience
     refuse_special(path)
     while True:

@@ -158,24 +158,9 @@ def seal_of(content: Iterable[bytes | memoryview]) -> bytes:
 
 
 def sealed(path: Path) -> bool:
-    """Whether a file has a seal that fits its content.
-
-    Parameters
-    ----------
-    path : Path
-        File to read.
-
-    Returns
-    -------
-    bool
-        False where the file has no seal, as those of earlier versions and those that are still written.
-
-    Raises
-    ------
-    DamagedError
-        Where the seal does not fit the content.
-    InputError
-        Where the file cannot be read.
+    """Whether a file has a seal that fits its content. Returns False where the file has no seal, as those of
+    earlier versions and those that are still written. Raises DamagedError where the seal does not fit the
+    content; InputError where the file cannot be read.
     """
     with reading(path), path.open("rb") as file:
         length, expected = _split(file)
@@ -233,19 +218,9 @@ _MOST_KNOWN = 64
 
 
 def refuse_damaged(path: Path) -> None:
-    """Refuse a file that HDF5 cannot read, without being harmed by it.
-
-    Parameters
-    ----------
-    path : Path
-        NetCDF file that will be read.
-
-    Raises
-    ------
-    DamagedError
-        Where the seal of the file does not fit, or HDF5 cannot read it, crashes or does not end.
-    InputError
-        Where the file cannot be opened, is not a NetCDF file, or stays open in another program.
+    """Refuse a file that HDF5 cannot read, without being harmed by it. Raises DamagedError where the seal of
+    the file does not fit, or HDF5 cannot read it, crashes or does not end; InputError where the file cannot
+    be opened, is not a NetCDF file, or stays open in another program.
     """
     with regular(path) as file:
         start = file.read(len(_SIGNATURE))
@@ -258,27 +233,13 @@ def refuse_damaged(path: Path) -> None:
 
 
 def known_sound(path: Path, state: os.stat_result) -> bool:
-    """Whether a file has not changed since it was found or written sound.
-
-    Parameters
-    ----------
-    path : Path
-        File without a seal.
-    state : os.stat_result
-        Its present state.
-    """
+    """Whether a file has not changed since it was found or written sound."""
     return _key(path, state) in _known
 
 
 def remember_sound(path: Path, state: os.stat_result) -> None:
-    """Remember that a file is sound: this process has read it, or written it.
-
-    Parameters
-    ----------
-    path : Path
-        File without a seal.
-    state : os.stat_result
-        Its state when it was found or written sound.
+    """Remember that a file is sound: this process has read it, or written it. ``state``, its state when it
+    was found or written sound.
     """
     _known[_key(path, state)] = None
     while len(_known) > _MOST_KNOWN:

@@ -71,17 +71,8 @@ _BUSY = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
 
 
 def take(number: int) -> Taken:
-    """Try to lock an open file against every other process and every other open file of this one.
-
-    Parameters
-    ----------
-    number : int
-        Descriptor of the file. The lock ends when the file is closed, also by a kill.
-
-    Returns
-    -------
-    str
-        "taken"; "busy" where somebody else has the lock; "none" where the file system has no locks.
+    """Try to lock an open file against every other process and every other open file of this one. Returns
+    "taken"; "busy" where somebody else has the lock; "none" where the file system has no locks.
 
     Examples
     --------

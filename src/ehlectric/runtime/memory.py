@@ -45,13 +45,8 @@ def available_memory() -> float:
     It is the least of the physical memory of the machine, of what is left of the limits of the process
     (``ulimit -v`` and ``ulimit -d``), and of what is left of the limits of its control groups.
 
-    Returns
-    -------
-    float
-        Memory [bytes]; at least zero, and infinite where the operating system tells no limit.
+    Returns memory [bytes]; at least zero, and infinite where the operating system tells no limit.
 
-    Notes
-    -----
     The control groups are read ten times a second at most. They are some ten files, and a contact that
     refines its grid asks for every grid.
     """
@@ -102,14 +97,7 @@ def out_of_memory(error: BaseException) -> str:
 
 
 def left_of_process(status: Path = Path("/proc/self/status")) -> float:
-    """Memory that the limits of the process leave to it [bytes]; infinite without a limit.
-
-    Parameters
-    ----------
-    status : Path
-        File in which the kernel tells the memory in use. Where it does not exist, nothing is taken off the
-        limits.
-    """
+    """Memory that the limits of the process leave to it [bytes]; infinite without a limit."""
     try:
         resource = import_module("resource")
     except ModuleNotFoundError:  # Windows
@@ -138,13 +126,6 @@ def left_of_groups(process: Path = Path("/proc/self"), root: Path = Path("/")) -
 
     The limits of the process's own group and of all groups above it count, of both versions of control
     groups. File contents that the kernel would drop first are not counted as used.
-
-    Parameters
-    ----------
-    process : Path
-        Folder of the process in the file system of the kernel.
-    root : Path
-        Folder that the mount points lie in.
     """
     left = float("inf")
     for version, group, mount in _groups(process):

@@ -31,12 +31,8 @@ def silent(_done: int, _of: int, _text: str) -> None:
 
 
 def told_to(given: Progress | None) -> Progress:
-    """Progress that a caller gave, or one that is told to nobody in place of None.
-
-    Raises
-    ------
-    InputError
-        If it cannot be called, such as True.
+    """Progress that a caller gave, or one that is told to nobody in place of None. Raises InputError if it
+    cannot be called, such as True.
 
     Examples
     --------
@@ -58,21 +54,6 @@ R = TypeVar("R", covariant=True)
 class RunOutcome(Generic[R]):
     """Outcome of the run of a contact, transient contact, bearing or sweep.
 
-    Attributes
-    ----------
-    result : object
-        Result, from which figures are drawn.
-    summary : mapping
-        Key figures, nested, in SI units: those of summary.json where the run writes one.
-    files : tuple of Path
-        Files written.
-    warnings : tuple of ResultWarning
-        Warnings that tell where the result is unreliable.
-    failure : str or None
-        One line that says what was not solved; None where the run succeeded.
-    beside : tuple of object
-        Further results with figures of their own, such as the film factors of a measurement.
-
     Examples
     --------
     >>> outcome = RunOutcome(None, {}, (Path("summary.json"),), failure="not converged: film collapsed")
@@ -81,10 +62,12 @@ class RunOutcome(Generic[R]):
     """
 
     result: R
+    # Key figures, nested, in SI units: those of summary.json where the run writes one.
     summary: Mapping[str, Any]
     files: tuple[Path, ...]
-    warnings: tuple[ResultWarning, ...] = ()
-    failure: str | None = None
+    warnings: tuple[ResultWarning, ...] = ()  # warnings that tell where the result is unreliable
+    failure: str | None = None  # one line that says what was not solved; None where the run succeeded
+    # Further results with figures of their own, such as the film factors of a measurement.
     beside: tuple[object, ...] = ()
 
     @property

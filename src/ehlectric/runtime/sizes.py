@@ -34,23 +34,9 @@ _TEXT = 100
 
 
 def check_size(path: Path, size: int, most: int, *, copies: float = 1.0) -> None:
-    """Refuse a file that is too large to be read.
-
-    Parameters
-    ----------
-    path : Path
-        File that will be read.
-    size : int
-        Its size [bytes].
-    most : int
-        Largest size that a file of its kind has [bytes].
-    copies : float
-        Ratio of the memory that its reader needs to the size of the file.
-
-    Raises
-    ------
-    InputError
-        Where the file is larger than ``most``, or does not fit into the memory.
+    """Refuse a file that is too large to be read. ``size`` [bytes]; ``most``, largest size that a file of its
+    kind has [bytes]. Raises InputError where the file is larger than ``most``, or does not fit into the
+    memory.
 
     Examples
     --------
@@ -67,21 +53,8 @@ def check_size(path: Path, size: int, most: int, *, copies: float = 1.0) -> None
 
 
 def check_memory_for(path: object, needed: float, says: str) -> None:
-    """Refuse what needs more memory than is available.
-
-    Parameters
-    ----------
-    path : object
-        Name of the file, or of the key, in the error.
-    needed : float
-        Memory that its reader needs [bytes].
-    says : str
-        Words of the error about the file.
-
-    Raises
-    ------
-    InputError
-        Where less memory is available.
+    """Refuse what needs more memory than is available. ``needed``, memory that its reader needs [bytes].
+    Raises InputError where less memory is available.
     """
     available = available_memory()
     if needed > available:
@@ -93,20 +66,9 @@ def check_memory_for(path: object, needed: float, says: str) -> None:
 
 
 def check_netcdf_values(path: Path, file: Any) -> None:
-    """Refuse a NetCDF file whose values are too large to be read; only its header is looked at.
-
-    Parameters
-    ----------
-    path : Path
-        The file, for its size and for the error.
-    file : h5netcdf.File
-        The same file, open.
-
-    Raises
-    ------
-    InputError
-        Where the values of all variables exceed ``MOST_VALUES``, are more than ``MOST_RATIO`` times larger
-        than the file, or do not fit into the memory.
+    """Refuse a NetCDF file whose values are too large to be read; only its header is looked at. Raises
+    InputError where the values of all variables exceed ``MOST_VALUES``, are more than ``MOST_RATIO`` times
+    larger than the file, or do not fit into the memory.
     """
     declared = sum(_declared(variable) for variable in _variables(file))
     with reading(path):

@@ -40,39 +40,19 @@ _EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 @dataclass(frozen=True)
 class Stored:
-    """Variable of a file that holds the values of a field.
+    """Variable of a file that holds the values of a field."""
 
-    Attributes
-    ----------
-    dims : tuple of str
-        Its dimensions; a ``Part`` may replace a name by several.
-    unit : str or None
-        Its unit; None where the file states none.
-    rule : str
-        What its values must be, a key of ``VALUES``. Those of "0 or 1" are read as booleans.
-    text : str
-        Its long name.
-    name : str
-        Its name in the file, by default that of the field with the prefix of the part.
-    needed : bool
-        Whether a file must have it.
-    dtype : str or None
-        Type of its values in the file, by default that of the field.
-    unknown : bool
-        Whether None in place of a number is stored as NaN.
-    count : str
-        Where the lengths of the arrays of several objects differ, they follow each other in one variable;
-        this variable has the lengths.
-    """
-
-    dims: tuple[str, ...]
-    unit: str | None = None
+    dims: tuple[str, ...]  # its dimensions; a ``Part`` may replace a name by several
+    unit: str | None = None  # its unit; None where the file states none
+    # What its values must be, a key of ``VALUES``. Those of "0 or 1" are read as booleans.
     rule: str = "finite"
     text: str = ""
-    name: str = ""
-    needed: bool = True
-    dtype: str | None = None
-    unknown: bool = False
+    name: str = ""  # its name in the file, by default that of the field with the prefix of the part
+    needed: bool = True  # whether a file must have it
+    dtype: str | None = None  # type of its values in the file, by default that of the field
+    unknown: bool = False  # whether None in place of a number is stored as NaN
+    # Where the lengths of the arrays of several objects differ, they follow each other in one variable; this
+    # variable has the lengths.
     count: str = ""
 
     @property
@@ -99,26 +79,15 @@ def number(rule: str | tuple[str, ...] = "finite or null") -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Part:
-    """Variables of a file that hold the fields of one class.
+    """Variables of a file that hold the fields of one class."""
 
-    Attributes
-    ----------
-    kind : type
-        Dataclass whose fields have metadata of ``stored``.
-    over : tuple of str
-        Dimensions over which the file has many objects of the class; empty for one object.
-    prefix : str
-        First letters of the names of variables that have none of their own.
-    axes : mapping of str to tuple of str
-        Dimensions in place of a name in the metadata.
-    changed : mapping of str to dict
-        Options that differ from the metadata, by the name of the field.
-    """
-
-    kind: type[Any]
+    kind: type[Any]  # dataclass whose fields have metadata of ``stored``
+    # Dimensions over which the file has many objects of the class; empty for one object.
     over: tuple[str, ...] = ()
-    prefix: str = ""
+    prefix: str = ""  # first letters of the names of variables that have none of their own
+    # Dimensions in place of a name in the metadata.
     axes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    # Options that differ from the metadata, by the name of the field.
     changed: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     @cached_property

@@ -48,26 +48,9 @@ def run_all(
     A task whose process is killed is run again, with nothing beside it, up to three times; one that runs out
     of memory once. All other results are kept meanwhile.
 
-    Parameters
-    ----------
-    tasks : sequence of callable
-        Tasks without arguments. They and their results must pickle.
-    done : callable
-        Called in this process with the number of a task and its result, as the tasks finish.
-    limit : int, optional
-        Largest number of processes; by default as many as there are cores.
-    what : str
-        Name of a task in the error of one that was lost.
+    Raises LostError where the process of a task was killed four times, or no process can begin; MemoryError
+    where a task ran out of memory also alone.
 
-    Raises
-    ------
-    LostError
-        Where the process of a task was killed four times, or no process can begin.
-    MemoryError
-        Where a task ran out of memory also alone.
-
-    Notes
-    -----
     An exception of a task is raised again here, and all other tasks are stopped.
     """
     number = min(limit or cores(), len(tasks))
@@ -111,36 +94,10 @@ def finished_tasks(
     *,
     tries: int = 1,
 ) -> Generator[list[tuple[K, T]], None, None]:
-    """Run a function on many values with a crew, and yield what is finished.
+    """Run a function on many values with a crew, and yield what is finished. Yields finished tasks; while
+    none finishes, an empty list about every second. Raises LostError if the crew cannot be reached any more,
+    or lacks a package.
 
-    Parameters
-    ----------
-    tasks : iterable of (key, value)
-        Key of each task and the argument of ``call``. An item is read only when it is handed over.
-    crew : Crew
-        Processes or machines that run the tasks.
-    call : callable
-        Function of a value; it raises no exception.
-    lost : callable
-        Makes the outcome of a task whose process died again and again, from the reason.
-    ran_out : callable
-        Whether an outcome is that of a task without enough memory.
-    tries : int
-        Times that a task is run alone after its process died.
-
-    Yields
-    ------
-    list of (key, outcome)
-        Finished tasks. While none finishes, an empty list about every second.
-
-    Raises
-    ------
-    LostError
-        If the crew cannot be reached any more, or lacks a package. All finished tasks have been yielded
-        before.
-
-    Notes
-    -----
     If a process dies, the tasks in flight are tried again one at a time. A task whose process dies again in
     all of these tries is lost. If not even an empty call returns, the crew is lost. A task that ran out of
     memory is tried again alone where the crew shares the memory of one machine.
@@ -187,21 +144,13 @@ def _fill(
 
 @dataclass
 class _Finished(Generic[K, A, T]):
-    """Tasks that are no longer in flight.
-
-    Attributes
-    ----------
-    outcomes : list
-        Keys and outcomes.
-    died, short : list
-        Tasks whose process died, and those that ran out of memory beside others.
-    broken : str
-        Why the crew solves no more: a task was cancelled, or a worker could not begin it. Empty if it does.
-    """
+    """Tasks that are no longer in flight."""
 
     outcomes: list[tuple[K, T]] = field(default_factory=list)
+    # died and short: tasks whose process died, and those that ran out of memory beside others.
     died: list[tuple[K, A]] = field(default_factory=list)
     short: list[tuple[K, A]] = field(default_factory=list)
+    # Why the crew solves no more: a task was cancelled, or a worker could not begin it. Empty if it does.
     broken: str = ""
 
 

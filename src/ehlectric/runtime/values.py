@@ -77,11 +77,6 @@ def _entries(values: Any) -> Iterator[str]:
 def same(one: Any, other: Any) -> bool:
     """Whether two values are equal: arrays to the last bit, NaN equal to NaN, dataclasses field by field.
 
-    Parameters
-    ----------
-    one, other : object
-        Numbers, texts, arrays, lists, tuples, mappings, datasets or dataclasses of such values.
-
     Examples
     --------
     >>> same([1.0, float("nan")], [1.0, float("nan")]), same(np.zeros(2), np.zeros(3))

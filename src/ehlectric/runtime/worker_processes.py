@@ -47,49 +47,25 @@ def cancel(futures: Iterable[Future[Any]]) -> None:
 
 @dataclass(frozen=True)
 class Crew:
-    """Processes or machines that solve tasks.
+    """Processes or machines that solve tasks."""
 
-    Attributes
-    ----------
-    submit : callable
-        Function that submits a call with its arguments, and returns its future.
-    width : callable
-        Function that returns the number of tasks that may be in flight.
-    renew : callable
-        Function that replaces processes that died.
-    waiting : callable
-        Function that returns what the crew is waiting for, as text; empty if it is working.
-    one_machine : bool
-        Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
-    abandon : callable
-        Function that is given the futures that nobody waits for any more, and stops what it can of them.
-    check : callable
-        Function that is called about every second while nothing finishes, and ends a crew that would never
-        finish.
-    """
-
+    # Function that submits a call with its arguments, and returns its future.
     submit: Callable[..., Future[Any]]
-    width: Callable[[], int]
-    renew: Callable[[], None] = lambda: None
+    width: Callable[[], int]  # function that returns the number of tasks that may be in flight
+    renew: Callable[[], None] = lambda: None  # function that replaces processes that died
+    # Function that returns what the crew is waiting for, as text; empty if it is working.
     waiting: Callable[[], str] = str
+    # Whether all share the memory of one machine, so that a task finds more of it when it runs alone.
     one_machine: bool = False
+    # Function that is given the futures that nobody waits for any more, and stops what it can of them.
     abandon: Callable[[Iterable[Future[Any]]], None] = cancel
+    # Function that is called about every second while nothing finishes, and ends a crew that would never
+    # finish.
     check: Callable[[], None] = lambda: None
 
 
 def crew_of(executor: Executor) -> Crew:
-    """Crew of an executor with the interface of ``concurrent.futures``.
-
-    Parameters
-    ----------
-    executor : Executor
-        Executor whose workers can import ehlectric. It is not shut down here, but by its owner.
-
-    Returns
-    -------
-    Crew
-        The workers of the executor.
-    """
+    """Crew of an executor with the interface of ``concurrent.futures``."""
     workers = getattr(executor, "_max_workers", None) or 32
     of_dask = type(executor).__module__.partition(".")[0] == "distributed"
     return Crew(
@@ -127,16 +103,6 @@ def processes(number: int) -> Iterator[Crew]:
     """Context manager that yields a crew of processes on this machine.
 
     The processes end when the context or the calling process ends.
-
-    Parameters
-    ----------
-    number : int
-        Number of processes; each uses one BLAS thread.
-
-    Yields
-    ------
-    Crew
-        The processes.
     """
     number = min(number, _MOST)
     pool = _pool(number)

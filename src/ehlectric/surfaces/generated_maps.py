@@ -56,22 +56,9 @@ def sinusoid(
 
     s is the position along the direction ``orientation``.
 
-    Parameters
-    ----------
-    x, y : array_like, shapes that broadcast to (...)
-        Position [m], zero at the centre of the contact.
-    amplitude, wavelength : float
-        Amplitude and wavelength [m].
-    phase : float
-        Phase at (0, 0) [rad].
-    orientation : float
-        Direction in which the wavelength is measured, from the x axis, counter-clockwise [degrees]. The
-        ridges are perpendicular to it.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Height [m].
+    ``x`` and ``y``, position [m], zero at the centre of the contact; ``amplitude`` and ``wavelength`` [m];
+    ``phase`` [rad]; ``orientation``, direction in which the wavelength is measured, from the x axis,
+    counter-clockwise [degrees]. Returns height [m], shape (...).
 
     Examples
     --------
@@ -86,20 +73,9 @@ def asperity(
     x: ArrayLike, y: ArrayLike, *, height: float, width: float, position: float = 0.0, position_y: float = 0.0
 ) -> Array:
     """Single round Gaussian asperity, z = height exp(-4 ln 2 (r/width)^2), at the distance r from its middle.
-
-    Parameters
-    ----------
-    x, y : array_like, shapes that broadcast to (...)
-        Position [m].
-    height, width : float
-        Height of the asperity, and its diameter at half height [m].
-    position, position_y : float
-        Position of its top along x and y [m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Height [m].
+    ``x`` and ``y`` [m]; ``height`` and ``width``, height of the asperity, and its diameter at half height
+    [m]; ``position`` and ``position_y``, position of its top along x and y [m]. Returns height [m],
+    shape (...).
 
     Examples
     --------
@@ -125,19 +101,8 @@ def pit(
     The pit is a Gaussian bowl, ``depth`` deep and ``width`` wide at half depth. The rim is a Gaussian ring of
     height ``rim`` and of half the width of the pit. Its top is one ``width`` from the middle.
 
-    Parameters
-    ----------
-    x, y : array_like, shapes that broadcast to (...)
-        Position [m].
-    depth, width, rim : float
-        Depth, diameter at half depth and height of the rim [m].
-    position, position_y : float
-        Position of the middle of the pit along x and y [m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Height [m].
+    ``x`` and ``y`` [m]; ``depth``, ``width`` and ``rim`` [m]; ``position`` and ``position_y``, position of
+    the middle of the pit along x and y [m]. Returns height [m], shape (...).
 
     Examples
     --------
@@ -166,27 +131,11 @@ def gaussian(
     The autocorrelation at the distances x and y is
     exp(-(x/correlation_length)^2 - (y/correlation_length_y)^2).
 
-    Parameters
-    ----------
-    rq : float
-        Root mean square height of the random process [m]. The Sq of a single small map deviates from it.
-    correlation_length, correlation_length_y : float
-        Distances along x and along y at which the autocorrelation is 1/e [m]. By default they are equal.
-    reach_x, reach_y : float
-        Smallest distances along x and y from the middle to the sides of the map [m].
-    seed : int
-        Seed of the random numbers. For the same seed, ``rq`` and correlation lengths, the height at a
-        position does not depend on the size of the map.
-
-    Returns
-    -------
-    Map
-        Map with eight points per correlation length, one of them at (0, 0).
-
-    Raises
-    ------
-    InputError
-        If the map needs noise at more than ``MOST_POINTS`` points.
+    ``rq``, root mean square height of the random process [m]; ``correlation_length`` and
+    ``correlation_length_y``, distances along x and along y at which the autocorrelation is 1/e [m];
+    ``reach_x`` and ``reach_y``, smallest distances along x and y from the middle to the sides of the map [m].
+    Returns map with eight points per correlation length, one of them at (0, 0). Raises InputError if the map
+    needs noise at more than ``MOST_POINTS`` points.
 
     Examples
     --------
@@ -217,31 +166,11 @@ def self_affine(
 
     q is the wavenumber. Below the roll-off wavenumber the spectrum is constant.
 
-    Parameters
-    ----------
-    rq : float
-        Root mean square height of the random process [m]. The Sq of a single small map deviates from it.
-    hurst : float
-        Hurst exponent, from 0 (rough) to 1 (smooth).
-    rolloff_wavelength : float
-        Roll-off wavelength, above which the spectrum is constant [m].
-    reach_x, reach_y : float
-        Smallest distances along x and y from the middle to the sides of the map [m].
-    seed : int
-        Seed of the random numbers. For the same seed and wavelengths, the height at a position does not
-        depend on the size of the map.
-    shortest : float
-        Shortest wavelength [m]. Shorter waves are weaker by orders of magnitude.
-
-    Returns
-    -------
-    Map
-        Map with four points per shortest wavelength, one of them at (0, 0).
-
-    Raises
-    ------
-    InputError
-        If the map needs noise at more than ``MOST_POINTS`` points.
+    ``rq``, root mean square height of the random process [m]; ``rolloff_wavelength``, roll-off wavelength,
+    above which the spectrum is constant [m]; ``reach_x`` and ``reach_y``, smallest distances along x and y
+    from the middle to the sides of the map [m]; ``shortest`` [m]. Returns map with four points per shortest
+    wavelength, one of them at (0, 0). Raises InputError if the map needs noise at more than ``MOST_POINTS``
+    points.
 
     Examples
     --------

@@ -21,19 +21,12 @@ from ehlectric.surfaces.profiles import Profile, convolved
 
 @dataclass(frozen=True)
 class Domain:
-    """Domain of the film, over which the heights of rough surfaces are needed.
+    """Domain of the film, over which the heights of rough surfaces are needed."""
 
-    Attributes
-    ----------
-    inlet, outlet : float
-        Ends along x [m].
-    side : float
-        Distance from y = 0 to either side [m]; infinite for a line contact.
-    """
-
+    # inlet and outlet: ends along x [m].
     inlet: float
     outlet: float
-    side: float = np.inf
+    side: float = np.inf  # distance from y = 0 to either side [m]; infinite for a line contact
 
     @property
     def length(self) -> float:
@@ -57,19 +50,9 @@ class Domain:
 
 
 def turned(x: ArrayLike, y: ArrayLike, orientation: float) -> tuple[Array, Array]:
-    """Coordinates of positions (x, y) along axes that are rotated counter-clockwise.
-
-    Parameters
-    ----------
-    x, y : array_like, shapes that broadcast to (...)
-        Positions [m].
-    orientation : float
-        Angle of rotation of the axes [degrees].
-
-    Returns
-    -------
-    tuple of ndarray, shape (...)
-        Positions along the two rotated axes [m].
+    """Coordinates of positions (x, y) along axes that are rotated counter-clockwise. ``x`` and ``y`` [m];
+    ``orientation``, angle of rotation of the axes [degrees]. Returns positions along the two rotated axes
+    [m], shape (...).
 
     Examples
     --------
@@ -95,21 +78,9 @@ _REACH = 8.0
 
 
 def sinusoid(x: ArrayLike, *, amplitude: float, wavelength: float, phase: float = 0.0) -> Array:
-    """Sinusoidal waviness of a surface, z = amplitude sin(2 pi x/wavelength + phase).
-
-    Parameters
-    ----------
-    x : array_like, shape (...)
-        Position [m], zero at the centre of the contact.
-    amplitude, wavelength : float
-        Amplitude and wavelength [m].
-    phase : float
-        Phase at x = 0 [rad].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Height [m].
+    """Sinusoidal waviness of a surface, z = amplitude sin(2 pi x/wavelength + phase). ``x``, position [m],
+    zero at the centre of the contact, shape (...); ``amplitude`` and ``wavelength`` [m]; ``phase`` [rad].
+    Returns height [m], shape (...).
 
     Examples
     --------
@@ -121,21 +92,9 @@ def sinusoid(x: ArrayLike, *, amplitude: float, wavelength: float, phase: float 
 
 
 def asperity(x: ArrayLike, *, height: float, width: float, position: float = 0.0) -> Array:
-    """Single Gaussian asperity, z = height exp(-4 ln 2 ((x - position)/width)^2).
-
-    Parameters
-    ----------
-    x : array_like, shape (...)
-        Position [m].
-    height, width : float
-        Height of the asperity, and its width at half height [m].
-    position : float
-        Position of its top [m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Height [m].
+    """Single Gaussian asperity, z = height exp(-4 ln 2 ((x - position)/width)^2). ``x`` [m], shape (...);
+    ``height`` and ``width``, height of the asperity, and its width at half height [m]; ``position`` [m].
+    Returns height [m], shape (...).
 
     Examples
     --------
@@ -154,19 +113,8 @@ def pit(x: ArrayLike, *, depth: float, width: float, rim: float = 0.0, position:
     asperity on each side, of height ``rim`` and of half the width of the pit. Its top is one ``width`` from
     the middle.
 
-    Parameters
-    ----------
-    x : array_like, shape (...)
-        Position [m].
-    depth, width, rim : float
-        Depth, width at half depth and height of the rim [m].
-    position : float
-        Position of the middle of the pit [m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Height [m].
+    ``x`` [m], shape (...); ``depth``, ``width`` and ``rim`` [m]; ``position``, position of the middle of the
+    pit [m]. Returns height [m], shape (...).
 
     Examples
     --------
@@ -185,27 +133,10 @@ SHAPES: dict[str, Callable[..., Array]] = {"sinusoid": sinusoid, "pit": pit, "as
 def gaussian(*, rq: float, correlation_length: float, length: float, seed: int) -> Profile:
     """Random profile of Gaussian heights with the autocorrelation exp(-(distance/correlation_length)^2).
 
-    Parameters
-    ----------
-    rq : float
-        Root mean square height of the random process [m]. The Rq of a single short profile deviates from it.
-    correlation_length : float
-        Distance at which the autocorrelation is 1/e [m].
-    length : float
-        Smallest length of the profile [m].
-    seed : int
-        Seed of the random numbers. For the same seed, ``rq`` and ``correlation_length``, the height at a
-        position does not depend on ``length``.
-
-    Returns
-    -------
-    Profile
-        Profile with sixteen points per correlation length, one of them at x = 0.
-
-    Raises
-    ------
-    InputError
-        If the profile has more than ``MOST_POINTS`` points.
+    ``rq``, root mean square height of the random process [m]; ``correlation_length``, distance at which the
+    autocorrelation is 1/e [m]; ``length``, smallest length of the profile [m]. Returns profile with sixteen
+    points per correlation length, one of them at x = 0. Raises InputError if the profile has more than
+    ``MOST_POINTS`` points.
 
     Examples
     --------
@@ -227,31 +158,10 @@ def self_affine(
 
     q is the wavenumber. Below the roll-off wavenumber the spectrum is constant.
 
-    Parameters
-    ----------
-    rq : float
-        Root mean square height of the random process [m]. The Rq of a single short profile deviates from it.
-    hurst : float
-        Hurst exponent, from 0 (rough) to 1 (smooth).
-    rolloff_wavelength : float
-        Roll-off wavelength, above which the spectrum is constant [m].
-    length : float
-        Smallest length of the profile [m].
-    seed : int
-        Seed of the random numbers. For the same seed and wavelengths, the height at a position does not
-        depend on ``length``.
-    shortest : float
-        Shortest wavelength [m]. Shorter waves are weaker by orders of magnitude.
-
-    Returns
-    -------
-    Profile
-        Profile with four points per shortest wavelength, one of them at x = 0.
-
-    Raises
-    ------
-    InputError
-        If the profile has more than ``MOST_POINTS`` points.
+    ``rq``, root mean square height of the random process [m]; ``rolloff_wavelength``, roll-off wavelength,
+    above which the spectrum is constant [m]; ``length``, smallest length of the profile [m]; ``shortest``
+    [m]. Returns profile with four points per shortest wavelength, one of them at x = 0. Raises InputError if
+    the profile has more than ``MOST_POINTS`` points.
 
     Examples
     --------

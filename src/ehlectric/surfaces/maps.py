@@ -35,17 +35,9 @@ _MOST_STEPS = 5000
 
 
 def without_void_borders(heights: Array) -> Array:
-    """Map without the outer rows and columns that have no data at all.
-
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny)
-        Heights in any unit, NaN at voids.
-
-    Returns
-    -------
-    ndarray
-        Heights over the smallest rectangle that contains all points with data; empty if there are none.
+    """Map without the outer rows and columns that have no data at all. ``heights``, heights in any unit, NaN
+    at voids, shape (nx, ny). Returns heights over the smallest rectangle that contains all points with data;
+    empty if there are none.
 
     Examples
     --------
@@ -72,17 +64,8 @@ def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:
     the rim of the void. It stays between the lowest and the highest height at the rim. At a side of the map
     its slope is zero.
 
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny)
-        Heights [m], NaN at voids; at least one must be finite.
-    spacing_x, spacing_y : float
-        Distances between neighbouring points along x and y [m].
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Heights without NaN [m].
+    ``heights`` [m], shape (nx, ny); ``spacing_x`` and ``spacing_y``, distances between neighbouring points
+    along x and y [m]. Returns heights without NaN [m], shape (nx, ny).
 
     Examples
     --------
@@ -148,19 +131,12 @@ _DIRECTIONS = 90
 
 @dataclass(frozen=True)
 class Map:
-    """Roughness map: heights over equally spaced points.
+    """Roughness map: heights over equally spaced points."""
 
-    Attributes
-    ----------
-    spacing_x, spacing_y : float
-        Distances between neighbouring points along and across entrainment [m].
-    heights : ndarray, shape (nx, ny)
-        Heights [m], positive out of the body.
-    """
-
+    # spacing_x and spacing_y: distances between neighbouring points along and across entrainment [m].
     spacing_x: float
     spacing_y: float
-    heights: Array
+    heights: Array  # heights [m], positive out of the body, shape (nx, ny)
 
     @property
     def x(self) -> Array:
@@ -189,48 +165,29 @@ class Map:
 
 @dataclass(frozen=True)
 class MapStatistics:
-    """Amplitude, spatial and slope parameters of a map, SI units.
+    """Amplitude, spatial and slope parameters of a map, SI units."""
 
-    Attributes
-    ----------
-    sq, sa : float
-        Root mean square and mean absolute height about the mean [m].
-    ssk, sku : float
-        Skewness and kurtosis. They are 0 and 3 for Gaussian heights; both are 0 for a flat map.
-    correlation_length_x, correlation_length_y : float
-        Distances along x and along y at which the autocorrelation falls to 1/e [m]; the length of the map if
-        it does not fall so far.
-    correlation_length : float
-        Distance at which the autocorrelation falls to 1/e in the direction in which it falls fastest [m]. The
-        autocorrelation length Sal of ISO 25178-2 is defined at 0.2 instead.
-    rms_slope, largest_slope : float
-        Root mean square and largest magnitude of the gradient, from differences between neighbours. The
-        gradient Sdq of ISO 25178-2 takes more points.
-    """
-
+    # sq and sa: root mean square and mean absolute height about the mean [m].
     sq: float
     sa: float
     ssk: float
     sku: float
+    # correlation_length_x and correlation_length_y: distances along x and along y at which the
+    # autocorrelation falls to 1/e [m]; the length of the map if it does not fall so far.
     correlation_length_x: float
     correlation_length_y: float
+    # Distance at which the autocorrelation falls to 1/e in the direction in which it falls fastest [m].
     correlation_length: float
+    # rms_slope and largest_slope: root mean square and largest magnitude of the gradient, from differences
+    # between neighbours. The gradient Sdq of ISO 25178-2 takes more points.
     rms_slope: float
     largest_slope: float
 
 
 def statistics(surface: Map) -> MapStatistics:
-    """Amplitude, spatial and slope parameters of a map, with heights about its mean.
-
-    Parameters
-    ----------
-    surface : Map
-        Map with at least two points along x and along y.
-
-    Returns
-    -------
-    MapStatistics
-        Sq, Sa, Ssk and Sku as defined in ISO 25178-2 over the whole map, correlation lengths and slopes.
+    """Amplitude, spatial and slope parameters of a map, with heights about its mean. ``surface``, map with at
+    least two points along x and along y. Returns sq, Sa, Ssk and Sku as defined in ISO 25178-2 over the whole
+    map, correlation lengths and slopes.
 
     Examples
     --------
@@ -307,23 +264,8 @@ def _fastest(z: Array, dx: float, dy: float, reach: float) -> float:
 
 
 def without_form(surface: Map, form: Form) -> Map:
-    """Map without its form, which is fitted by least squares and subtracted.
+    """Map without its form, which is fitted by least squares and subtracted. Returns map of the same size.
 
-    Parameters
-    ----------
-    surface : Map
-        Map with its form.
-    form : str
-        Form to remove: "none", "mean", "line" (a plane) or "parabola" (a quadric, with the product of x and
-        y).
-
-    Returns
-    -------
-    Map
-        Map of the same size.
-
-    Notes
-    -----
     Products of polynomials that are orthogonal over the points of each axis are orthogonal over the points of
     the map. The fit therefore needs no system of equations over all points.
 
@@ -357,25 +299,9 @@ def waviness(surface: Map, cutoff: float) -> Map:
     The weight is exp(-pi (r/(alpha cutoff))^2)/(alpha cutoff)^2 with alpha = sqrt(ln 2/pi). It is the product
     of the weights of the profile filter along x and along y.
 
-    Parameters
-    ----------
-    surface : Map
-        Map to filter. Near its sides the weights are normalised over the part of them inside the map.
-    cutoff : float
-        Cutoff wavelength [m], from four spacings to the length of the shorter side.
+    ``cutoff``, cutoff wavelength [m], from four spacings to the length of the shorter side. Returns waviness,
+    of the same size. Raises InputError if the cutoff is longer than a side, or shorter than four spacings.
 
-    Returns
-    -------
-    Map
-        Waviness, of the same size.
-
-    Raises
-    ------
-    InputError
-        If the cutoff is longer than a side, or shorter than four spacings.
-
-    Notes
-    -----
     ISO 16610-61.
 
     Examples
@@ -407,12 +333,8 @@ def _smoothed(heights: Array, weights: Array, axis: int) -> Array:
 
 
 def trimmed(surface: Map, length: float) -> Map:
-    """Map without a margin of ``length`` [m] at each of its four sides.
-
-    Raises
-    ------
-    InputError
-        If fewer than 16 points are left along x or y.
+    """Map without a margin of ``length`` [m] at each of its four sides. Raises InputError if fewer than 16
+    points are left along x or y.
     """
     cut = [round(length / spacing) for spacing in (surface.spacing_x, surface.spacing_y)]
     left = [n - 2 * k for n, k in zip(surface.heights.shape, cut, strict=True)]
@@ -429,24 +351,9 @@ def trimmed(surface: Map, length: float) -> Map:
 
 
 def processed_map(surface: Map, steps: Processing) -> list[tuple[str, Map]]:
-    """Process a map, and return it after every step with a description of the step.
-
-    Parameters
-    ----------
-    surface : Map
-        Map as read or generated.
-    steps : Processing
-        Steps of the processing. For a map ``rescale_rq`` is an Sq.
-
-    Returns
-    -------
-    list of (str, Map)
-        Description and map after each step, in order. The first entry is the unprocessed map.
-
-    Raises
-    ------
-    InputError
-        If a step is not possible with this map.
+    """Process a map, and return it after every step with a description of the step. Returns description and
+    map after each step, in order; the first entry is the unprocessed map. Raises InputError if a step is not
+    possible with this map.
 
     Examples
     --------

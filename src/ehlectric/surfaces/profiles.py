@@ -69,44 +69,26 @@ class Profile:
 
 @dataclass(frozen=True)
 class Statistics:
-    """Amplitude and slope parameters of a profile, SI units.
+    """Amplitude and slope parameters of a profile, SI units."""
 
-    Attributes
-    ----------
-    rq, ra : float
-        Root mean square and mean absolute height about the mean [m].
-    rsk, rku : float
-        Skewness and kurtosis. They are 0 and 3 for Gaussian heights; both are 0 for a flat profile.
-    correlation_length : float
-        Distance at which the autocorrelation falls to 1/e [m]; the length of the profile if it does not fall
-        so far. The autocorrelation length of ISO 21920-2 is defined at 0.2 instead.
-    rms_slope, largest_slope : float
-        Root mean square and largest magnitude of the slope, from differences between neighbours. ISO 21920-2
-        takes slopes over seven points.
-    """
-
+    # rq and ra: root mean square and mean absolute height about the mean [m].
     rq: float
     ra: float
     rsk: float
     rku: float
+    # Distance at which the autocorrelation falls to 1/e [m]; the length of the profile if it does not fall so
+    # far.
     correlation_length: float
+    # rms_slope and largest_slope: root mean square and largest magnitude of the slope, from differences
+    # between neighbours. ISO 21920-2 takes slopes over seven points.
     rms_slope: float
     largest_slope: float
 
 
 def statistics(profile: Profile) -> Statistics:
-    """Amplitude and slope parameters of a profile, with heights about its mean.
-
-    Parameters
-    ----------
-    profile : Profile
-        Profile with at least two points.
-
-    Returns
-    -------
-    Statistics
-        Rq, Ra, Rsk and Rku as defined in ISO 21920-2, but over the whole profile as one section; correlation
-        length and slopes.
+    """Amplitude and slope parameters of a profile, with heights about its mean. ``profile``, profile with at
+    least two points. Returns rq, Ra, Rsk and Rku as defined in ISO 21920-2, but over the whole profile as one
+    section; correlation length and slopes.
 
     Examples
     --------
@@ -152,19 +134,8 @@ def first_below(covariance: Array, spacing: float) -> float:
 
 
 def without_form(profile: Profile, form: Form) -> Profile:
-    """Profile without its form, which is fitted by least squares and subtracted.
-
-    Parameters
-    ----------
-    profile : Profile
-        Profile with its form.
-    form : str
-        Form to remove: "none", "mean", "line" or "parabola".
-
-    Returns
-    -------
-    Profile
-        Profile of the same length.
+    """Profile without its form, which is fitted by least squares and subtracted. Returns profile of the same
+    length.
 
     Examples
     --------
@@ -183,23 +154,10 @@ def without_form(profile: Profile, form: Form) -> Profile:
 def gaussian_weights(spacing: float, cutoff: float, length: float) -> Array:
     """Weights of the Gaussian filter along one axis, normalised to the sum one.
 
-    Parameters
-    ----------
-    spacing, cutoff : float
-        Distance between neighbouring points, and cutoff wavelength [m].
-    length : float
-        Length of the profile, or of the shorter side of the map, that is filtered [m].
-
-    Returns
-    -------
-    ndarray, shape (2 reach + 1,)
-        Weights at the distances -reach to reach, in points. They end at a distance of one cutoff, where the
-        weight is a millionth of that in the middle.
-
-    Raises
-    ------
-    InputError
-        If the cutoff is longer than ``length``, or shorter than four spacings.
+    ``spacing`` and ``cutoff``, distance between neighbouring points, and cutoff wavelength [m]; ``length``,
+    length of the profile, or of the shorter side of the map, that is filtered [m]. Returns weights at the
+    distances -reach to reach, in points, shape (2 reach + 1,). Raises InputError if the cutoff is longer than
+    ``length``, or shorter than four spacings.
 
     Examples
     --------
@@ -227,25 +185,10 @@ def waviness(profile: Profile, cutoff: float) -> Profile:
     The weight is exp(-pi (x/(alpha cutoff))^2)/(alpha cutoff) with alpha = sqrt(ln 2/pi). The transmission at
     a wavelength is exp(-pi (alpha cutoff/wavelength)^2), one half at the cutoff.
 
-    Parameters
-    ----------
-    profile : Profile
-        Profile to filter. Near its ends the weights are normalised over the part of them inside the profile.
-    cutoff : float
-        Cutoff wavelength [m], from four spacings to the length of the profile.
+    ``cutoff``, cutoff wavelength [m], from four spacings to the length of the profile. Returns waviness, of
+    the same length. Raises InputError if the cutoff is longer than the profile, or shorter than four
+    spacings.
 
-    Returns
-    -------
-    Profile
-        Waviness, of the same length.
-
-    Raises
-    ------
-    InputError
-        If the cutoff is longer than the profile, or shorter than four spacings.
-
-    Notes
-    -----
     ISO 16610-21.
 
     Examples
@@ -280,29 +223,16 @@ def trimmed(profile: Profile, length: float) -> Profile:
 
 @dataclass(frozen=True)
 class Processing:
-    """Processing steps of a profile or a map, in their order; a step whose value is None is left out.
+    """Processing steps of a profile or a map, in their order; a step whose value is None is left out."""
 
-    Attributes
-    ----------
-    form : str
-        Form to remove: "none", "mean", "line" or "parabola". The mean is removed again after the trim: it has
-        no effect on the film, but it would shift the limits of ``truncate``.
-    cutoff_long, cutoff_short : float or None
-        Cutoff wavelengths [m]; longer waves than ``cutoff_long``, shorter than ``cutoff_short`` are removed.
-    trim : float or None
-        Length cut off at each end [m]; by default half of the longer cutoff.
-    rescale_rq : float or None
-        Rq, or Sq for a map, to which the heights are scaled [m].
-    truncate : float or None
-        Height at which peaks and depth at which valleys are cut off [m].
-    """
-
-    form: Form = "none"
+    form: Form = "none"  # form to remove: "none", "mean", "line" or "parabola"
+    # cutoff_long and cutoff_short: cutoff wavelengths [m]; longer waves than ``cutoff_long``, shorter than
+    # ``cutoff_short`` are removed.
     cutoff_long: float | None = None
     cutoff_short: float | None = None
-    trim: float | None = None
-    rescale_rq: float | None = None
-    truncate: float | None = None
+    trim: float | None = None  # length cut off at each end [m]; by default half of the longer cutoff
+    rescale_rq: float | None = None  # rq, or Sq for a map, to which the heights are scaled [m]
+    truncate: float | None = None  # height at which peaks and depth at which valleys are cut off [m]
 
 
 class Points(Protocol):
@@ -370,24 +300,9 @@ def in_order(first: S, steps: Processing, do: Operations[S]) -> list[tuple[str, 
 
 
 def processed(profile: Profile, steps: Processing) -> list[tuple[str, Profile]]:
-    """Process a profile, and return it after every step with a description of the step.
-
-    Parameters
-    ----------
-    profile : Profile
-        Profile as read or generated.
-    steps : Processing
-        Steps of the processing.
-
-    Returns
-    -------
-    list of (str, Profile)
-        Description and profile after each step, in order. The first entry is the unprocessed profile.
-
-    Raises
-    ------
-    InputError
-        If a step is not possible with this profile.
+    """Process a profile, and return it after every step with a description of the step. Returns description
+    and profile after each step, in order; the first entry is the unprocessed profile. Raises InputError if a
+    step is not possible with this profile.
 
     Examples
     --------

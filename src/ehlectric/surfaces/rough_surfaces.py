@@ -40,21 +40,8 @@ Height = Callable[[Array], Array]
 
 
 def continued_map(surface: Map, extend: str) -> MapHeight:
-    """Height of a map at any position: a bicubic spline inside the map, and its continuation outside.
-
-    Parameters
-    ----------
-    surface : Map
-        Map, with its middle at (0, 0).
-    extend : str
-        Continuation beyond the sides. "mirror" reflects the map at its sides. "repeat" repeats the map; near
-        opposite sides, over 5 % of the length, the heights are blended so that they join. "flat" continues
-        with zero; the map fades to zero over 5 % of the length at each side.
-
-    Returns
-    -------
-    callable
-        Height [m] as a function of positions x and y [m] whose shapes broadcast.
+    """Height of a map at any position: a bicubic spline inside the map, and its continuation outside. Returns
+    height [m] as a function of positions x and y [m] whose shapes broadcast.
 
     Examples
     --------
@@ -102,20 +89,7 @@ def _joined(z: Array, fade: Array) -> Array:
 
 def continued(profile: Profile, extend: str) -> Height:
     """Height of a profile at any position: a cubic spline inside the profile, and its continuation outside.
-
-    Parameters
-    ----------
-    profile : Profile
-        Profile, with its midpoint at x = 0.
-    extend : str
-        Continuation beyond the ends. "mirror" reflects the profile at its ends. "repeat" repeats the profile;
-        near the ends, over 5 % of the length, the heights are blended so that they join. "flat" continues
-        with zero; the profile fades to zero over 5 % of the length at each end.
-
-    Returns
-    -------
-    callable
-        Height [m], shape (n,), as a function of positions [m], shape (n,).
+    Returns height [m], shape (n,), as a function of positions [m], shape (n,).
 
     Examples
     --------
@@ -191,33 +165,17 @@ _MARGIN = 64
 
 @dataclass(frozen=True)
 class RoughSurface:
-    """Rough surface of a line contact.
+    """Rough surface of a line contact."""
 
-    Attributes
-    ----------
-    surface : int
-        Number of the surface, 1 (lower) or 2 (upper).
-    height : callable
-        Height [m] as a function of position [m], positive out of the body.
-    surface_read : Surface or None
-        Content of the file; None for a generated surface.
-    steps : list of (str, Profile)
-        Description of each processing step and the profile after it; empty for an exact shape.
-    extent : float
-        Length of the profile before its continuation [m]; infinite for an exact shape.
-    voids : float or None
-        Fraction of the points of the line without data in the file; None for a generated surface.
-    warnings : tuple of ResultWarning
-        Warnings about the file and the processing steps.
-    """
-
-    surface: int
-    height: Height
-    surface_read: Surface | None
+    surface: int  # number of the surface, 1 (lower) or 2 (upper)
+    height: Height  # height [m] as a function of position [m], positive out of the body
+    surface_read: Surface | None  # content of the file; None for a generated surface
+    # Description of each processing step and the profile after it; empty for an exact shape.
     steps: list[tuple[str, Profile]]
-    extent: float
+    extent: float  # length of the profile before its continuation [m]; infinite for an exact shape
+    # Fraction of the points of the line without data in the file; None for a generated surface.
     voids: float | None = None
-    warnings: tuple[ResultWarning, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()  # warnings about the file and the processing steps
 
     def describe(self) -> dict[str, Any]:
         """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
@@ -237,24 +195,9 @@ class RoughSurface:
 
 
 def rough_surfaces(tables: Sequence[Roughness], domain: Domain) -> list[RoughSurface]:
-    """Read or generate the roughness of a line contact.
-
-    Parameters
-    ----------
-    tables : sequence of Roughness
-        Tables ``[[roughness]]`` of the case.
-    domain : Domain
-        Domain of the film [m].
-
-    Returns
-    -------
-    list of RoughSurface
-        One surface per table, in their order.
-
-    Raises
-    ------
-    InputError
-        If a file cannot be used, or a shape does not fit the domain.
+    """Read or generate the roughness of a line contact. ``tables`` [roughness], ``domain`` [m]. Returns one
+    surface per table, in their order. Raises InputError if a file cannot be used, or a shape does not fit the
+    domain.
     """
     return [_rough_surface(table, domain) for table in tables]
 
@@ -274,10 +217,7 @@ def measured(table: Roughness, surface: Surface | None = None) -> RoughSurface:
     The file is read unless ``surface`` has its content. The mean height is always removed, as the zero of an
     instrument is arbitrary.
 
-    Raises
-    ------
-    InputError
-        If the file cannot be used.
+    Raises InputError if the file cannot be used.
     """
     assert table.file is not None
     if surface is None:
@@ -353,53 +293,27 @@ _MAP_MARGIN = 32
 
 @dataclass(frozen=True)
 class RoughMap:
-    """Rough surface of a point contact.
+    """Rough surface of a point contact."""
 
-    Attributes
-    ----------
-    surface : int
-        Number of the surface, 1 (lower) or 2 (upper).
-    at : callable
-        Height [m] as a function of positions x and y [m] whose shapes broadcast, positive out of the body.
-    surface_read : Surface or None
-        Content of the file; None for a generated surface.
-    steps : list of (str, Map) or list of (str, Profile)
-        Description of each processing step and the surface after it: a map, or the profile that is extended.
-        Empty for an exact shape.
-    extent : tuple of float
-        Lengths along the surface's own x and y axes before its continuation [m]. Infinite for an exact shape,
-        and along the lay of a profile.
-    orientation : float
-        Angle of the surface's own x axis, counter-clockwise [degrees].
-    voids : float or None
-        Fraction of the points used that have no data in the file; None for a generated surface.
-    warnings : tuple of ResultWarning
-        Warnings about the file and the processing steps.
-    """
-
-    surface: int
+    surface: int  # number of the surface, 1 (lower) or 2 (upper)
+    # Height [m] as a function of positions x and y [m] whose shapes broadcast, positive out of the body.
     at: MapHeight
-    surface_read: Surface | None
+    surface_read: Surface | None  # content of the file; None for a generated surface
+    # Description of each processing step and the surface after it: a map, or the profile that is extended.
+    # Empty for an exact shape.
     steps: Sequence[tuple[str, Map | Profile]]
+    # Lengths along the surface's own x and y axes before its continuation [m]. Infinite for an exact shape,
+    # and along the lay of a profile.
     extent: tuple[float, float]
-    orientation: float = 0.0
+    orientation: float = 0.0  # angle of the surface's own x axis, counter-clockwise [degrees]
+    # Fraction of the points used that have no data in the file; None for a generated surface.
     voids: float | None = None
-    warnings: tuple[ResultWarning, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()  # warnings about the file and the processing steps
 
     def height(self, x: Array, y: Array) -> Array:
-        """Heights of the surface at the nodes of a grid.
-
-        Parameters
-        ----------
-        x : ndarray, shape (nx,)
-            Positions along entrainment [m], zero at the centre of the contact.
-        y : ndarray, shape (ny,)
-            Positions across entrainment [m].
-
-        Returns
-        -------
-        ndarray, shape (nx, ny)
-            Heights [m], positive out of the body.
+        """Heights of the surface at the nodes of a grid. ``x``, positions along entrainment [m], zero at the
+        centre of the contact, shape (nx,); ``y``, positions across entrainment [m], shape (ny,). Returns
+        heights [m], positive out of the body, shape (nx, ny).
         """
         return self.at(*np.meshgrid(x, y, indexing="ij"))
 
@@ -425,24 +339,9 @@ def _described(step: Map | Profile) -> dict[str, Any]:
 
 
 def rough_maps(tables: Sequence[Roughness], domain: Domain) -> list[RoughMap]:
-    """Read or generate the roughness of a point contact.
-
-    Parameters
-    ----------
-    tables : sequence of Roughness
-        Tables ``[[roughness]]`` of the case.
-    domain : Domain
-        Domain of the film [m].
-
-    Returns
-    -------
-    list of RoughMap
-        One surface per table, in their order.
-
-    Raises
-    ------
-    InputError
-        If a file cannot be used, or a shape does not fit the domain.
+    """Read or generate the roughness of a point contact. ``tables`` [roughness], ``domain`` [m]. Returns one
+    surface per table, in their order. Raises InputError if a file cannot be used, or a shape does not fit the
+    domain.
 
     Examples
     --------
@@ -468,10 +367,7 @@ def measured_map(table: Roughness) -> RoughMap:
 
     The mean height is always removed, as the zero of an instrument is arbitrary.
 
-    Raises
-    ------
-    InputError
-        If the file cannot be used.
+    Raises InputError if the file cannot be used.
     """
     assert table.file is not None
     read = read_surface(table.file, x_unit=table.x_unit, z_unit=table.z_unit)
@@ -485,10 +381,7 @@ def whole_map(table: Roughness, read: Surface | None = None) -> RoughMap:
 
     The file is read unless ``read`` has its content.
 
-    Raises
-    ------
-    InputError
-        If the file has no map, or the table asks for one line of it.
+    Raises InputError if the file has no map, or the table asks for one line of it.
     """
     assert table.file is not None
     if table.line is not None:

@@ -79,12 +79,8 @@ _ENCRYPTED = 1
 
 
 def opened(content: bytes) -> zipfile.ZipFile:
-    """Archive with a content.
-
-    Raises
-    ------
-    zipfile.BadZipFile
-        Where the content is no archive, or lists more than ``MOST_MEMBERS`` members.
+    """Archive with a content. Raises zipfile.BadZipFile where the content is no archive, or lists more than
+    ``MOST_MEMBERS`` members.
     """
     if content.count(_ENTRY) > MOST_MEMBERS:
         raise zipfile.BadZipFile("too many members")
@@ -92,30 +88,9 @@ def opened(content: bytes) -> zipfile.ZipFile:
 
 
 def member(archive: zipfile.ZipFile, content: bytes, name: str, most: int) -> bytes:
-    """Content of a member of an archive; decompression ends at its bound.
-
-    Parameters
-    ----------
-    archive : zipfile.ZipFile
-        Archive, from ``opened``.
-    content : bytes
-        Its content.
-    name : str
-        Name of the member.
-    most : int
-        Largest size of the member [bytes].
-
-    Returns
-    -------
-    bytes
-        Content of the member.
-
-    Raises
-    ------
-    InputError
-        Where the member states more than ``MOST_RATIO`` times its compressed size. The error has no key.
-    BROKEN
-        Where the archive has no such member, or it is broken, encrypted, or larger than ``most``.
+    """Content of a member of an archive; decompression ends at its bound. ``most``, largest size of the
+    member [bytes]. Raises InputError where the member states more than ``MOST_RATIO`` times its compressed
+    size; BROKEN where the archive has no such member, or it is broken, encrypted, or larger than ``most``.
 
     Examples
     --------
@@ -216,21 +191,11 @@ class NoProfileError(InputError):
 
 @dataclass(frozen=True)
 class TextProfile:
-    """Profile as read from a text file.
+    """Profile as read from a text file."""
 
-    Attributes
-    ----------
-    heights : ndarray, shape (n,)
-        Heights [m], NaN at points without data.
-    spacing : float
-        Distance between neighbouring points [m].
-    warnings : tuple of ResultWarning
-        Warnings about the data in the file.
-    """
-
-    heights: Array
-    spacing: float
-    warnings: tuple[ResultWarning, ...]
+    heights: Array  # heights [m], NaN at points without data, shape (n,)
+    spacing: float  # distance between neighbouring points [m]
+    warnings: tuple[ResultWarning, ...]  # warnings about the data in the file
 
 
 @dataclass(frozen=True)
@@ -268,30 +233,9 @@ def is_text(content: bytes) -> bool:
 
 
 def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> TextProfile:
-    """Read the profile in a text file.
-
-    Parameters
-    ----------
-    path : Path
-        Path of the file, for error messages.
-    content : bytes
-        Content of the file: two columns, position and height. A third column with the head "valid" has 1 for
-        points with data and 0 for others. An empty height means no data.
-    x_unit, z_unit : str or None
-        Units of the columns, for a header that does not state them.
-
-    Returns
-    -------
-    TextProfile
-        Heights and spacing in metres.
-
-    Raises
-    ------
-    NoProfileError
-        If the file is not two columns of numbers; another reader may know its format.
-    InputError
-        If the file cannot be read or can be read in two ways, or if its units are unknown or contradict the
-        arguments.
+    """Read the profile in a text file. Returns heights and spacing in metres. Raises NoProfileError if the
+    file is not two columns of numbers; another reader may know its format; InputError if the file cannot be
+    read or can be read in two ways, or if its units are unknown or contradict the arguments.
     """
     block = _block(path, _decoded(path, content))
     if len(block.rows) < LEAST_POINTS:
@@ -539,22 +483,8 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
     if the file has one, as SurfaceTopography does. Each valid point is one bit, in the order of the heights
     and with the lowest bit of a byte first.
 
-    Parameters
-    ----------
-    path : Path
-        Path of the file, for error messages.
-    content : bytes
-        Content of the file.
-
-    Returns
-    -------
-    HeightMap
-        Heights and spacings [m].
-
-    Raises
-    ------
-    InputError
-        If the file is broken, or has other data than heights over a regular grid.
+    Returns heights and spacings [m]. Raises InputError if the file is broken, or has other data than heights
+    over a regular grid.
     """
     try:
         archive = opened(content)
@@ -668,22 +598,8 @@ def read_al3d(path: Path, content: bytes) -> HeightMap:
     The header consists of tags of 52 bytes, with 20 bytes for the name and 30 for the value. A block of
     float32 heights follows.
 
-    Parameters
-    ----------
-    path : Path
-        Path of the file, for error messages.
-    content : bytes
-        Content of the file.
-
-    Returns
-    -------
-    HeightMap
-        Heights and spacings [m].
-
-    Raises
-    ------
-    InputError
-        If the header is incomplete, or the file is shorter than its header states.
+    Returns heights and spacings [m]. Raises InputError if the header is incomplete, or the file is shorter
+    than its header states.
     """
     if not content.startswith(b"AliconaImaging"):
         raise InputError(path, "is not an AL3D file")
@@ -761,27 +677,13 @@ _WORKBOOKS = (
 
 @dataclass(frozen=True)
 class Surface:
-    """Measured surface as read from a file. A profile is a surface with one row.
+    """Measured surface as read from a file. A profile is a surface with one row."""
 
-    Attributes
-    ----------
-    heights : ndarray, shape (rows, columns)
-        Heights [m], NaN at points without data.
-    spacing_x : float
-        Distance between neighbouring points of a row [m].
-    spacing_y : float or None
-        Distance between neighbouring rows [m]; None for a profile.
-    source : str
-        Path of the file.
-    warnings : tuple of ResultWarning
-        Warnings about the data in the file.
-    """
-
-    heights: Array
-    spacing_x: float
-    spacing_y: float | None
+    heights: Array  # heights [m], NaN at points without data, shape (rows, columns)
+    spacing_x: float  # distance between neighbouring points of a row [m]
+    spacing_y: float | None  # distance between neighbouring rows [m]; None for a profile
     source: str
-    warnings: tuple[ResultWarning, ...] = ()
+    warnings: tuple[ResultWarning, ...] = ()  # warnings about the data in the file
 
     @property
     def voids(self) -> float:
@@ -805,24 +707,8 @@ class Surface:
         return float(np.median(np.diff(levels)))
 
     def line(self, index: int = 0, *, along: str = "row") -> Profile:
-        """One line of the surface as a profile, with voids filled by linear interpolation.
-
-        Parameters
-        ----------
-        index : int
-            Number of the row or column, from 0.
-        along : str
-            Kind of line, "row" or "column".
-
-        Returns
-        -------
-        Profile
-            Profile of the line. Voids at its ends are cut off.
-
-        Raises
-        ------
-        InputError
-            If the surface has no such line, or too much of the line is void.
+        """One line of the surface as a profile, with voids filled by linear interpolation. Raises InputError
+        if the surface has no such line, or too much of the line is void.
         """
         lines, spacing = self.heights, self.spacing_x
         if along == "column":
@@ -846,24 +732,9 @@ class Surface:
         return _checked(Profile(spacing, whole), self.source)
 
     def map(self, *, along: str = "row") -> Map:
-        """Whole surface as a map, with voids filled by a harmonic function.
-
-        Parameters
-        ----------
-        along : str
-            Lines of the file that lie along x. For "row", y increases with the number of the row. For
-            "column", y decreases with the number of the column, so that the surface is rotated and not
-            mirrored.
-
-        Returns
-        -------
-        Map
-            Map without the outer rows and columns that have no data at all.
-
-        Raises
-        ------
-        InputError
-            If the surface is a profile, has too many points, or too much of it is void.
+        """Whole surface as a map, with voids filled by a harmonic function. Returns map without the outer
+        rows and columns that have no data at all. Raises InputError if the surface is a profile, has too many
+        points, or too much of it is void.
         """
         if self.spacing_y is None:
             raise InputError(self.source, "is a profile", takes="a map of several rows")
@@ -930,26 +801,8 @@ def _checked_map(surface: Map, source: str) -> Map:
 
 
 def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:
-    """Read a measured surface from a file.
-
-    Parameters
-    ----------
-    path : str or Path
-        Text profile (.csv, .txt, .asc, .dat, .hfm), .x3p or .al3d file. SurfaceTopography reads other
-        formats, also text with a matrix of heights.
-    x_unit, z_unit : str, optional
-        Units of positions and heights in a text file that does not state them. They must not contradict the
-        file.
-
-    Returns
-    -------
-    Surface
-        Heights [m], spacings [m] and warnings.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or its data are not credible for a surface.
+    """Read a measured surface from a file. Returns heights [m], spacings [m] and warnings. Raises InputError
+    if the file cannot be read, or its data are not credible for a surface.
     """
     path = Path(path)
     content = _content(path)

@@ -23,24 +23,9 @@ _LEAST_INTERVALS = 64
 
 
 def surface_moments(surface: Profile | Map, interval: float | None = None) -> SpectralMoments:
-    """Spectral moments of a profile, or of the isotropic surface that stands for a map.
-
-    Parameters
-    ----------
-    surface : Profile or Map
-        Surface after its processing. A profile is taken as a line over an isotropic surface.
-    interval : float, optional
-        Sampling interval [m], rounded to a whole number of spacings; by default one spacing.
-
-    Returns
-    -------
-    SpectralMoments
-        Mean squares of height, slope and second derivative.
-
-    Raises
-    ------
-    ValueError
-        If the surface is shorter than eight intervals.
+    """Spectral moments of a profile, or of the isotropic surface that stands for a map. ``interval``,
+    sampling interval [m], rounded to a whole number of spacings; by default one spacing. Returns mean squares
+    of height, slope and second derivative. Raises ValueError if the surface is shorter than eight intervals.
 
     Examples
     --------
@@ -57,19 +42,11 @@ def surface_moments(surface: Profile | Map, interval: float | None = None) -> Sp
 def summit_statistics(surface: Profile | Map) -> list[dict[str, Any]]:
     """Spectral moments and summits of a surface at sampling intervals of 1, 2, 4, 8 and 16 spacings.
 
-    Parameters
-    ----------
-    surface : Profile or Map
-        Surface after its processing.
-
-    Returns
-    -------
-    list of dict
-        For each interval that fits 64 times into the surface, and for the shortest one at least: ``interval``
-        [m], ``m0`` [m^2], ``m2``, ``m4`` [1/m^2], ``bandwidth``, ``summit_density`` [1/m^2],
-        ``summit_radius`` [m], ``summit_deviation`` [m], and for a map ``slope_ratio``, the slope along x over
-        that along y. Bandwidth and ratio are None for a flat surface; the summits are None where the
-        bandwidth is below 1.5, as no isotropic Gaussian surface has it.
+    Returns for each interval that fits 64 times into the surface, and for the shortest one at least:
+    ``interval`` [m], ``m0`` [m^2], ``m2``, ``m4`` [1/m^2], ``bandwidth``, ``summit_density`` [1/m^2],
+    ``summit_radius`` [m], ``summit_deviation`` [m], and for a map ``slope_ratio``, the slope along x over
+    that along y; bandwidth and ratio are None for a flat surface; the summits are None where the bandwidth is
+    below 1.5, as no isotropic Gaussian surface has it.
     """
     if isinstance(surface, Profile):
         spacing, length = surface.spacing, surface.length
@@ -106,23 +83,9 @@ MOST_MISSED = 0.01
 def map_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughMap], domain: Domain, dx: float, dy: float
 ) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a point contact, before its film is computed.
-
-    Parameters
-    ----------
-    tables : sequence of Roughness
-        Tables ``[[roughness]]`` of the case.
-    rough : sequence of RoughMap
-        Rough surfaces that ``rough_maps`` returned for the tables.
-    domain : Domain
-        Domain of the film [m].
-    dx, dy : float
-        Spacings of the nodes of the film [m].
-
-    Yields
-    ------
-    ResultWarning
-        Warnings about files and processing steps, continuation, and roughness that is finer than the grid.
+    """Warnings about the roughness of a point contact, before its film is computed. ``tables`` [roughness];
+    ``domain`` [m]; ``dx`` and ``dy``, spacings of the nodes of the film [m]. Yields warnings about files and
+    processing steps, continuation, and roughness that is finer than the grid.
     """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
@@ -216,12 +179,7 @@ def shortest_wave(table: Roughness, rough: RoughSurface | RoughMap) -> float:
     It is the wavelength, the width of a pit or an asperity, half of it if the pit has a rim, or four
     correlation lengths. It is infinite for a surface that is uniform along entrainment.
 
-    Parameters
-    ----------
-    table : Roughness
-        Table ``[[roughness]]`` of the surface.
-    rough : RoughSurface or RoughMap
-        Surface made from the table.
+    ``table`` [roughness].
     """
     if table.wavelength is not None:
         along = abs(np.cos(np.deg2rad(table.orientation or 0.0)))
@@ -254,20 +212,8 @@ def map_variance_beyond(
     surface: Map, frequency_x: float, frequency_y: float, orientation: float = 0.0
 ) -> float:
     """Fraction of the variance of a map in waves that are too short for a grid, from the periodogram.
-
-    Parameters
-    ----------
-    surface : Map
-        Map of heights.
-    frequency_x, frequency_y : float
-        Largest spatial frequencies along the axes of the grid [1/m]. A wave that exceeds either is too short.
-    orientation : float
-        Angle from the x axis of the grid to the x axis of the map, counter-clockwise [degrees].
-
-    Returns
-    -------
-    float
-        Fraction of the variance, from 0 to 1.
+    ``frequency_x`` and ``frequency_y``, largest spatial frequencies along the axes of the grid [1/m];
+    ``orientation``, angle from the x axis of the grid to the x axis of the map, counter-clockwise [degrees].
 
     Examples
     --------
@@ -295,23 +241,9 @@ def map_variance_beyond(
 def profile_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
 ) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a line contact, before its film is computed.
-
-    Parameters
-    ----------
-    tables : sequence of Roughness
-        Tables ``[[roughness]]`` of the case.
-    rough : sequence of RoughSurface
-        Rough surfaces that ``rough_surfaces`` returned for the tables.
-    domain : Domain
-        Domain of the film [m].
-    dx : float
-        Spacing of the nodes of the film [m].
-
-    Yields
-    ------
-    ResultWarning
-        Warnings about files and processing steps, continuation, and roughness that is finer than the grid.
+    """Warnings about the roughness of a line contact, before its film is computed. ``tables`` [roughness];
+    ``domain`` [m]; ``dx``, spacing of the nodes of the film [m]. Yields warnings about files and processing
+    steps, continuation, and roughness that is finer than the grid.
     """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
@@ -344,16 +276,8 @@ def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
 
 
 def unresolved(dx: float, what: str, length: float) -> ResultWarning:
-    """Warning about roughness that the grid does not resolve.
-
-    Parameters
-    ----------
-    dx : float
-        Spacing of the nodes [m].
-    what : str
-        Words that name the surface and the kind of the length.
-    length : float
-        Length that is not resolved [m].
+    """Warning about roughness that the grid does not resolve. ``dx``, spacing of the nodes [m]; ``length``
+    [m].
     """
     return ResultWarning(
         "roughness-unresolved",
@@ -402,21 +326,7 @@ def profile_warnings(
 
 def profile_variance_beyond(profile: Profile, frequency: float, ends: tuple[float, float]) -> float:
     """Fraction of the variance of a profile in waves above a spatial frequency, from the periodogram.
-
-    Parameters
-    ----------
-    profile : Profile
-        Profile of heights.
-    frequency : float
-        Spatial frequency [1/m].
-    ends : tuple of float
-        Ends of the part of the profile that counts [m]. If it has fewer than 16 points, the whole profile
-        counts.
-
-    Returns
-    -------
-    float
-        Fraction of the variance, from 0 to 1.
+    ``frequency`` [1/m]; ``ends``, ends of the part of the profile that counts [m].
 
     Examples
     --------

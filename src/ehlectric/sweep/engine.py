@@ -47,57 +47,26 @@ _TABLES_KEPT = 2000
 
 @dataclass(frozen=True)
 class Planned:
-    """Point of a sweep before it is solved.
+    """Point of a sweep before it is solved."""
 
-    Attributes
-    ----------
-    number : int
-        Number of the point in the order of the design, from 0.
-    inputs : mapping
-        Values of the varied keys, by dotted key of the case, in SI units.
-    key : str or None
-        Key of its case, from ``case_key``; None if these inputs make no valid case.
-    refused : str
-        Reason why the inputs make no valid case; empty if they do.
-    table : mapping or None
-        Tables of its case, for the first points only, which would fill the memory of a large sweep.
-    """
-
-    number: int
-    inputs: Mapping[str, Any]
-    key: str | None
-    refused: str = ""
+    number: int  # number of the point in the order of the design, from 0
+    inputs: Mapping[str, Any]  # values of the varied keys, by dotted key of the case, in SI units
+    key: str | None  # key of its case, from ``case_key``; None if these inputs make no valid case
+    refused: str = ""  # reason why the inputs make no valid case; empty if they do
+    # Tables of its case, for the first points only, which would fill the memory of a large sweep.
     table: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """Outcome of a point that was tried.
+    """Outcome of a point that was tried."""
 
-    Attributes
-    ----------
-    status : str
-        "solved", "not converged" or "failed".
-    reason : str
-        Reason why the point is not solved; empty if it is.
-    again : bool
-        Whether another try may succeed, as after a killed process.
-    summary : mapping or None
-        Nested tables, as in summary.json; None if the point failed.
-    seconds : float
-        Time taken by the solution [s].
-    version : str
-        Version of ehlectric that tried the point.
-    date : str
-        Date and time of the outcome, ISO 8601.
-    """
-
-    status: Status
-    reason: str = ""
-    again: bool = False
-    summary: Mapping[str, Any] | None = None
-    seconds: float = 0.0
-    version: str = __version__
+    status: Status  # "solved", "not converged" or "failed"
+    reason: str = ""  # reason why the point is not solved; empty if it is
+    again: bool = False  # whether another try may succeed, as after a killed process
+    summary: Mapping[str, Any] | None = None  # nested tables, as in summary.json; None if the point failed
+    seconds: float = 0.0  # time taken by the solution [s]
+    version: str = __version__  # version of ehlectric that tried the point
     date: str = ""
 
 
@@ -107,20 +76,7 @@ def case_key(case: SweptCase) -> str:
     The hash covers all inputs, with their defaults, and the contents of files, but not the title and the
     paths of files.
 
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        A valid case.
-
-    Returns
-    -------
-    str
-        SHA-256 hash, hexadecimal.
-
-    Raises
-    ------
-    InputError
-        If a file of the case cannot be read.
+    Returns SHA-256 hash, hexadecimal. Raises InputError if a file of the case cannot be read.
 
     Examples
     --------
@@ -168,18 +124,10 @@ _TEMPERATURES = ("drive.temperature", "bearing.temperature")
 
 @dataclass(frozen=True)
 class Lacking:
-    """Point of a sweep that cannot be computed.
-
-    Attributes
-    ----------
-    point : Planned
-        Point of the sweep.
-    reason : str
-        Key that it lacks, and why, as one line.
-    """
+    """Point of a sweep that cannot be computed."""
 
     point: Planned
-    reason: str
+    reason: str  # key that it lacks, and why, as one line
 
     def __str__(self) -> str:
         return f"point {self.point.number}, the slowest and hottest, cannot be computed: {self.reason}"
@@ -191,18 +139,8 @@ def lacking_point(sweep: Sweep, planned: Sequence[Planned]) -> Lacking | None:
     Its films are the thinnest, so that asperities may close them as at no other point. The bearings
     of the point are solved with films of the atlas or by formula, in about a second.
 
-    Parameters
-    ----------
-    sweep : Sweep
-        Sweep.
-    planned : sequence of Planned
-        Its points.
-
-    Returns
-    -------
-    Lacking or None
-        Point and reason; None where it can be computed, and for sweeps of contacts and bearings, whose
-        results do not need the resistance of closed contacts.
+    Returns point and reason; None where it can be computed, and for sweeps of contacts and bearings, whose
+    results do not need the resistance of closed contacts.
     """
     valid = [point for point in planned if point.key is not None]
     if not isinstance(sweep.case, DriveCase) or not valid:
@@ -237,17 +175,8 @@ Task = tuple[str, Mapping[str, Any]]
 
 
 def solve_point(table: Mapping[str, Any]) -> Outcome:
-    """Solve a case given as plain data, in any process.
-
-    Parameters
-    ----------
-    table : mapping
-        The case, from ``Case.to_dict``.
-
-    Returns
-    -------
-    Outcome
-        Outcome of the point. No exception is raised: an error becomes the reason of a failed point.
+    """Solve a case given as plain data, in any process. Returns outcome of the point; no exception is raised:
+    an error becomes the reason of a failed point.
     """
     started = time.perf_counter()
     status, reason, again, summary = _attempt(table)
@@ -313,22 +242,8 @@ _SOLVERS: Mapping[type, Callable[[Any], tuple[bool, dict[str, Any], str]]] = Map
 def run_points(
     tasks: Iterable[Task], crew: Crew, done: Callable[[Sequence[tuple[str, Outcome]]], None]
 ) -> None:
-    """Solve points with a crew, as many at a time as it can take.
-
-    Parameters
-    ----------
-    tasks : iterable of (str, mapping)
-        Key of each point and its case as plain data. An item is read only when its point is handed over.
-    crew : Crew
-        Processes or machines that solve the points.
-    done : callable
-        Called in this thread with a sequence of the keys and outcomes of finished points. While no point
-        finishes, it is called about every second with an empty sequence.
-
-    Raises
-    ------
-    LostError
-        If the crew cannot be reached any more. All finished points have been passed to ``done`` before.
+    """Solve points with a crew, as many at a time as it can take. Raises LostError if the crew cannot be
+    reached any more.
     """
     with closing(finished_tasks(tasks, crew, solve_point, _lost, _ran_out)) as batches:
         for outcomes in batches:
@@ -363,23 +278,8 @@ def cluster(address: str) -> Iterator[Crew]:
 
     Workers that join the cluster later are used too.
 
-    Parameters
-    ----------
-    address : str
-        Address of the scheduler, such as "tcp://10.0.0.1:8786".
+    Raises InputError if no scheduler answers at the address, or dask.distributed is not installed.
 
-    Yields
-    ------
-    Crew
-        The workers of the cluster.
-
-    Raises
-    ------
-    InputError
-        If no scheduler answers at the address, or dask.distributed is not installed.
-
-    Notes
-    -----
     Log messages of Dask in this process are switched off: an error of one line reports a lost scheduler.
     """
     try:

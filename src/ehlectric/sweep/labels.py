@@ -21,21 +21,11 @@ from ehlectric.quantities.quantity import Keys, key_of
 
 @dataclass(frozen=True)
 class Label:
-    """Name, symbol and unit of a key for tables and figures.
+    """Name, symbol and unit of a key for tables and figures."""
 
-    Attributes
-    ----------
-    name : str
-        Name, such as "load per length"; the dotted key itself if it has no name.
-    symbol : str
-        Symbol, such as "$w$"; may be empty.
-    unit : str
-        SI unit in the notation of pint; empty for dimensionless values, or if the unit is not known.
-    """
-
-    name: str
-    symbol: str
-    unit: str
+    name: str  # name, such as "load per length"; the dotted key itself if it has no name
+    symbol: str  # symbol, such as "$w$"; may be empty
+    unit: str  # SI unit in the notation of pint; empty for dimensionless values, or if the unit is not known
 
     def scaled(self, values: Array) -> Scale:
         """Prefixed unit that suits the largest of some SI values; values that are not finite are ignored."""
@@ -48,22 +38,7 @@ class Label:
 
 
 def label_of(key: str, case: SweptCase) -> Label:
-    """Name, symbol and unit of a varied key or of a value of the summary.
-
-    Parameters
-    ----------
-    key : str
-        Dotted key of the case or of the summary. A key of the case may have the prefix "inputs.", as in the
-        summary.
-    case : Case, BearingCase or DriveCase
-        Case of a line or point contact, with or without motion, of a bearing or of a drive.
-
-    Returns
-    -------
-    Label
-        Label of the key. A key that is neither an input nor a documented result has itself as name, and no
-        unit.
-    """
+    """Name, symbol and unit of a varied key or of a value of the summary."""
     own = _counted_from_one(key.removeprefix("inputs.")) if key.startswith("inputs.") else key
     result, entry = key_of(result_keys(case), key), input_of(own)
     # A number of the case that is in the summary, too, is the input.
@@ -83,17 +58,8 @@ def _counted_from_one(key: str) -> str:
 
 
 def result_keys(case: SweptCase) -> Keys:
-    """Documented keys of the summary of a case.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Case of a contact, of a bearing or of a drive.
-
-    Returns
-    -------
-    mapping of str to Quantity
-        Keys of a line or point contact, stationary or transient, of a bearing or of a drive.
+    """Documented keys of the summary of a case. Returns keys of a line or point contact, stationary or
+    transient, of a bearing or of a drive.
     """
     if isinstance(case, BearingCase):
         return BEARING_KEYS

@@ -22,49 +22,25 @@ Spacing = Literal["linear", "log"]
 
 @dataclass(frozen=True)
 class Range:
-    """Range of an input between two values.
+    """Range of an input between two values."""
 
-    Attributes
-    ----------
-    start, stop : float
-        Ends of the range, in SI units.
-    spacing : str
-        "linear" if values are spaced evenly, or "log" if their logarithms are.
-    """
-
+    # start and stop: ends of the range, in SI units.
     start: float
     stop: float
-    spacing: Spacing = "linear"
+    spacing: Spacing = "linear"  # "linear" if values are spaced evenly, or "log" if their logarithms are
 
 
 @dataclass(frozen=True)
 class Point:
-    """One point of a sweep.
-
-    Attributes
-    ----------
-    number : int
-        Number of the point in the order of the design, from 0.
-    inputs : mapping
-        Values of the varied keys, by dotted key of the case, in SI units.
-    status : str
-        "solved", "not converged", "failed" or "open".
-    reason : str
-        Reason why the point is not solved; empty if it is solved or open.
-    summary : mapping or None
-        Nested tables, as in summary.json; None if the point failed or is open.
-    seconds : float
-        Time taken by the solution [s].
-    version : str
-        Version of ehlectric that solved the point.
-    """
+    """One point of a sweep."""
 
     number: int
-    inputs: Mapping[str, Any]
-    status: Status
-    reason: str = ""
+    inputs: Mapping[str, Any]  # values of the varied keys, by dotted key of the case, in SI units
+    status: Status  # "solved", "not converged", "failed" or "open"
+    reason: str = ""  # reason why the point is not solved; empty if it is solved or open
+    # Nested tables, as in summary.json; None if the point failed or is open.
     summary: Mapping[str, Any] | None = None
-    seconds: float = 0.0
+    seconds: float = 0.0  # time taken by the solution [s]
     version: str = ""
 
     @property

@@ -50,21 +50,11 @@ _OWN = {
 def columns_of(results: SweepPoints) -> dict[str, list[Any]]:
     """Columns of the table of a sweep, with one row for each point.
 
-    Parameters
-    ----------
-    results : SweepPoints
-        A sweep, finished or not.
-
-    Returns
-    -------
-    dict
-        Columns by name. First are number, status, reason, warnings, warning_codes and seconds; several
-        warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, in SI
-        units.
-
-        A result is None if the point is not solved, or its summary has no such value. An input that
-        the summary repeats has a column only if it differs between points. A value of the summary with the
-        key of a varied input, such as a film factor, has no column of its own.
+    Returns columns by name; first are number, status, reason, warnings, warning_codes and seconds; several
+    warnings of a point are joined by "; ". The varied inputs and the results follow by dotted key, in SI
+    units. A result is None if the point is not solved, or its summary has no such value. An input that the
+    summary repeats has a column only if it differs between points. A value of the summary with the key of a
+    varied input, such as a film factor, has no column of its own.
     """
     points = results.points
     columns: dict[str, list[Any]] = {
@@ -109,20 +99,8 @@ def _numbers(summary: Mapping[str, Any]) -> dict[str, float]:
 
 
 def dataset_of(results: SweepPoints) -> xr.Dataset:
-    """Convert a sweep to a dataset in SI units.
-
-    Parameters
-    ----------
-    results : SweepPoints
-        A sweep, finished or not.
-
-    Returns
-    -------
-    xarray.Dataset
-        Dataset over the varied keys for a "grid" design, else over ``point``. Numbers of the summaries have
-        their dotted key as name, and are NaN where a point is not solved. ``status``, ``reason``,
-        ``warnings`` and ``warning_codes`` are texts; so are the lubrication and the first contact to break of
-        a bearing.
+    """Convert a sweep to a dataset in SI units. Returns dataset over the varied keys for a "grid" design,
+    else over ``point``.
     """
     import xarray as xr
 
@@ -190,15 +168,7 @@ def _attributes(key: str, results: SweepPoints) -> dict[str, str]:
 
 
 def unit_of_column(results: SweepPoints, key: str) -> str | None:
-    """SI unit of a column of numbers, empty for a dimensionless one; None for texts and for point numbers.
-
-    Parameters
-    ----------
-    results : SweepPoints
-        A sweep, finished or not.
-    key : str
-        Name of a column of ``columns_of``.
-    """
+    """SI unit of a column of numbers, empty for a dimensionless one; None for texts and for point numbers."""
     if key in _OWN:
         return "s" if key == "seconds" else None
     if key in _TEXTS or (key in results.varied and kind_of(key) is None):
@@ -338,24 +308,9 @@ FILES = (CSV, PARQUET, NETCDF)
 
 
 def write_tables(results: SweepResults, folder: str | Path) -> list[Path]:
-    """Write sweep.csv, sweep.nc and, if pyarrow is installed, sweep.parquet, all of them or none.
-
-    Parameters
-    ----------
-    results : SweepResults
-        A sweep, finished or not.
-    folder : str or Path
-        Output folder; created if it does not exist.
-
-    Returns
-    -------
-    list of Path
-        Files written.
-
-    Raises
-    ------
-    InputError
-        If the folder cannot be written to, its disk is full, or another command writes into it.
+    """Write sweep.csv, sweep.nc and, if pyarrow is installed, sweep.parquet, all of them or none. ``folder``,
+    output folder; created if it does not exist. Returns files written. Raises InputError if the folder cannot
+    be written to, its disk is full, or another command writes into it.
     """
     columns = columns_of(results)
     rows = zip(*(map(_cell, column) for column in columns.values()), strict=True)

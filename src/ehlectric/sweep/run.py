@@ -96,34 +96,10 @@ def run(
 ) -> RunOutcome[SweepResults]:
     """Solve a sweep, except the points that its folder already has, and write its tables.
 
-    Parameters
-    ----------
-    sweep : Sweep
-        Sweep to solve.
-    folder : str or Path
-        Folder of sweep.sqlite and of the tables; it is made if it does not exist.
-    progress : callable, optional
-        Called with the number of solved points, the number of all points, and a message.
-    solvers : context manager of Crew, optional
-        Crew that solves the points. It is entered when the sweep is known to have valid cases. By default,
-        as many processes as there are cores.
-    others : sequence of str, optional
-        Names of other files in the folder that belong to an earlier result, such as figures. They are removed
-        before the points are solved.
-
-    Returns
-    -------
-    RunOutcome
-        Its summary is the number of points of each status, and the verdict as text where points have a
-        margin. It has a ``failure`` where no point is solved.
-
-    Raises
-    ------
-    InputError
-        Where no point is a valid case, the folder cannot be used, or another command writes into it.
-    LostError
-        Where the crew no longer works. The points solved so far are saved, and the same call solves the
-        others.
+    ``folder``, folder of sweep.sqlite and of the tables; it is made if it does not exist. Returns its summary
+    is the number of points of each status, and the verdict as text where points have a margin; it has a
+    ``failure`` where no point is solved. Raises InputError where no point is a valid case, the folder cannot
+    be used, or another command writes into it; LostError where the crew no longer works.
     """
     load_library()
     planned = planned_points(sweep)
@@ -149,13 +125,7 @@ def run(
 
 
 def planned_points(sweep: Sweep) -> list[Planned]:
-    """Points of a sweep with the keys of their cases.
-
-    Raises
-    ------
-    InputError
-        Where no point is a valid case.
-    """
+    """Points of a sweep with the keys of their cases. Raises InputError where no point is a valid case."""
     planned = list(plan(sweep))
     if all(point.key is None for point in planned):
         raise InputError("vary", f"no point is a case; of the first, {planned[0].refused}")

@@ -27,23 +27,15 @@ _CONSTANT = 1e-9
 
 @dataclass(frozen=True)
 class Spread:
-    """Distribution of a value if every input is drawn from its range.
+    """Distribution of a value if every input is drawn from its range."""
 
-    Attributes
-    ----------
-    samples : int
-        Number of samples, the solved points of A and B.
-    mean, standard_deviation, minimum, maximum : float
-        Moments and extremes of the samples, in SI units.
-    quantiles : mapping
-        Quantiles by probability, in SI units, interpolated linearly between the samples.
-    """
-
-    samples: int
+    samples: int  # number of samples, the solved points of A and B
+    # mean, standard_deviation, minimum and maximum: moments and extremes of the samples, in SI units.
     mean: float
     standard_deviation: float
     minimum: float
     maximum: float
+    # Quantiles by probability, in SI units, interpolated linearly between the samples.
     quantiles: Mapping[float, float]
 
 
@@ -52,60 +44,35 @@ class Index:
     """Sensitivity indices of one input.
 
     Estimates may lie slightly outside the range from 0 to 1.
-
-    Attributes
-    ----------
-    key : str
-        Dotted key of the input.
-    first_order : float
-        Part of the variance that would disappear if this input were known exactly.
-    total : float
-        Part of the variance that would remain if all other inputs were known exactly.
-    first_order_interval, total_interval : (float, float)
-        Bootstrap confidence intervals of the two indices.
     """
 
     key: str
-    first_order: float
+    first_order: float  # part of the variance that would disappear if this input were known exactly
+    # first_order_interval and total_interval: bootstrap confidence intervals of the two indices.
     first_order_interval: tuple[float, float]
-    total: float
+    total: float  # part of the variance that would remain if all other inputs were known exactly
     total_interval: tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Spread of a value, and the sensitivity indices of all varied inputs.
+    """Spread of a value, and the sensitivity indices of all varied inputs."""
 
-    Attributes
-    ----------
-    value : str
-        Dotted key of the summary.
-    points, solved : int
-        Number of points of the design, and number of solved points.
-    rows, used : int
-        Number of rows of the design, and number of complete rows, from which the indices are computed.
-    doubtful : int
-        Number of complete rows in which the film of at least one point must not be used (severe warning).
-    spread : Spread
-        Distribution of the value.
-    indices : tuple of Index
-        Indices of the inputs, in the order of the varied keys.
-    share_below_voltage : float or None
-        Part of the samples whose breakdown voltage is below the applied voltage; None if the value is not a
-        breakdown voltage or a margin.
-    resamples, seed : int
-        Number of bootstrap samples, and seed of their random numbers.
-    """
-
-    value: str
+    value: str  # dotted key of the summary
     points: int
     solved: int
+    # rows and used: number of rows of the design, and number of complete rows, from which the indices are
+    # computed.
     rows: int
     used: int
+    # Number of complete rows in which the film of at least one point must not be used (severe warning).
     doubtful: int
     spread: Spread
-    indices: tuple[Index, ...]
+    indices: tuple[Index, ...]  # indices of the inputs, in the order of the varied keys
+    # Part of the samples whose breakdown voltage is below the applied voltage; None if the value is not a
+    # breakdown voltage or a margin.
     share_below_voltage: float | None
+    # resamples and seed: number of bootstrap samples, and seed of their random numbers.
     resamples: int
     seed: int
 
@@ -148,34 +115,9 @@ class Sensitivity:
 
 
 def sensitivity(results: SweepResults, value: str, *, resamples: int = 1000, seed: int = 0) -> Sensitivity:
-    """Spread and variance-based sensitivity indices of a value over a Sobol design.
+    """Spread and variance-based sensitivity indices of a value over a Sobol design. Raises InputError if the
+    design is not "sobol", the value is in no summary or constant, or fewer than 16 rows are complete.
 
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep of the design "sobol".
-    value : str
-        Dotted key of the summary.
-    resamples : int
-        Number of bootstrap samples.
-    seed : int
-        Seed of the random numbers of the bootstrap.
-
-    Returns
-    -------
-    Sensitivity
-        Spread and indices. A row of the design consists of a point of A, the point of B, and the point of A
-        with each column of B. The indices are computed from complete rows, of which all points are solved;
-        the spread is computed from all solved points of A and B.
-
-    Raises
-    ------
-    InputError
-        If the design is not "sobol", the value is in no summary or constant, or fewer than 16 rows are
-        complete.
-
-    Notes
-    -----
     Let m and V be the mean and variance of the value y over A and B. The first-order index of input i is
     mean((y_B - m)(y_ABi - y_A))/V (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, Table 2 (b)). The
     total index is mean((y_A - y_ABi)^2)/(2 V) (Jansen 1999, doi:10.1016/S0010-4655(98)00154-4).
@@ -259,19 +201,10 @@ def spread_of(samples: Array) -> Spread:
 
 
 def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
-    """First-order and total sensitivity indices of all inputs.
-
-    Parameters
-    ----------
-    a, b : ndarray, shape (n,)
-        Values at the rows of A and of B.
-    mixed : ndarray, shape (inputs, n)
-        Values at the rows of A with one column replaced by that of B, for each input.
-
-    Returns
-    -------
-    first, total : ndarray, shape (inputs,)
-        Indices of the inputs; NaN where the value does not vary.
+    """First-order and total sensitivity indices of all inputs. ``a`` and ``b``, values at the rows of A and
+    of B, shape (n,); ``mixed``, values at the rows of A with one column replaced by that of B, for each
+    input, shape (inputs, n). Returns indices of the inputs; NaN where the value does not vary,
+    shape (inputs,).
 
     Examples
     --------
@@ -290,21 +223,9 @@ def indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
 def intervals(a: Array, b: Array, mixed: Array, *, resamples: int, seed: int) -> tuple[Array, Array]:
     """Bootstrap confidence intervals of the sensitivity indices, at the level of 95 %.
 
-    Parameters
-    ----------
-    a, b : ndarray, shape (n,)
-        Values at the rows of A and of B.
-    mixed : ndarray, shape (inputs, n)
-        Values at the rows of A with one column replaced by that of B, for each input.
-    resamples : int
-        Number of bootstrap samples, each of n rows drawn with replacement.
-    seed : int
-        Seed of the random numbers.
-
-    Returns
-    -------
-    low, high : ndarray, shape (2, inputs)
-        Lower and upper ends of the intervals: row 0 of the first-order indices, row 1 of the total indices.
+    ``a`` and ``b``, values at the rows of A and of B, shape (n,); ``mixed``, values at the rows of A with one
+    column replaced by that of B, for each input, shape (inputs, n). Returns lower and upper ends of the
+    intervals: row 0 of the first-order indices, row 1 of the total indices, shape (2, inputs).
     """
     columns = _columns(a, b, mixed)
     generator = np.random.default_rng(seed)

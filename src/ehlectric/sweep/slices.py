@@ -42,41 +42,25 @@ class Surface:
 
     The points are the corners of cells: rectangles of a full grid, or triangles. Each cell is divided into
     triangles of the mesh.
-
-    Attributes
-    ----------
-    x, y : ndarray, shape (nodes,)
-        Positions of the nodes, in SI units.
-    triangles : ndarray, shape (triangles, 3)
-        Numbers of the nodes of each triangle.
-    weights : sparse array, shape (nodes, points)
-        Weight of each point of the slice at each node; the weights of a node add up to one.
-    corners : ndarray, shape (triangles, 3 or 4)
-        Numbers of the points at the corners of the cell that a triangle is part of.
     """
 
+    # x and y: positions of the nodes, in SI units, shape (nodes,).
     x: Array
     y: Array
-    triangles: IntArray
+    triangles: IntArray  # numbers of the nodes of each triangle, shape (triangles, 3)
+    # Weight of each point of the slice at each node; the weights of a node add up to one,
+    # shape (nodes, points).
     weights: csr_array
+    # Numbers of the points at the corners of the cell that a triangle is part of, shape (triangles, 3 or 4).
     corners: IntArray
 
     def at_nodes(self, values: Array, *, log: bool = False) -> tuple[Array, Mask]:
         """Interpolate values from the points to the nodes.
 
-        Parameters
-        ----------
-        values : ndarray, shape (points,)
-            Values at the points, NaN where a point has none; positive if ``log``.
-        log : bool
-            Whether the logarithm of the values is linear between the points, instead of the values.
-
-        Returns
-        -------
-        values : ndarray, shape (nodes,)
-            Values at the nodes, finite everywhere, but meaningless outside the triangles of ``whole``.
-        whole : ndarray of bool, shape (triangles,)
-            Mask of the triangles whose cell has a value at all of its corners.
+        ``values``, values at the points, NaN where a point has none; positive if ``log``, shape (points,).
+        Returns ``values``, values at the nodes, finite everywhere, but meaningless outside the triangles of
+        ``whole``, shape (nodes,); ``whole``, mask of the triangles whose cell has a value at all of its
+        corners, shape (triangles,).
         """
         known = np.isfinite(values)
         there = np.where(known, values, values[known][0] if np.any(known) else 1.0)
@@ -88,16 +72,8 @@ class Surface:
 
     def alone(self, values: Array) -> Mask:
         """Mask of the points that have a value, but belong to no cell with a value at all of its corners.
-
-        Parameters
-        ----------
-        values : ndarray, shape (points,)
-            Values at the points, NaN where a point has none.
-
-        Returns
-        -------
-        ndarray of bool, shape (points,)
-            The mask.
+        ``values``, values at the points, NaN where a point has none, shape (points,). Returns the mask,
+        shape (points,).
         """
         left = np.isfinite(values)
         left[self.corners[self._whole(left)]] = False
@@ -109,21 +85,9 @@ class Surface:
 
 
 def surface_of(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | None:
-    """Mesh that interpolates between the points of a slice over two varied keys.
-
-    Parameters
-    ----------
-    selection : Slice
-        Slice over ``x`` and ``y``; the values of both are numbers.
-    log_x, log_y : bool
-        Whether the horizontal and the vertical axis are logarithmic.
-
-    Returns
-    -------
-    Surface or None
-        Bilinear interpolation if the points are a full grid of any spacing, else linear interpolation in a
-        Delaunay triangulation of the points. None if the points lie on a line, or differ in further varied
-        keys.
+    """Mesh that interpolates between the points of a slice over two varied keys. Returns bilinear
+    interpolation if the points are a full grid of any spacing, else linear interpolation in a Delaunay
+    triangulation of the points; None if the points lie on a line, or differ in further varied keys.
     """
     if selection.free:
         return None
@@ -165,21 +129,9 @@ def _weights(shares: Array, corners: IntArray, points: int) -> csr_array:
 def curve_of(x: Array, values: Array, *, log_x: bool, log: bool) -> tuple[Array, Array]:
     """Interpolate values over increasing x, at the points and at nodes between them.
 
-    Parameters
-    ----------
-    x : ndarray, shape (points,)
-        Increasing positions of at least two points; positive if ``log_x``.
-    values : ndarray, shape (points,)
-        Values at the points, NaN where a point has none; positive where ``log``.
-    log_x : bool
-        Whether the nodes are evenly spaced in the logarithm of x.
-    log : bool
-        Whether the logarithm of the values is linear between the points.
-
-    Returns
-    -------
-    x, values : ndarray, shape (nodes,)
-        Nodes and the values there; NaN between two points of which at least one has no value.
+    ``x``, increasing positions of at least two points; positive if ``log_x``, shape (points,); ``values``,
+    values at the points, NaN where a point has none; positive where ``log``, shape (points,). Returns nodes
+    and the values there; NaN between two points of which at least one has no value, shape (nodes,).
 
     Examples
     --------
@@ -203,20 +155,8 @@ def applied_at(results: SweepResults, selection: Slice, along: Array, across: An
     The applied voltage is an absolute difference of two potentials. It must not be interpolated linearly if
     the potentials cross.
 
-    Parameters
-    ----------
-    results : SweepResults
-        The sweep; its base case has the potentials that do not vary.
-    selection : Slice
-        Slice of the sweep, with its fixed values.
-    along, across : ndarray or float
-        Values of ``selection.x`` and ``selection.y``, in SI units.
-
-    Returns
-    -------
-    ndarray or None
-        Applied voltage [V], at least the 1e-6 V that a case allows. None if neither key is a potential, or
-        the sweep is one of bearings or drives; the voltage is then interpolated between the points.
+    Returns applied voltage [V], at least the 1e-6 V that a case allows; None if neither key is a potential,
+    or the sweep is one of bearings or drives; the voltage is then interpolated between the points.
     """
     if not isinstance(results.case, Case) or not {selection.x, selection.y} & set(_POTENTIALS):
         return None
@@ -272,23 +212,8 @@ def _between_points(selection: Slice, *, log_x: bool, log_y: bool) -> Surface | 
 
 
 def spaced_log(results: SweepResults, key: str, values: Array) -> bool:
-    """Whether a varied key is drawn on a logarithmic axis.
-
-    Parameters
-    ----------
-    results : SweepResults
-        The sweep.
-    key : str
-        Varied key.
-    values : ndarray
-        Values of the key at the points, in SI units.
-
-    Returns
-    -------
-    bool
-        In a "sobol" design, True if the range of the key has logarithmic spacing. In other designs, True if
-        the logarithms of the values are more evenly spaced than the values. False for temperatures, which
-        figures show in °C.
+    """Whether a varied key is drawn on a logarithmic axis. Returns in a "sobol" design, True if the range of
+    the key has logarithmic spacing.
     """
     if unit_of(key) == "K":
         return False
@@ -320,48 +245,21 @@ _LONGEST_WHOLE = 300
 
 @dataclass(frozen=True)
 class Slice:
-    """Slice of a sweep: the points with fixed values of all but one or two varied keys.
+    """Slice of a sweep: the points with fixed values of all but one or two varied keys."""
 
-    Attributes
-    ----------
-    x : str
-        Varied key along the horizontal axis.
-    y : str or None
-        Second varied key, if any.
-    value : str
-        Dotted key of the summary whose values are drawn.
-    breakdown : Breakdown
-        Keys of the breakdown voltage and the applied voltage that belong to ``value``.
-    at : mapping
-        Fixed values of further varied keys, in SI units.
-    free : tuple of str
-        Further varied keys that are not fixed; none in a "grid" design, where all must be fixed.
-    points : tuple of Point
-        Points of the slice, in the order of the design.
-    along : ndarray, shape (points,)
-        Values of ``x``, in SI units.
-    across : tuple
-        Value of ``y`` at each point, SI numbers or texts; empty if ``y`` is None.
-    values : ndarray, shape (points,)
-        Drawn values, in SI units; NaN where a point is not solved, or doubtful.
-    voltage : ndarray, shape (points,)
-        Applied voltage [V]; NaN where a point is not solved, or doubtful.
-    margin : ndarray, shape (points,)
-        Breakdown voltage divided by applied voltage; NaN where a point has none.
-    """
-
-    x: str
-    y: str | None
-    value: str
-    breakdown: Breakdown
-    at: Mapping[str, Any]
+    x: str  # varied key along the horizontal axis
+    y: str | None  # second varied key, if any
+    value: str  # dotted key of the summary whose values are drawn
+    breakdown: Breakdown  # keys of the breakdown voltage and the applied voltage that belong to ``value``
+    at: Mapping[str, Any]  # fixed values of further varied keys, in SI units
+    # Further varied keys that are not fixed; none in a "grid" design, where all must be fixed.
     free: tuple[str, ...]
     points: tuple[Point, ...]
-    along: Array
-    across: tuple[Any, ...]
-    values: Array
-    voltage: Array
-    margin: Array
+    along: Array  # values of ``x``, in SI units, shape (points,)
+    across: tuple[Any, ...]  # value of ``y`` at each point, SI numbers or texts; empty if ``y`` is None
+    values: Array  # drawn values, in SI units; NaN where a point is not solved, or doubtful, shape (points,)
+    voltage: Array  # applied voltage [V]; NaN where a point is not solved, or doubtful, shape (points,)
+    margin: Array  # breakdown voltage divided by applied voltage; NaN where a point has none, shape (points,)
 
     def of(self, status: Status) -> Mask:
         """Mask of the points that have a status, shape (points,)."""
@@ -389,12 +287,8 @@ class Slice:
         return self.y is not None and all(map(is_number, self.across))
 
     def check_numeric(self) -> None:
-        """Check that the values of the second key are numbers, as a map needs.
-
-        Raises
-        ------
-        InputError
-            If they are texts or lists.
+        """Check that the values of the second key are numbers, as a map needs. Raises InputError if they are
+        texts or lists.
         """
         if not self.numeric:
             raise InputError.worded(
@@ -405,13 +299,9 @@ class Slice:
             )
 
     def grid(self) -> tuple[Array, Array, IntArray] | None:
-        """Arrange the points as a full grid of ``x`` and ``y``.
-
-        Returns
-        -------
-        tuple or None
-            Increasing values of ``x``, shape (nx,), and of ``y``, shape (ny,). The third item is the index in
-            ``points`` for each pair, shape (nx, ny). None if a pair has no point, or two points.
+        """Arrange the points as a full grid of ``x`` and ``y``. Returns increasing values of ``x``,
+        shape (nx,), and of ``y``, shape (ny,); the third item is the index in ``points`` for each pair,
+        shape (nx, ny). None if a pair has no point, or two points.
         """
         xs, i = np.unique(self.along, return_inverse=True)
         ys, j = np.unique(np.array(self.across, dtype=float), return_inverse=True)
@@ -422,14 +312,9 @@ class Slice:
         return xs, ys, numbers
 
     def series(self) -> list[tuple[Any, IntArray]]:
-        """Group the points by their value of ``y``.
-
-        Returns
-        -------
-        list of (value, numbers)
-            Each value of ``y``, with the indices in ``points`` of its points by increasing ``x``. Numbers are
-            sorted; texts are in the order of the design. If ``y`` is None, there is a single group, of value
-            None.
+        """Group the points by their value of ``y``. Returns each value of ``y``, with the indices in
+        ``points`` of its points by increasing ``x``; numbers are sorted; texts are in the order of the
+        design. If ``y`` is None, there is a single group, of value None.
         """
         values: list[Any] = list(dict.fromkeys(self.across)) if self.across else [None]
         values = sorted(values) if self.numeric else values
@@ -444,32 +329,9 @@ class Slice:
 def take(
     results: SweepResults, x: str, y: str | None, value: str, at: Mapping[str, str] | None = None
 ) -> Slice:
-    """Take a slice of a sweep over one or two varied keys.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep.
-    x : str
-        Varied key along the horizontal axis; its values must be numbers.
-    y : str or None
-        Second varied key, if any.
-    value : str
-        Dotted key of the summary whose values are drawn.
-    at : mapping, optional
-        Fixed values of further varied keys, as text: a number in SI units, a number with a unit, or a text of
-        the sweep. For numbers the nearest value of the sweep is chosen.
-
-    Returns
-    -------
-    Slice
-        Points of the slice, in the order of the design. Varied keys with a single value are fixed too.
-
-    Raises
-    ------
-    InputError
-        If a key does not vary, or the values of ``x`` are not numbers. Also if no usable point of the slice
-        has the value, or a grid design has further varied keys without a fixed value.
+    """Take a slice of a sweep over one or two varied keys. ``y``, second varied key, if any. Returns points
+    of the slice, in the order of the design; varied keys with a single value are fixed too. Raises InputError
+    if a key does not vary, or the values of ``x`` are not numbers.
     """
     for name, key in (("x", x), ("y", y)):
         if key is not None and key not in results.varied:
@@ -548,24 +410,9 @@ def known_values(results: SweepResults) -> list[str]:
 
 
 def numbers_of(results: SweepResults, value: str) -> Array:
-    """Value of a key of the summary at every point of a sweep.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep.
-    value : str
-        Dotted key of the summary.
-
-    Returns
-    -------
-    ndarray, shape (points,)
-        Values in SI units; NaN where a point has none.
-
-    Raises
-    ------
-    InputError
-        If no point is solved, or no solved point has a number at this key.
+    """Value of a key of the summary at every point of a sweep. Returns values in SI units; NaN where a point
+    has none, shape (points,). Raises InputError if no point is solved, or no solved point has a number at
+    this key.
     """
     if not any(point.solved for point in results.points):
         raise InputError(f"no point of {len(results.points)} is solved, there is nothing to show")

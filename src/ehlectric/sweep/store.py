@@ -54,14 +54,9 @@ _COLUMNS_OF_POINTS = "number, inputs, refused, status, reason, seconds, version,
 
 
 def check_tables(file: sqlite3.Connection) -> None:
-    """Check the structure of a database and its tables, in an open transaction.
-
-    Raises
-    ------
-    UnfitError
-        Where pages or indices of the file are damaged, or a table is missing or is no table of a sweep.
-    sqlite3.Error
-        Where the file cannot be read.
+    """Check the structure of a database and its tables, in an open transaction. Raises UnfitError where pages
+    or indices of the file are damaged, or a table is missing or is no table of a sweep; sqlite3.Error where
+    the file cannot be read.
     """
     entries = file.execute("SELECT type, name FROM sqlite_master").fetchall()
     if any(kind in ("view", "trigger") for kind, _ in entries):
@@ -90,12 +85,8 @@ def seal_of_row(row: Sequence[Any]) -> int:
 
 
 def check_seals(file: sqlite3.Connection) -> None:
-    """Check that outcomes are those that were written; those of earlier versions have no checksum.
-
-    Raises
-    ------
-    UnfitError
-        Where an outcome has changed.
+    """Check that outcomes are those that were written; those of earlier versions have no checksum. Raises
+    UnfitError where an outcome has changed.
     """
     if not file.execute("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", (SEALS,)).fetchone():
         return
@@ -106,12 +97,8 @@ def check_seals(file: sqlite3.Connection) -> None:
 
 
 def check_results(file: sqlite3.Connection) -> None:
-    """Check all stored outcomes, also those of other sweeps in the same folder.
-
-    Raises
-    ------
-    UnfitError
-        Where an outcome is not as it was written.
+    """Check all stored outcomes, also those of other sweeps in the same folder. Raises UnfitError where an
+    outcome is not as it was written.
     """
     rows = file.execute("SELECT key, again, date, status, reason, seconds, version, summary FROM results")
     for key, again, date, status, reason, seconds, version, summary in rows:
@@ -123,14 +110,8 @@ def check_results(file: sqlite3.Connection) -> None:
 
 
 def results_of(file: sqlite3.Connection) -> SweepResults:
-    """Results of a sweep from its tables, in an open transaction.
-
-    Raises
-    ------
-    UnfitError
-        Where a setting or a point is not as it was written.
-    sqlite3.Error
-        Where the file cannot be read.
+    """Results of a sweep from its tables, in an open transaction. Raises UnfitError where a setting or a
+    point is not as it was written; sqlite3.Error where the file cannot be read.
     """
     settings = _settings(file.execute("SELECT name, value FROM sweep").fetchall())
     rows = file.execute(
@@ -377,15 +358,8 @@ class Store:
     crash of the machine, and a reader needs no second file. (A write-ahead log would be faster, but does not
     work on network file systems.)
 
-    Parameters
-    ----------
-    folder : Path
-        Folder of the sweep.
-
-    Raises
-    ------
-    InputError
-        By every method, if the file cannot be used, is not a sweep, or is written by another process.
+    Raises InputError by every method, if the file cannot be used, is not a sweep, or is written by another
+    process.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -518,17 +492,8 @@ def read_sweep(folder: str | Path) -> SweepResults:
 
 
 def saved_points(folder: str | Path) -> tuple[int, int]:
-    """Number of points of a sweep that have been tried and saved, and number of all its points.
-
-    Parameters
-    ----------
-    folder : str or Path
-        Folder of the sweep. Only its file sweep.sqlite is read.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be used, or is not a sweep.
+    """Number of points of a sweep that have been tried and saved, and number of all its points. Raises
+    InputError if the file cannot be used, or is not a sweep.
     """
     with _reading(Path(folder) / NAME) as file:
         saved, points = file.execute(

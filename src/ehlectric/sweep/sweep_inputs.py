@@ -46,22 +46,8 @@ _NOT_VARIED = ("title", "ranges")
 
 
 def check_varied(key: str, case: SweptCase, varied: Collection[str] = ()) -> None:
-    """Check that a key is one of a case, and that varying it changes the case.
-
-    Parameters
-    ----------
-    key : str
-        Dotted key.
-    case : Case, BearingCase or DriveCase
-        Base case of a sweep.
-    varied : collection of str
-        All keys that the sweep varies.
-
-    Raises
-    ------
-    InputError
-        If the case has no such key; the message names the nearest one. Of a drive also if another key of the
-        drive stands in its place.
+    """Check that a key is one of a case, and that varying it changes the case. Raises InputError if the case
+    has no such key; the message names the nearest one.
     """
     if isinstance(case, DriveCase):
         _check_drive(key, case, varied)
@@ -108,24 +94,11 @@ class Breakdown:
     """Keys and names of a breakdown voltage, the applied voltage and the margin between them.
 
     All keys are empty for a drive: its films are charged and discharged, and no single voltage is applied.
-
-    Attributes
-    ----------
-    value : str
-        Dotted key of the breakdown voltage in the summary.
-    margin : str
-        Dotted key of the margin, breakdown voltage divided by applied voltage.
-    voltage : str
-        Dotted key of the applied voltage.
-    name : str
-        Name of the breakdown voltage in figures.
-    voltage_name : str
-        Name of the applied voltage in figures.
     """
 
-    value: str
-    margin: str
-    voltage: str
+    value: str  # dotted key of the breakdown voltage in the summary
+    margin: str  # dotted key of the margin, breakdown voltage divided by applied voltage
+    voltage: str  # dotted key of the applied voltage
     name: str = "breakdown voltage"
     voltage_name: str = "applied voltage"
 
@@ -139,18 +112,9 @@ class Breakdown:
         return results.values(self.voltage) if self.voltage else np.full(len(results.points), np.nan)
 
     def margins(self, results: SweepResults) -> Array:
-        """Breakdown voltage divided by applied voltage of every point of a sweep.
-
-        Parameters
-        ----------
-        results : SweepResults
-            Results of a sweep.
-
-        Returns
-        -------
-        ndarray, shape (points,)
-            Margin of each point, from its summary or, where that has none, from the two voltages; NaN where a
-            point has no breakdown voltage.
+        """Breakdown voltage divided by applied voltage of every point of a sweep. Returns margin of each
+        point, from its summary or, where that has none, from the two voltages; NaN where a point has no
+        breakdown voltage, shape (points,).
         """
         if not self.margin:
             return np.full(len(results.points), np.nan)
@@ -186,33 +150,15 @@ _NONE = Breakdown("", "", "")
 
 
 def main_value(case: SweptCase) -> str:
-    """Key of the summary that figures of a sweep show first.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Base case of the sweep.
-
-    Returns
-    -------
-    str
-        Breakdown voltage of a contact, first breakdown of a bearing, or discharges per second of a drive.
+    """Key of the summary that figures of a sweep show first. Returns breakdown voltage of a contact, first
+    breakdown of a bearing, or discharges per second of a drive.
     """
     return breakdown_of(case).value or "drive.events_per_second"
 
 
 def ranked_value(case: SweptCase) -> str:
-    """Key of the summary to whose spread the inputs of a Sobol design are ranked.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Base case of the sweep.
-
-    Returns
-    -------
-    str
-        Margin of a bearing with a motor, of which the breakdown voltage is only a part; else ``main_value``.
+    """Key of the summary to whose spread the inputs of a Sobol design are ranked. Returns margin of a bearing
+    with a motor, of which the breakdown voltage is only a part; else ``main_value``.
     """
     if isinstance(case, BearingCase) and case.motor is not None and case.discharge.has_strength:
         return breakdown_of(case).margin
@@ -220,21 +166,7 @@ def ranked_value(case: SweptCase) -> str:
 
 
 def breakdown_of(case: SweptCase, value: str | None = None) -> Breakdown:
-    """Breakdown voltage that a value of a summary belongs to.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Base case of the sweep.
-    value : str, optional
-        Dotted key of the value.
-
-    Returns
-    -------
-    Breakdown
-        Breakdown of a contact. For a bearing, the first breakdown of one of its contacts, except if ``value``
-        is a key of the ring-to-ring breakdown. Without keys for a drive.
-    """
+    """Breakdown voltage that a value of a summary belongs to."""
     if isinstance(case, DriveCase):
         return _NONE
     if not isinstance(case, BearingCase):
@@ -246,17 +178,8 @@ def breakdown_of(case: SweptCase, value: str | None = None) -> Breakdown:
 
 
 def grid(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
-    """Points of a grid design: every combination of the values of all keys.
-
-    Parameters
-    ----------
-    axes : mapping
-        Values of each key.
-
-    Yields
-    ------
-    dict
-        Inputs of a point by key; the last key varies fastest.
+    """Points of a grid design: every combination of the values of all keys. Yields inputs of a point by key;
+    the last key varies fastest.
 
     Examples
     --------
@@ -268,22 +191,8 @@ def grid(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
 
 
 def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
-    """Points of a paired design: the first values of all keys, then the second values, and so on.
-
-    Parameters
-    ----------
-    axes : mapping
-        Values of each key, equally many.
-
-    Yields
-    ------
-    dict
-        Inputs of a point by key.
-
-    Raises
-    ------
-    ValueError
-        If the keys have different numbers of values.
+    """Points of a paired design: the first values of all keys, then the second values, and so on. Raises
+    ValueError if the keys have different numbers of values.
 
     Examples
     --------
@@ -297,28 +206,9 @@ def paired(axes: Mapping[str, Sequence[Any]]) -> Iterator[dict[str, Any]]:
 def sobol(
     ranges: Mapping[str, Range], samples: int, seed: int, whole: Collection[str] = ()
 ) -> Iterator[dict[str, Any]]:
-    """Points of a Sobol design, from which first-order and total sensitivity indices are estimated.
+    """Points of a Sobol design, from which first-order and total sensitivity indices are estimated. Yields
+    inputs of a point by key, in SI units.
 
-    Parameters
-    ----------
-    ranges : mapping
-        Range of each key, in SI units.
-    samples : int
-        Number n of rows of the matrices A and B, a power of two.
-    seed : int
-        Seed of the scrambling of Sobol's sequence: the same seed gives the same points.
-    whole : collection of str
-        Keys whose values are whole numbers. Every whole number of the range is equally likely with linear
-        spacing.
-
-    Yields
-    ------
-    dict
-        Inputs of a point by key, in SI units. For d keys there are n(d + 2) points. The rows of A come
-        first, then the rows of B. For each key, the rows of A follow with the column of this key from B.
-
-    Notes
-    -----
     A and B are the halves of a scrambled Sobol sequence in 2d dimensions. Saltelli et al., Comput. Phys.
     Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, table 2. The values computed at
     these points are f_A, f_B and f_AB of ``scipy.stats.sobol_indices``.
@@ -355,19 +245,8 @@ def _rows(ranges: Mapping[str, Range], unit: Array, whole: Collection[str]) -> I
 
 
 def between(over: Range, unit: ArrayLike) -> Array:
-    """Values at given fractions of a range.
-
-    Parameters
-    ----------
-    over : Range
-        Ends and spacing of the range.
-    unit : array_like, shape (...)
-        Fraction of the range, from 0 at its start to 1 at its end.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Values in the unit of the range; at 0 and 1 its exact ends.
+    """Values at given fractions of a range. ``unit``, fraction of the range, from 0 at its start to 1 at its
+    end, shape (...). Returns values in the unit of the range; at 0 and 1 its exact ends, shape (...).
 
     Examples
     --------
@@ -383,20 +262,8 @@ def between(over: Range, unit: ArrayLike) -> Array:
 
 
 def shares(over: Range, unit: ArrayLike) -> Array:
-    """Whole numbers at given fractions of a range.
-
-    Parameters
-    ----------
-    over : Range
-        Ends of the range, whole numbers, and its spacing.
-    unit : array_like, shape (...)
-        Fraction of the range, from 0 to 1.
-
-    Returns
-    -------
-    ndarray of int, shape (...)
-        Whole numbers of the range. With linear spacing, each covers an equal part of the unit interval.
-        Rounding alone would give half a part to each of the two ends.
+    """Whole numbers at given fractions of a range. ``unit``, fraction of the range, from 0 to 1, shape (...).
+    Returns whole numbers of the range, shape (...).
 
     Examples
     --------

@@ -36,21 +36,13 @@ _TOUCH = "surfaces touch (discharges likely as contacts open)"
 def sweep_verdict(results: SweepPoints) -> Verdict | None:
     """Verdict on a sweep from the margins of its points.
 
-    Parameters
-    ----------
-    results : SweepPoints
-        Results of a sweep.
-
-    Returns
-    -------
-    Verdict or None
-        Green where no margin is below 1, red where all are, else yellow. It is not green where points have no
-        margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where the
-        margin of a contact is that of a boundary film, as its asperities touch. Nor is it green or red where
-        the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by
-        its warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces
-        touch at all points of a bearing with a motor, yellow where they touch at some or without a motor, and
-        None where they touch at none, and None for drives.
+    Returns green where no margin is below 1, red where all are, else yellow; it is not green where points
+    have no margin: they are not solved or must not be used, or their surfaces touch. Nor is it green where
+    the margin of a contact is that of a boundary film, as its asperities touch. Nor is it green or red where
+    the margin of a point may lie on the other side of 1, by the accuracy of films that are not solved, by its
+    warnings, or at a strength that differs by 20 %. Without any margin it is red where the surfaces touch at
+    all points of a bearing with a motor, yellow where they touch at some or without a motor, and None where
+    they touch at none, and None for drives.
     """
     if isinstance(results.case, DriveCase):
         return None  # it is a number of discharges whose harm depends on the bearing, not on a margin
@@ -231,11 +223,6 @@ def _crossings(results: SweepPoints, margins: Array, word: str) -> list[str]:
 
 def crossing(low: tuple[float, float], high: tuple[float, float]) -> float:
     """Input at which the margin is 1 between two points, interpolated in the logarithm of the margin.
-
-    Parameters
-    ----------
-    low, high : tuple of float
-        Input and margin at both points. The logarithm of the input is used where both inputs are above 0.
 
     Examples
     --------

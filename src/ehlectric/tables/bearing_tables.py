@@ -437,11 +437,6 @@ def _left_out(summary: Summary) -> Iterator[Row]:
 def input_range(effect: Mapping[str, Any]) -> str:
     """Range of the input of an effect as text, in the unit that is printed.
 
-    Parameters
-    ----------
-    effect : mapping
-        Effect as in ``margin.effects`` of a summary.
-
     Examples
     --------
     >>> input_range({"key": "bearing.temperature", "low_input": 333.15, "high_input": 353.15})

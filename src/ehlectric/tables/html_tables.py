@@ -38,17 +38,8 @@ _LISTED = 6
 
 
 def html_of(shown: Any) -> str:
-    """Table of a result or a case as HTML.
-
-    Parameters
-    ----------
-    shown : object
-        Result of any kind, film factors of a measurement, or a case, a bearing case or a sweep.
-
-    Returns
-    -------
-    str
-        Title, verdict if there is one, the rows that the command prints, and warnings.
+    """Table of a result or a case as HTML. Returns title, verdict if there is one, the rows that the command
+    prints, and warnings.
     """
     rows_of = next(rows for kind, rows in _ROWS.items() if isinstance(shown, kind))
     title = getattr(shown, "title", "") or getattr(getattr(shown, "case", None), "title", "")
@@ -107,17 +98,7 @@ def input_rows(case: Case | BearingCase | DriveCase) -> Iterator[Row]:
 
 
 def input_row(case: Case | BearingCase | DriveCase, key: str, value: Any) -> Row:
-    """Row of an input: its dotted key, and its value in a unit that suits it.
-
-    Parameters
-    ----------
-    case : Case, BearingCase or DriveCase
-        Case with the input.
-    key : str
-        Dotted key of the input.
-    value : object
-        Value in SI units.
-    """
+    """Row of an input: its dotted key, and its value in a unit that suits it."""
     if not is_number(value):
         return Row(key, value if isinstance(value, str) else json.dumps(value))
     scale = _scale(key, case, [float(value)])

@@ -20,19 +20,8 @@ if TYPE_CHECKING:
 
 
 def table_of(rows: Iterable[Row], title: str = "") -> Table:
-    """Table of rows for the terminal: names, and beside them values with units and notes.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-        Rows, values in SI units. Headings are bold, with the rows below them indented. Alarms are red.
-    title : str, optional
-        Title above the table.
-
-    Returns
-    -------
-    rich.table.Table
-        Two columns, both aligned to the left; values in their shown units.
+    """Table of rows for the terminal: names, and beside them values with units and notes. Returns two
+    columns, both aligned to the left; values in their shown units.
     """
     from rich.table import Table
     from rich.text import Text

@@ -238,17 +238,8 @@ def described(bearing: CatalogueBearing) -> dict[str, Any]:
 
 
 def catalogue_tables(bearings: Iterable[CatalogueBearing]) -> Iterator[Table]:
-    """Tables of bearings, one for each kind, with dimensions, printed ratings and kind of the sources.
-
-    Parameters
-    ----------
-    bearings : iterable of CatalogueBearing
-        Bearings of the library.
-
-    Yields
-    ------
-    rich.table.Table
-        Table of one kind of bearing, at most 80 characters wide.
+    """Tables of bearings, one for each kind, with dimensions, printed ratings and kind of the sources. Yields
+    table of one kind of bearing, at most 80 characters wide.
     """
     ordered = sorted(bearings, key=lambda bearing: bearing.kind)
     for kind, group in groupby(ordered, key=lambda bearing: bearing.kind):

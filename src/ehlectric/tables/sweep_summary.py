@@ -27,17 +27,8 @@ _NUMBER = re.compile(r"\d[\d.e+-]*")
 
 
 def sweep_rows(results: SweepResults) -> list[Row]:
-    """Rows of the numbers of points of each status, with the reasons of those that are not solved.
-
-    Parameters
-    ----------
-    results : SweepResults
-        Results of a sweep.
-
-    Returns
-    -------
-    list of Row
-        A row for each status, followed by rows for the most frequent reasons of the points with this status.
+    """Rows of the numbers of points of each status, with the reasons of those that are not solved. Returns a
+    row for each status, followed by rows for the most frequent reasons of the points with this status.
     """
     rows = []
     for status in ("solved", "not converged", "failed"):

@@ -15,7 +15,7 @@ from PIL import Image
 
 from ehlectric import BearingCase, Case, InputError, figure, read_motion, save_figures, solve, solve_bearing
 from ehlectric.figures import bearing_figure_files as of_bearings
-from ehlectric.figures import figure_names as files
+from ehlectric.figures import figure_names as known
 from ehlectric.figures import motion_figures as of_motions
 from ehlectric.figures import sweep_figures as of_sweeps
 from ehlectric.figures.line_figures import FIGURES
@@ -57,12 +57,12 @@ def motion(tmp_path_factory):
 
 
 def test_names_are_those_of_the_tables_of_figures():
-    assert tuple(FIGURES) == files.FIGURE_FILES
-    assert tuple(POINT_FIGURES) == files.POINT_FIGURE_FILES
-    assert tuple(of_bearings.FIGURES) == files.BEARING_FIGURE_FILES
-    assert tuple(of_bearings.SPEED_FIGURES) == files.SPEED_FIGURE_FILES
-    assert tuple(of_motions.FIGURES) == files.MOTION_FIGURE_FILES
-    assert [name.partition("_")[0] for name in files.map_files("film.error")] == list(of_sweeps.FIGURES)
+    assert tuple(FIGURES) == known.FIGURE_FILES
+    assert tuple(POINT_FIGURES) == known.POINT_FIGURE_FILES
+    assert tuple(of_bearings.FIGURES) == known.BEARING_FIGURE_FILES
+    assert tuple(of_bearings.SPEED_FIGURES) == known.SPEED_FIGURE_FILES
+    assert tuple(of_motions.FIGURES) == known.MOTION_FIGURE_FILES
+    assert [name.partition("_")[0] for name in known.map_files("film.error")] == list(of_sweeps.FIGURES)
 
 
 def test_names_need_no_matplotlib():
@@ -74,7 +74,7 @@ def test_names_need_no_matplotlib():
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_figures_of_a_contact(kind, tmp_path):
     result = contact(kind)
-    expected = {"line": files.FIGURE_FILES, "point": files.POINT_FIGURE_FILES}[kind]
+    expected = {"line": known.FIGURE_FILES, "point": known.POINT_FIGURE_FILES}[kind]
     assert [f"{name}.png" for name in figure_names(result)] == list(expected)
     drawn = figure(result, expected[0])
     assert isinstance(drawn, Figure)
@@ -91,13 +91,13 @@ def test_figures_of_a_contact(kind, tmp_path):
 def test_the_roughness_is_among_the_figures_of_a_rough_contact():
     table = {"contact": PAPER_CONTACT, "lubricant": OIL, "roughness": [ROUGH], "grid": {"nodes": 401}}
     result = solve(Case.from_dict(table), beside_smooth=False)
-    assert f"{figure_names(result)[-1]}.png" == files.ROUGHNESS_FIGURE
+    assert f"{figure_names(result)[-1]}.png" == known.ROUGHNESS_FIGURE
     assert "Rq" in figure(result, "roughness.png").axes[0].get_legend().get_texts()[0].get_text()
 
 
 @pytest.mark.slow
 def test_figures_of_a_bearing(bearing, tmp_path):
-    every = (*files.BEARING_FIGURE_FILES, *files.SPEED_FIGURE_FILES)
+    every = (*known.BEARING_FIGURE_FILES, *known.SPEED_FIGURE_FILES)
     assert [f"{name}.png" for name in figure_names(bearing)] == list(every)
     assert len(figure(bearing, "bearing_circuit.png").axes) == 2
     over_speed = figure(bearing, "capacitance_over_speed.png")
@@ -106,8 +106,8 @@ def test_figures_of_a_bearing(bearing, tmp_path):
         figure(bearing, "film.png")
     drawn = draw_figures(bearing, tmp_path)
     assert [file.name for file in drawn.files] == [
-        *files.BEARING_FIGURE_FILES,
-        *files.SPEED_FIGURE_FILES,
+        *known.BEARING_FIGURE_FILES,
+        *known.SPEED_FIGURE_FILES,
     ]
     assert all(file.is_file() for file in drawn.files)
     assert drawn.warnings == ()
@@ -116,7 +116,7 @@ def test_figures_of_a_bearing(bearing, tmp_path):
 @pytest.mark.slow
 def test_figures_of_a_motion(motion, tmp_path):
     """Of the dataset and of the run; it does not reach the instant that is compared."""
-    expected = [name.removesuffix(".png") for name in files.MOTION_FIGURE_FILES[:2]]
+    expected = [name.removesuffix(".png") for name in known.MOTION_FIGURE_FILES[:2]]
     assert figure_names(motion) == figure_names(MotionRun.of(motion)) == expected
     assert len(figure(motion, "motion_history.png").axes) == 2
     with pytest.raises(InputError, match=r"^figure: .*'motion_beside_stationary\.png'"):
@@ -225,9 +225,9 @@ def line():
 @pytest.mark.slow
 def test_files_of_each_format_are_whole_and_say_the_finding(line, tmp_path):
     """The title is in the metadata, no date is, and the same figure gives the same bytes again."""
-    drawn = draw_figures(line, tmp_path, files.FORMATS)
-    assert [file.name for file in drawn.files] == list(files.in_formats(files.FIGURE_FILES, files.FORMATS))
-    png, svg, pdf = (tmp_path / name for name in files.in_formats(["film.png"], files.FORMATS))
+    drawn = draw_figures(line, tmp_path, known.FORMATS)
+    assert [file.name for file in drawn.files] == list(known.in_formats(known.FIGURE_FILES, known.FORMATS))
+    png, svg, pdf = (tmp_path / name for name in known.in_formats(["film.png"], known.FORMATS))
     title = figure(line, "film").get_label()
     assert title.endswith("By name")
     with Image.open(png) as image:
@@ -239,7 +239,7 @@ def test_files_of_each_format_are_whole_and_say_the_finding(line, tmp_path):
     assert b"/Type42" in pdf.read_bytes() or b"/FontFile2" in pdf.read_bytes()
     again = tmp_path / "again"
     again.mkdir()
-    draw_figures(line, again, files.FORMATS)
+    draw_figures(line, again, known.FORMATS)
     for file in (png, svg, pdf):
         assert (again / file.name).read_bytes() == file.read_bytes()
         assert b"Date" not in file.read_bytes()

@@ -90,19 +90,7 @@ Change = Callable[[str, str], str]
 
 def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
     """Case of a bearing or of a contact from the tables of a page; ``drive_of`` takes those of a drive.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables, as a person writes them into a file.
-    folder : Path, optional
-        Folder of the session, in which the files that the case names must lie; without it, the case may
-        name none.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case, or name another file.
+    Raises InputError if the tables are no valid case, or name another file.
     """
     if kind_of(table) == "drive":
         raise InputError("file", "is a drive file", takes="the case of a contact or a bearing")
@@ -110,12 +98,8 @@ def case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase:
 
 
 def drive_of(table: Mapping[str, Any], folder: Path | None = None) -> DriveCase:
-    """Drive from the tables of a page; see ``case_of``. Its waveform must be in the folder.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid drive, or name another file.
+    """Drive from the tables of a page; see ``case_of``. Its waveform must be in the folder. Raises InputError
+    if the tables are no valid drive, or name another file.
     """
     return DriveCase.from_written(with_own_files(table, folder))
 
@@ -126,12 +110,8 @@ def run_case_of(table: Mapping[str, Any], folder: Path | None = None) -> AnyCase
 
 
 def sweep_of(table: Mapping[str, Any], folder: Path | None = None) -> Sweep:
-    """Sweep from the tables of a page; see ``case_of``.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid sweep, or name another file.
+    """Sweep from the tables of a page; see ``case_of``. Raises InputError if the tables are no valid sweep,
+    or name another file.
     """
     return Sweep.from_written(with_own_files(table, folder))
 
@@ -142,19 +122,8 @@ def kind_of(table: Mapping[str, Any]) -> FileKind:
 
 
 def with_own_files(table: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
-    """Tables in which the names of files are paths in the folder of a session.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a case or a sweep; names of files in it are relative to the folder.
-    folder : Path or None
-        Folder of the session; None where it has no files.
-
-    Raises
-    ------
-    InputError
-        If a file is not there, or lies elsewhere.
+    """Tables in which the names of files are paths in the folder of a session. ``folder``, folder of the
+    session; None where it has no files. Raises InputError if a file is not there, or lies elsewhere.
     """
 
     def located(key: str, name: str) -> str:

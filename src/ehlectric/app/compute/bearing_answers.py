@@ -61,19 +61,8 @@ _CAPTION = "Margin if one input changes and all others stay, largest effect firs
 
 
 def effects_table(summary: Mapping[str, Any], level: str) -> Table | None:
-    """Table of the inputs that change the margin, with the value of each that belongs to either end.
-
-    Parameters
-    ----------
-    summary : mapping
-        Summary of a bearing, SI units; without its table ``margin`` there are no effects.
-    level : str
-        Level of the verdict, which is no surer at other inputs.
-
-    Returns
-    -------
-    Table or None
-        None without any effect.
+    """Table of the inputs that change the margin, with the value of each that belongs to either end. Returns
+    None without any effect.
     """
     effects = (summary.get("margin") or {}).get("effects")
     if not effects:
@@ -275,22 +264,7 @@ _PULLS_ALONG = "The load is purely axial: it points out of this figure."
 
 
 def bearing_case(table: Mapping[str, Any], contacts: str = "", session: Path | None = None) -> BearingCase:
-    """Case of tables as a person writes them.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a bearing file.
-    contacts : str
-        "atlas", "formula" or "solved" in place of that of the tables.
-    session : Path, optional
-        Folder of the session, in which files that the case names lie; without it, the case may name none.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case of a bearing.
-    """
+    """Case of a bearing from tables as a person writes them; InputError if they are none."""
     case = case_of(table, session)
     if not isinstance(case, BearingCase):
         raise InputError.missing("bearing", "a table with the inputs of a bearing")
@@ -302,17 +276,7 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Beari
 
     Contacts are by formula where the tables say so, and otherwise from the atlas of films.
 
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a bearing file.
-    session : Path, optional
-        Folder of the session.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case, or neither the atlas nor a formula describes its films.
+    Raises InputError if the tables are no valid case, or neither the atlas nor a formula describes its films.
     """
     return answer_of(_quick(table, session), whole=False)
 
@@ -325,25 +289,9 @@ def whole_quick_answer(table: Mapping[str, Any], session: Path | None = None) ->
 def solve_contacts(
     table: Mapping[str, Any], session: Path, folder: Path, progress: Progress
 ) -> BearingAnswer:
-    """Whole answer about a bearing with solved contacts, by the same run as that of the command.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a bearing file.
-    session : Path
-        Folder of the session.
-    folder : Path
-        Folder of the result's files.
-    progress : callable
-        Called with the number of solved contacts, the number of all contacts, and a text.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case, or the bearing cannot be solved.
-    LostError
-        Where the process of a contact was killed four times.
+    """Whole answer about a bearing with solved contacts, by the same run as that of the command. Raises
+    InputError if the tables are no valid case, or the bearing cannot be solved; LostError where the process
+    of a contact was killed four times.
     """
 
     def told(done: int, of: int, _: str) -> None:

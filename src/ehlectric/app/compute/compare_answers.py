@@ -24,19 +24,8 @@ from ehlectric.tables.bearing_tables import check_rows
 
 
 def side(table: Mapping[str, Any], folder: Path | None = None) -> Side:
-    """Answer about one case, without what depends on further solutions.
-
-    Parameters
-    ----------
-    table : mapping
-        Inputs of the case.
-    folder : Path, optional
-        Folder of the session.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case, or neither the atlas nor a formula describes its films.
+    """Answer about one case, without what depends on further solutions. Raises InputError if the tables are
+    no valid case, or neither the atlas nor a formula describes its films.
     """
     case = case_of(table, folder)
     return _bearing(case, whole=False) if isinstance(case, BearingCase) else _contact(case)

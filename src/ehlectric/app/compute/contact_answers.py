@@ -37,19 +37,8 @@ _SHOWN_FORMULA = {"line": "pan_hamrock", "point": "chittenden"}
 
 
 def contact_case(table: Mapping[str, Any], folder: str) -> Case:
-    """Case of a contact of tables as a person writes them.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a case file.
-    folder : str
-        Folder of the session, where the files of roughness lie.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case, or name a file that was not uploaded.
+    """Case of a contact of tables as a person writes them. ``folder``, folder of the session, where the files
+    of roughness lie. Raises InputError if the tables are no valid case, or name a file that was not uploaded.
     """
     if "bearing" in table:
         raise InputError(
@@ -61,19 +50,8 @@ def contact_case(table: Mapping[str, Any], folder: str) -> Case:
 
 
 def check_contact(table: Mapping[str, Any], folder: str) -> ContactCheck:
-    """Answer about a contact before its film is solved, as of ``ehlectric check``.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a case file.
-    folder : str
-        Folder of the session.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case of a contact.
+    """Answer about a contact before its film is solved, as of ``ehlectric check``. Raises InputError if the
+    tables are no valid case of a contact.
     """
     case = contact_case(table, folder)
     meaning = check(case)
@@ -133,21 +111,8 @@ def verdict_by_formula(
 
 
 def solve_contact(table: Mapping[str, Any], session: str, folder: str, progress: Progress) -> ContactView:
-    """Solve a contact as ``ehlectric run`` does, with all its files.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a case file.
-    session, folder : str
-        Folder of the session, and folder of the results within it.
-    progress : callable
-        Called with what is done.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case of a contact.
+    """Solve a contact as ``ehlectric run`` does, with all its files. Raises InputError if the tables are no
+    valid case of a contact.
     """
     outcome = run_contact(contact_case(table, session), folder, progress)
     progress(0, 0, "drawing")
@@ -155,37 +120,15 @@ def solve_contact(table: Mapping[str, Any], session: str, folder: str, progress:
 
 
 def solve_at_once(table: Mapping[str, Any], folder: str) -> ContactView:
-    """Solve a contact that takes a fraction of a second, without files; see ``solve_contact``.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a case file.
-    folder : str
-        Folder of the session.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case of a contact.
+    """Solve a contact that takes a fraction of a second, without files; see ``solve_contact``. Raises
+    InputError if the tables are no valid case of a contact.
     """
     return view_of(solve(contact_case(table, folder)))
 
 
 def cuts_of(folder: str, x: float, y: float) -> tuple[Shown, ...]:
-    """Cuts through a point of a solved point contact.
-
-    Parameters
-    ----------
-    folder : str
-        Folder of the result.
-    x, y : float
-        Point, in the unit of the figures.
-
-    Raises
-    ------
-    InputError
-        If the folder has no result of a point contact that converged.
+    """Cuts through a point of a solved point contact. Raises InputError if the folder has no result of a
+    point contact that converged.
     """
     result = _stored(folder)
     if not isinstance(result, PointResult) or not result.converged:

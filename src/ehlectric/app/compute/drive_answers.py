@@ -199,19 +199,8 @@ _SOLVING = "solving the contacts of both bearings, then simulating"
 
 
 def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> DriveAnswer:
-    """Answer about a drive without a simulation, with contacts from the atlas or by formula.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a drive file.
-    session : Path, optional
-        Folder of the session, in which the waveform of a measured source lies.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid drive, or its films have to be solved.
+    """Answer about a drive without a simulation, with contacts from the atlas or by formula. Raises
+    InputError if the tables are no valid drive, or its films have to be solved.
     """
     case = drive_of(table, session)
     # A wrong remedy is told as it is by the command.
@@ -240,25 +229,9 @@ def quick_answer(table: Mapping[str, Any], session: Path | None = None) -> Drive
 
 
 def simulate(table: Mapping[str, Any], session: Path, folder: Path, progress: Progress) -> DriveAnswer:
-    """Answer about a drive and its remedies over time, by the same run as that of the command.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a drive file.
-    session : Path
-        Folder of the session.
-    folder : Path
-        Folder of the result's files.
-    progress : callable
-        Called with the simulated part in percent, 100, and a text.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid drive, or it cannot be simulated.
-    LostError
-        Where the process of a contact was killed four times.
+    """Answer about a drive and its remedies over time, by the same run as that of the command. Raises
+    InputError if the tables are no valid drive, or it cannot be simulated; LostError where the process of a
+    contact was killed four times.
     """
     from ehlectric.app.figures.drive_charts import drive_figures
 

@@ -29,12 +29,8 @@ def run(table: Mapping[str, Any], folder: str, progress: Progress) -> MotionAnsw
 
     A run of the same inputs that was cancelled is resumed. Runs of other inputs in the folder are removed.
 
-    Raises
-    ------
-    InputError
-        If the tables are no valid case, or have no motion.
-    ConvergenceError
-        If the film before the motion does not converge.
+    Raises InputError if the tables are no valid case, or have no motion; ConvergenceError if the film before
+    the motion does not converge.
     """
     case = _case(table, folder)
     place = _place(case, folder)

@@ -48,25 +48,8 @@ _ENDINGS: Mapping[Download, tuple[str, ...]] = {
 
 
 def uploaded(contents: Mapping[str, bytes], folder: Path) -> Uploaded:
-    """Case or sweep of uploaded files.
-
-    Parameters
-    ----------
-    contents : mapping of str to bytes
-        Uploaded files by name: the case, and the files that it names. A case names them by paths of the
-        user's machine, of which only the last part counts.
-    folder : Path
-        Folder of the session, into which surfaces are written.
-
-    Returns
-    -------
-    Uploaded
-        Checked tables, or the names of files that are still missing.
-
-    Raises
-    ------
-    InputError
-        If a file is too large or cannot be used, or the case is not valid.
+    """Case or sweep of uploaded files. Returns checked tables, or the names of files that are still missing.
+    Raises InputError if a file is too large or cannot be used, or the case is not valid.
     """
     _refuse_too_much(contents, folder)
     name, table = _main(contents)
@@ -168,12 +151,8 @@ def _file_at(table: Mapping[str, Any], end: str) -> Any:
 
 
 def _plain(key: str, path: str) -> str:
-    """Name of a file without its folders.
-
-    Raises
-    ------
-    InputError
-        If it is no name that a file of the session may have.
+    """Name of a file without its folders. Raises InputError if it is no name that a file of the session may
+    have.
     """
     name = PureWindowsPath(PurePosixPath(path).name).name
     if not _NAME.fullmatch(name) or name.endswith((" ", ".")):
@@ -198,26 +177,9 @@ def _keep(name: str, contents: Mapping[str, bytes], folder: Path) -> Path | None
 def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progress) -> Written:
     """Solve a case as the command does, and write its files but the figures, which ``drawn`` adds.
 
-    Parameters
-    ----------
-    table : mapping
-        Inputs of the page.
-    contacts : str
-        "atlas", "formula" or "solved" for a bearing; empty where the case decides.
-    folder : Path
-        Folder of the session.
-    progress : callable
-        As ``runtime.progress`` tells it.
-
-    Returns
-    -------
-    Written
-        Files in a folder of the session, which earlier files leave.
-
-    Raises
-    ------
-    InputError, ConvergenceError, LostError
-        As the command raises them.
+    ``contacts``, "atlas", "formula" or "solved" for a bearing; empty where the case decides. Returns files in
+    a folder of the session, which earlier files leave. Raises InputError, ConvergenceError, LostError as the
+    command raises them.
     """
     kind, case, options = kind_of(table), run_case_of(table, folder), dict[str, Any]()
     if kind == "bearing":
@@ -231,30 +193,8 @@ def write(table: Mapping[str, Any], contacts: str, folder: Path, progress: Progr
 
 
 def packed(out: Path, what: Download, table: Mapping[str, Any], title: str, folder: Path) -> str:
-    """File to download: the only file of a kind, or an archive of all.
-
-    Parameters
-    ----------
-    out : Path
-        Folder of a result.
-    what : str
-        Kind of the download; "all" has the case and its surfaces, too, which the command runs as they are.
-    table : mapping
-        Inputs of the page.
-    title : str
-        Name of the archive, without its ending.
-    folder : Path
-        Folder of the session.
-
-    Returns
-    -------
-    str
-        Path of the file.
-
-    Raises
-    ------
-    InputError
-        If the result has no such file.
+    """File to download: the only file of a kind, or an archive of all. Raises InputError if the result has no
+    such file.
     """
     files = [path for path in sorted(out.iterdir()) if _offered(path, _ENDINGS[what])]
     if not files:
@@ -298,25 +238,8 @@ def _surfaces(table: Mapping[str, Any], folder: Path) -> list[str]:
 
 
 def converted(out: Path, ending: str, title: str, folder: Path, progress: Progress) -> str:
-    """Report on a result, or its file for another program, and the path of it.
-
-    Parameters
-    ----------
-    out : Path
-        Folder of the result.
-    ending : str
-        "pdf" or "html" of a report; "mat", "xlsx" or "vtkhdf".
-    title : str
-        Name of the file, without its ending.
-    folder : Path
-        Folder of the session.
-    progress : callable
-        As ``runtime.progress`` tells it.
-
-    Raises
-    ------
-    InputError
-        If the result has no such form, or a package is missing.
+    """Report on a result, or its file for another program, and the path of it. Raises InputError if the
+    result has no such form, or a package is missing.
     """
     of_report = ending in _REPORTS
     progress(0, 0, "writing the report" if of_report else "converting the result")

@@ -111,26 +111,9 @@ _LINE, _SIDE = 2001, 161
 def look(
     table: Mapping[str, Any], case: Mapping[str, Any], folder: str, name: str = "", *progress: Progress
 ) -> SurfaceAnswer:
-    """Rough surface of a table ``[[roughness]]``, after every processing step.
-
-    Parameters
-    ----------
-    table : mapping
-        Keys of the table, as a person writes them.
-    case : mapping
-        Nested tables of the contact. Made surfaces and warnings about the grid need it.
-    folder : str
-        Folder of the session, in which the file of the table lies.
-    name : str
-        Name of an uploaded file, which errors show instead of its path.
-    *progress : callable
-        Progress of a job, which reads large files; a quick answer has none.
-
-    Raises
-    ------
-    InputError
-        If the table or its file cannot be used, with the line of ``ehlectric surface``; keys of the table
-        are preceded by ``roughness.``.
+    """Rough surface of a table ``[[roughness]]``, after every processing step. Raises InputError if the table
+    or its file cannot be used, with the line of ``ehlectric surface``; keys of the table are preceded by
+    ``roughness.``.
     """
     found = table
     try:

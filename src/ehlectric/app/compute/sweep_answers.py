@@ -65,36 +65,15 @@ _MOST_TOLD = 3
 
 
 def seen(folder: str, shown: str, table: Mapping[str, Any]) -> SweepView | None:
-    """State of a sweep, finished, stopped or running; None where the folder still has another one.
-
-    Parameters
-    ----------
-    folder : str
-        Folder of the sweep.
-    shown : str
-        Dotted key of the summary that the map shows.
-    table : mapping
-        Tables of the sweep that is asked for.
-
-    Raises
-    ------
-    InputError
-        If the folder has no sweep.
+    """State of a sweep, finished, stopped or running; None where the folder still has another one. Raises
+    InputError if the folder has no sweep.
     """
     results = read_sweep(folder)
     return view_of(results, shown) if is_stored(results, table) else None
 
 
 def view_of(results: SweepResults, shown: str) -> SweepView:
-    """State of a sweep as the page shows it.
-
-    Parameters
-    ----------
-    results : SweepResults
-        A grid over one or two inputs, finished or not.
-    shown : str
-        Dotted key of the summary that the map shows.
-    """
+    """State of a sweep as the page shows it."""
     chart = _chart(results, shown)
     verdict = results.verdict
     return SweepView(
@@ -323,12 +302,8 @@ _RESULTS = {
 
 
 def sweep_of(table: Mapping[str, Any]) -> Sweep:
-    """Sweep of the tables of a sweep file with its base case inside.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid sweep, name a file, or have more points than a page may solve.
+    """Sweep of the tables of a sweep file with its base case inside. Raises InputError if the tables are no
+    valid sweep, name a file, or have more points than a page may solve.
     """
     case = table.get("case")
     if not isinstance(case, Mapping):
@@ -345,17 +320,8 @@ def sweep_of(table: Mapping[str, Any]) -> Sweep:
 
 
 def choices(table: Mapping[str, Any]) -> SweepChoices:
-    """Inputs of a base case that a sweep can vary, and results that a map can show.
-
-    Parameters
-    ----------
-    table : mapping
-        Nested tables of a bearing, drive or contact file.
-
-    Raises
-    ------
-    InputError
-        If the tables are no valid case.
+    """Inputs of a base case that a sweep can vary, and results that a map can show. Raises InputError if the
+    tables are no valid case.
     """
     case = run_case_of(table)
     kind = next((name for name, one in _KINDS.items() if isinstance(case, one)), "contact")
@@ -464,10 +430,7 @@ def planned(table: Mapping[str, Any], workers: int) -> SweepPlan:
 
     The time is that of one of the corners, which is solved here.
 
-    Raises
-    ------
-    InputError
-        If the tables are no valid sweep, or no corner of the ranges is a valid case.
+    Raises InputError if the tables are no valid sweep, or no corner of the ranges is a valid case.
     """
     sweep = sweep_of(table)
     ends = {key: sorted({axis[0], axis[-1]}) for key, axis in sweep.axes.items()}
@@ -511,21 +474,8 @@ def is_stored(results: SweepResults, table: Mapping[str, Any]) -> bool:
 
 
 def point(folder: str, table: Mapping[str, Any], number: int) -> SweepPoint:
-    """Address of the page that shows the case of a point.
-
-    Parameters
-    ----------
-    folder : str
-        Folder of the sweep.
-    table : mapping
-        Sweep as a person wrote it: the address keeps the texts of its base case, and the units of its ranges.
-    number : int
-        Number of the point.
-
-    Raises
-    ------
-    InputError
-        If there is no such sweep, or the inputs of the point are no valid case.
+    """Address of the page that shows the case of a point. Raises InputError if there is no such sweep, or the
+    inputs of the point are no valid case.
     """
     results = read_sweep(folder)
     if not is_stored(results, table):
@@ -551,10 +501,7 @@ def point_table(
     Its texts are those of the base case, where these make the same case; else all keys are in SI units.
     ``units`` are those in which the varied inputs are best read, by key.
 
-    Raises
-    ------
-    InputError
-        If the inputs of the point are no valid case.
+    Raises InputError if the inputs of the point are no valid case.
     """
     wanted = case.replace(inputs)
     changed: dict[str, Any] = tomllib.loads(Inputs(table).toml())
@@ -597,12 +544,8 @@ def _text(key: str, value: Any, unit: str = "") -> Any:
 
 
 def files(folder: str) -> tuple[str, ...]:
-    """Names of the files of a sweep, finished or not; its tables are those of the command.
-
-    Raises
-    ------
-    InputError
-        If there is no sweep, or its folder cannot be used.
+    """Names of the files of a sweep, finished or not; its tables are those of the command. Raises InputError
+    if there is no sweep, or its folder cannot be used.
     """
     place = Path(folder)
     results = read_sweep(place)

@@ -232,20 +232,9 @@ def groups_of(geometry: str) -> tuple[Group, ...]:
 
 
 def switched(inputs: Inputs, start: Inputs) -> Inputs:
-    """Inputs of a contact of the other geometry, with what both have.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        Present inputs.
-    start : Inputs
-        Inputs of the other geometry, which give what the present ones lack.
-
-    Returns
-    -------
-    Inputs
-        Oil, potentials, breakdown, materials, speeds and temperature of the present inputs; geometry, load
-        and grid of the others. Roughness and motion, which belong to a geometry, are left out.
+    """Inputs of a contact of the other geometry, with what both have. Returns oil, potentials, breakdown,
+    materials, speeds and temperature of the present inputs; geometry, load and grid of the others; roughness
+    and motion, which belong to a geometry, are left out.
     """
     left = (*_SHARED, "title", "roughness", "motion")
     table = {key: value for key, value in start.table.items() if key not in left}

@@ -129,13 +129,7 @@ def without_remedy(inputs: Inputs, title: str) -> list[Any]:
 
 
 def with_fitted_remedies(before: Inputs, after: Inputs) -> Inputs:
-    """Inputs whose remedy with half the switching frequency follows a new frequency.
-
-    Parameters
-    ----------
-    before, after : Inputs
-        Inputs before and after a change.
-    """
+    """Inputs whose remedy with half the switching frequency follows a new frequency."""
     old, new = before.value(SWITCHING), after.value(SWITCHING)
     remedies = after.value("remedies")
     if old == new or not isinstance(remedies, list):

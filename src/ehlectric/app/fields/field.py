@@ -90,27 +90,14 @@ def _nothing(_: Inputs) -> str:
 
 @dataclass(frozen=True)
 class Way:
-    """Way to give a quantity, one of several that exclude each other.
-
-    Attributes
-    ----------
-    label : str
-        Name of the way in the list.
-    changes : mapping
-        Values by dotted key with which the way begins; None removes a key.
-    key : str
-        Key whose presence tells this way; empty for the way of inputs that have no other.
-    value : object
-        Value of the key that tells this way; None for any.
-    listed : bool
-        Whether the list has this way also while it is not taken.
-    """
+    """Way to give a quantity, one of several that exclude each other."""
 
     label: str
+    # Values by dotted key with which the way begins; None removes a key.
     changes: Mapping[str, Any] = field(default_factory=dict)
-    key: str = ""
-    value: Any = None
-    listed: bool = True
+    key: str = ""  # key whose presence tells this way; empty for the way of inputs that have no other
+    value: Any = None  # value of the key that tells this way; None for any
+    listed: bool = True  # whether the list has this way also while it is not taken
 
     def taken(self, inputs: Inputs) -> bool:
         """Whether the inputs take this way."""
@@ -122,59 +109,28 @@ class Way:
 
 @dataclass(frozen=True)
 class Field:
-    """Field of a form.
+    """Field of a form."""
 
-    Attributes
-    ----------
-    key : str
-        Dotted key of the input file.
-    label : str
-        Name of the quantity.
-    unit : str
-        Unit of the number in the field, as the input file takes it; empty for a number without unit.
-    low, high : float
-        Ends of the slider, in this unit. They bound the slider only: any value that the checks allow can be
-        typed.
-    log : bool
-        Whether the slider is spaced by logarithms.
-    kind : str
-        "number", "count" (a whole number), "choice", "text" or "ways".
-    choices : tuple of str
-        Values of a choice; empty where the library has them.
-    note : str
-        What a user must know beside the field.
-    own : str
-        Label of the entry of a choice that stands for values of one's own, without a name of the library.
-    ways : tuple of Way
-        Ways of a field of kind "ways". The first whose key is given is taken.
-    when : callable
-        Whether the field belongs to given inputs.
-    strict : bool
-        Whether the field is hidden when it does not belong, though its key is given.
-    optional : bool
-        Whether the field may be left empty.
-    ignored : str
-        Regular expression of the endings of a searched name that a search may leave out.
-    lacks : str
-        What is told where a search finds nothing; ``{count}`` is the number of entries.
-    """
-
-    key: str
+    key: str  # dotted key of the input file
     label: str
+    # Unit of the number in the field, as the input file takes it; empty for a number without unit.
     unit: str = ""
+    # low and high: ends of the slider, in this unit. They bound the slider only: any value that the checks
+    # allow can be typed.
     low: float = 0.0
     high: float = 1.0
-    log: bool = False
+    log: bool = False  # whether the slider is spaced by logarithms
     kind: Literal["number", "count", "choice", "text", "ways"] = "number"
-    choices: tuple[str, ...] = ()
-    note: str = ""
+    choices: tuple[str, ...] = ()  # values of a choice; empty where the library has them
+    note: str = ""  # what a user must know beside the field
+    # Label of the entry of a choice that stands for values of one's own, without a name of the library.
     own: str = ""
     ways: tuple[Way, ...] = ()
-    when: When = always
-    strict: bool = False
-    optional: bool = False
-    ignored: str = ""
-    lacks: str = ""
+    when: When = always  # whether the field belongs to given inputs
+    strict: bool = False  # whether the field is hidden when it does not belong, though its key is given
+    optional: bool = False  # whether the field may be left empty
+    ignored: str = ""  # regular expression of the endings of a searched name that a search may leave out
+    lacks: str = ""  # what is told where a search finds nothing; ``{count}`` is the number of entries
 
     def at(self, place: float) -> float:
         """Value at a place of the slider from 0 to 1, with three digits."""
@@ -270,17 +226,7 @@ def field_of(key: str, **more: Any) -> Field:
 def fields_of(
     keys: Iterable[str], shown: Mapping[str, Mapping[str, Any]], ways: Mapping[str, Field]
 ) -> tuple[Field, ...]:
-    """Fields of keys in their order.
-
-    Parameters
-    ----------
-    keys : iterable of str
-        Keys of a group of a form.
-    shown : mapping
-        What ``field_of`` takes for some of the keys.
-    ways : mapping
-        Fields of kind "ways", by the key before which they stand.
-    """
+    """Fields of keys in their order."""
     fields: list[Field] = []
     for key in keys:
         if key in ways:
@@ -291,39 +237,18 @@ def fields_of(
 
 @dataclass(frozen=True)
 class Group:
-    """Fields under one heading.
-
-    Attributes
-    ----------
-    title : str
-        Heading.
-    fields : tuple of Field
-        Fields in their order.
-    opened : bool
-        Whether the group is open at first.
-    table : str
-        Table that the group switches on and off; empty for a group that is always on.
-    start : mapping
-        Values of the table when it is switched on.
-    note : str
-        What a user must know about the group, such as that its first values are assumptions.
-    tells : callable
-        Sentence on given inputs, such as on values that hold where none are given; may be empty.
-    copies : str
-        Table whose values the table has when it is first switched on, in place of ``start``.
-    when : callable
-        Whether the group belongs to given inputs.
-    """
+    """Fields under one heading."""
 
     title: str
     fields: tuple[Field, ...]
-    opened: bool = True
-    table: str = ""
-    start: Mapping[str, Any] = field(default_factory=dict)
-    note: str = ""
+    opened: bool = True  # whether the group is open at first
+    table: str = ""  # table that the group switches on and off; empty for a group that is always on
+    start: Mapping[str, Any] = field(default_factory=dict)  # values of the table when it is switched on
+    note: str = ""  # what a user must know about the group, such as that its first values are assumptions
+    # Sentence on given inputs, such as on values that hold where none are given; may be empty.
     tells: Callable[[Inputs], str] = _nothing
-    copies: str = ""
-    when: When = always
+    copies: str = ""  # table whose values the table has when it is first switched on, in place of ``start``
+    when: When = always  # whether the group belongs to given inputs
 
 
 # Most digits of a number in a box; one with more, such as that of a point of a sweep, is rounded there.

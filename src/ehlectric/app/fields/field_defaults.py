@@ -39,18 +39,8 @@ def at_end(changes: Mapping[str, Any], end: str) -> dict[str, Any]:
 
 
 def field_at(field: Field, end: str, *, when: When | None = None, strict: bool | None = None) -> Field:
-    """Field of the bearing at an end of a drive.
-
-    Parameters
-    ----------
-    field : Field
-        Field of a bearing.
-    end : str
-        Table of the end.
-    when : callable, optional
-        Whether it belongs to the inputs of a drive; that of the field for its bearing if not given.
-    strict : bool, optional
-        In place of that of the field.
+    """Field of the bearing at an end of a drive. ``when``, whether it belongs to the inputs of a drive; that
+    of the field for its bearing if not given.
     """
     own = field.when
     return replace(

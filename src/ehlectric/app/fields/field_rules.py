@@ -34,11 +34,6 @@ _GEOMETRY = (*(f"bearing.{name}" for name in DIMENSIONS), "bearing.contact_angle
 class Memory:
     """Last values of groups that can be switched off, of own entries of lists, and of ways.
 
-    Parameters
-    ----------
-    groups : sequence of Group
-        Fields of the form under their headings.
-
     Examples
     --------
     >>> memory = Memory([Group("Motor", (), table="motor", start={"rise_time": "1 us"})])
@@ -124,19 +119,8 @@ OF_GEOMETRY: Mapping[str, tuple[Rows, ...]] = {
 
 
 def changed(inputs: Inputs, changes: Mapping[str, Any]) -> Inputs:
-    """Inputs with new values, and without those that the new values take the place of.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        Present inputs.
-    changes : mapping
-        New values by dotted key; None removes a key, and a mapping sets a table.
-
-    Returns
-    -------
-    Inputs
-        New inputs.
+    """Inputs with new values, and without those that the new values take the place of. ``changes``, new
+    values by dotted key; None removes a key, and a mapping sets a table.
 
     Examples
     --------
@@ -190,16 +174,7 @@ _THERMAL = (
 
 
 def own_values(inputs: Inputs, key: str) -> dict[str, Any]:
-    """Changes by which the values of the library under a key become values of one's own.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        Present inputs.
-    key : str
-        ``bearing.base``, ``bearing.coating.base`` or ``lubricant.base``; those of a bearing of a drive follow
-        its end.
-    """
+    """Changes by which the values of the library under a key become values of one's own."""
     end, key = end_and_key(key)
     return at_end(_own_values(bearing_at(inputs, end), key), end)
 

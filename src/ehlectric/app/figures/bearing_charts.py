@@ -68,19 +68,10 @@ _LOOKS: Mapping[str, tuple[str, float, str]] = {
 
 @dataclass(frozen=True)
 class Around:
-    """Contacts of all elements with one ring, at all positions of the cage.
+    """Contacts of all elements with one ring, at all positions of the cage."""
 
-    Attributes
-    ----------
-    angle : sequence of float
-        Angles from the load line, in ascending order [rad].
-    load, film : sequence of float
-        Load [N] and minimum film thickness [m], or the gap of a contact without load.
-    loaded : sequence of bool
-        Whether a contact is loaded.
-    """
-
-    angle: Sequence[float]
+    angle: Sequence[float]  # angles from the load line, in ascending order [rad]
+    # load and film: load [N] and minimum film thickness [m], or the gap of a contact without load.
     load: Sequence[float]
     film: Sequence[float]
     loaded: Sequence[bool]
@@ -89,21 +80,8 @@ class Around:
 def load_figure(
     rows: Sequence[Mapping[str, Any]], around: Mapping[str, Around], *, radial: bool = True
 ) -> Plot:
-    """Loads of the contacts with both rings around the shaft.
-
-    Parameters
-    ----------
-    rows : sequence of mapping
-        Rows of the table of contacts, SI units.
-    around : mapping of str to Around
-        Contacts at all positions of the cage, of "inner" and "outer".
-    radial : bool
-        Whether a radial load acts, whose line is marked.
-
-    Returns
-    -------
-    dict
-        Figure of Plotly, in which the radial load on the inner ring points down.
+    """Loads of the contacts with both rings around the shaft. Returns figure of Plotly, in which the radial
+    load on the inner ring points down.
     """
     data = []
     for name in _LOOKS:
@@ -123,19 +101,9 @@ def film_figure(
     *,
     radial: bool = True,
 ) -> Plot:
-    """Minimum films of the loaded contacts with both rings around the shaft.
-
-    Parameters
-    ----------
-    rows, around, radial
-        As for ``load_figure``.
-    roughness : float
-        Combined root-mean-square height of both surfaces [m], for the circles of lambda ratios.
-
-    Returns
-    -------
-    dict
-        Figure of Plotly. Contacts without load have a gap instead of a film, and are left out.
+    """Minimum films of the loaded contacts with both rings around the shaft. ``roughness``, combined
+    root-mean-square height of both surfaces [m], for the circles of lambda ratios. Returns figure of Plotly;
+    contacts without load have a gap instead of a film, and are left out.
     """
     films = [
         film

@@ -45,23 +45,9 @@ Indices = NDArray[np.intp]
 
 
 def plot(data: Iterable[Mapping[str, Any]], *, height: int, converged: bool = True, **layout: Any) -> Plot:
-    """Figure of Plotly with the look of the app.
-
-    Parameters
-    ----------
-    data : iterable of mapping
-        Traces.
-    height : int
-        Height of the figure [px].
-    converged : bool
-        Whether the result converged; if not, words across the figure say so.
-    **layout
-        Further keys of the layout.
-
-    Returns
-    -------
-    dict
-        Data, layout and config. Texts have no colours: the styles of the page give them, in light and dark.
+    """Figure of Plotly with the look of the app. ``height`` [px]; ``converged``, whether the result
+    converged; if not, words across the figure say so. Returns data, layout and config; texts have no colours:
+    the styles of the page give them, in light and dark.
     """
     whole: Plot = {
         "height": height,
@@ -132,18 +118,8 @@ def values(array: Any, digits: int = 7) -> list[Any]:
 
 def thinned(curves: Sequence[Array], most: int) -> Indices:
     """Indices of nodes along a line, of which every curve keeps its smallest and its largest values.
-
-    Parameters
-    ----------
-    curves : sequence of ndarray, shape (n,)
-        Values over the same nodes.
-    most : int
-        Largest number of intervals; each has up to two nodes of each curve.
-
-    Returns
-    -------
-    ndarray of int
-        Increasing indices, with both ends; all of them where they are few.
+    ``curves``, values over the same nodes, shape (n,). Returns increasing indices, with both ends; all of
+    them where they are few.
 
     Examples
     --------
@@ -191,19 +167,9 @@ MOST_PIXELS = 160
 def coarser(heights: Array, most: int = MOST_PIXELS) -> tuple[Array, tuple[int, int]]:
     """Map of fewer pixels, each with the value of its block that is farthest from the mean of the map.
 
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny)
-        Map, with NaN where it has no value.
-    most : int
-        Largest number of pixels along each side.
-
-    Returns
-    -------
-    ndarray, shape (mx, my)
-        Pixels. The largest and the smallest value of the map are among them.
-    tuple of int
-        Points along the sides of a block; those at the far ends may be smaller.
+    ``heights``, map, with NaN where it has no value, shape (nx, ny). Returns pixels, shape (mx, my); the
+    largest and the smallest value of the map are among them; points along the sides of a block; those at the
+    far ends may be smaller.
 
     Examples
     --------

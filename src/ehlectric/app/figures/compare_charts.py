@@ -19,18 +19,7 @@ _LONGEST = 200.0
 
 
 def changes(effects: Iterable[Effect]) -> dict[str, Any]:
-    """Bars of the changes of results from A to B [%].
-
-    Parameters
-    ----------
-    effects : iterable of Effect
-        Effects that have a number.
-
-    Returns
-    -------
-    dict
-        Figure for Plotly.
-    """
+    """Bars of the changes of results from A to B [%]. Returns figure for Plotly."""
     rows = [effect for effect in effects if effect.change is not None][::-1]
     values = [effect.change or 0.0 for effect in rows]
     # The change stands below the name, where no narrow screen cuts it.
@@ -63,17 +52,8 @@ def changes(effects: Iterable[Effect]) -> dict[str, Any]:
 
 
 def films(sides: Sequence[Side]) -> dict[str, Any]:
-    """Minimum film of every loaded contact over the position of its element, of A and B.
-
-    Parameters
-    ----------
-    sides : sequence of Side
-        Answers of A and of B.
-
-    Returns
-    -------
-    dict
-        Polar figure for Plotly, in micrometres and degrees.
+    """Minimum film of every loaded contact over the position of its element, of A and B. Returns polar figure
+    for Plotly, in micrometres and degrees.
     """
     traces = [
         {

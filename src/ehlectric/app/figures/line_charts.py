@@ -38,13 +38,7 @@ _TURNED = 1.2
 
 @dataclass(frozen=True)
 class Lengths:
-    """Unit of lengths along the surfaces of a contact.
-
-    Attributes
-    ----------
-    factor, unit : float and str
-        Factor from metres, and unit.
-    """
+    """Unit of lengths along the surfaces of a contact."""
 
     factor: float
     unit: str
@@ -91,17 +85,7 @@ def spot_position(result: PointResult) -> tuple[float, float]:
 
 
 def spot_marks(result: PointResult, factor: float, *, turned: bool) -> list[dict[str, Any]]:
-    """Marks at the nodes of a map at which the surfaces touch; at most 2000, spread evenly over all of them.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of ``solve``.
-    factor : float
-        Factor from metres to the unit of the map.
-    turned : bool
-        Whether the map has y to the right.
-    """
+    """Marks at the nodes of a map at which the surfaces touch; at most 2000, spread evenly."""
     if not touches(result):
         return []
     i, j = np.nonzero(result.film.contact)
@@ -142,19 +126,8 @@ _POTENTIALS = 9
 
 
 def line_figures(result: Result) -> tuple[Shown, ...]:
-    """Figures of a line contact.
-
-    Parameters
-    ----------
-    result : Result
-        Result of ``solve``.
-
-    Returns
-    -------
-    tuple of Shown
-        Pressure, film and field over the position, and the map of the field in the film. A film that did not
-        converge has pressure and film only, in grey and with words across them; one with values that
-        are no numbers has none.
+    """Figures of a line contact. Returns pressure, film and field over the position, and the map of the field
+    in the film.
     """
     film = result.film
     if not (np.isfinite(film.thickness).all() and np.isfinite(film.pressure).all()):

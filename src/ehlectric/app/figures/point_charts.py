@@ -164,19 +164,8 @@ def _scene(result: PointResult, lengths: Lengths, unit: str) -> Plot:
 
 
 def point_cuts(result: PointResult, x: float, y: float) -> tuple[Shown, ...]:
-    """Cuts along and across entrainment through the nodes nearest to a point.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of ``solve``, of a film that converged.
-    x, y : float
-        Point [m].
-
-    Returns
-    -------
-    tuple of Shown
-        Pressure, film and field along x, and along y.
+    """Cuts along and across entrainment through the nodes nearest to a point. ``x`` and ``y`` [m]. Returns
+    pressure, film and field along x, and along y.
     """
     return tuple(_cut(result, along, y if along == "x" else x) for along in ("x", "y"))
 
@@ -233,19 +222,8 @@ def reach_of(result: PointResult) -> Reach:
 
 
 def point_figures(result: PointResult) -> tuple[Shown, ...]:
-    """Figures of a point contact.
-
-    Parameters
-    ----------
-    result : PointResult
-        Result of ``solve``.
-
-    Returns
-    -------
-    tuple of Shown
-        Maps of film, pressure and field, and the film as a surface coloured by the field. A film that did
-        not converge has the maps of film and pressure only, in grey and with words across them; one with
-        values that are no numbers has none.
+    """Figures of a point contact. Returns maps of film, pressure and field, and the film as a surface
+    coloured by the field.
     """
     film = result.film
     if not (np.isfinite(film.thickness).all() and np.isfinite(film.pressure).all()):

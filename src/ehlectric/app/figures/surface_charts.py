@@ -54,15 +54,8 @@ def line_figure(x: Array, heights: Array) -> dict[str, Any]:
 
 
 def map_figure(surface: Map, voids: Array | None = None) -> dict[str, Any]:
-    """Figure of the heights of a map about their mean as colours.
-
-    Parameters
-    ----------
-    surface : Map
-        Map. Where it has more points than a page takes, a pixel is the height of its block that is farthest
-        from the mean.
-    voids : ndarray of bool, shape (nx, ny), optional
-        Points without data in the file, which are left blank.
+    """Figure of the heights of a map about their mean as colours. ``voids``, points without data in the file,
+    which are left blank, shape (nx, ny).
     """
     heights = surface.heights - np.mean(surface.heights)
     low, high = (float(value) for value in np.percentile(heights, [_BEYOND, 100.0 - _BEYOND]))

@@ -34,20 +34,8 @@ _SELECTED = "chosen point"
 
 
 def figure_of(chart: Chart, chosen: int | None = None) -> dict[str, Any]:
-    """Figure of a sweep: a map over two inputs, a line over one.
-
-    Parameters
-    ----------
-    chart : Chart
-        What the figure shows.
-    chosen : int, optional
-        Number of the chosen point.
-
-    Returns
-    -------
-    dict
-        Data, layout and settings for Plotly. Every trace of points has their numbers as ``customdata``. The
-        last trace marks the chosen point.
+    """Figure of a sweep: a map over two inputs, a line over one. Returns data, layout and settings for
+    Plotly.
     """
     traces = _map(chart) if chart.y is not None else _line(chart)
     return {

@@ -307,13 +307,7 @@ def add(work: Work) -> None:
 
 
 class BearingPage:
-    """Page of one tab.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    """
+    """Page of one tab."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -371,13 +365,7 @@ class BearingPage:
             show_address(self.session.inputs, "/")
 
     def refresh(self) -> asyncio.Future[None]:
-        """Answer the present inputs.
-
-        Returns
-        -------
-        asyncio.Future
-            Ends with the answer at once.
-        """
+        """Answer the present inputs. Returns ends with the answer at once."""
         self.solving.forget()
         return self._ask()
 

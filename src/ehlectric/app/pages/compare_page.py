@@ -48,15 +48,7 @@ _SIGNS = {"=": "equal", "≠": "≠ differs", "only A": "only in A", "only B": "
 
 
 def inputs_table(rows: Sequence[InputRow], labels: Mapping[str, str]) -> str:
-    """Table of the inputs that differ, and of all others in a part that can be opened.
-
-    Parameters
-    ----------
-    rows : sequence of InputRow
-        Inputs of both cases.
-    labels : mapping of str to str
-        Names of the inputs by key.
-    """
+    """Table of the inputs that differ, and of all others in a part that can be opened."""
     differ = [row for row in rows if row.sign != "="]
     equal = [row for row in rows if row.sign == "="]
     first = (
@@ -296,13 +288,7 @@ class ComparePage:
         self.refresh()
 
     def refresh(self) -> asyncio.Task[None]:
-        """Answer both cases at once, and then with their critical speeds.
-
-        Returns
-        -------
-        asyncio.Task
-            Ends with the answers at once.
-        """
+        """Answer both cases at once, and then with their critical speeds."""
         for one in self._answers:
             one.classes(add="old")
         return self._following.ask(self.session.inputs)

@@ -52,13 +52,7 @@ def number_cards(numbers: Iterable[Number], prefix: str = "") -> None:
 
 
 class FigureBox:
-    """Figure with its heading and its caption, which can be replaced by another one of the same name.
-
-    Parameters
-    ----------
-    shown : Shown
-        Figure.
-    """
+    """Figure with its heading and its caption, which can be replaced by another one of the same name."""
 
     def __init__(self, shown: Shown) -> None:
         wide = " wide" if shown.name in _WIDE else ""
@@ -77,26 +71,7 @@ class FigureBox:
 
 
 class CutSlider:
-    """Slider of the browser's own for one coordinate of the point of the cuts.
-
-    Parameters
-    ----------
-    name : str
-        "x" or "y".
-    ends : tuple of float
-        Ends of its range.
-    value : float
-        First value.
-    unit : str
-        Unit.
-    slid : callable
-        Called after its value has changed by the user.
-
-    Attributes
-    ----------
-    value : float
-        Present value.
-    """
+    """Slider of the browser's own for one coordinate of the point of the cuts."""
 
     def __init__(
         self,
@@ -136,13 +111,7 @@ class CutSlider:
 
 
 class ContactViewBox:
-    """Solved contact of a tab, empty at first.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    """
+    """Solved contact of a tab, empty at first."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
@@ -166,15 +135,7 @@ class ContactViewBox:
         self._box.classes(add="old" if old else "", remove="" if old else "old")
 
     def show(self, view: ContactView, folder: Path | None) -> None:
-        """Show a solved contact.
-
-        Parameters
-        ----------
-        view : ContactView
-            Solved contact.
-        folder : Path or None
-            Folder with its files, from which cuts are made; a line contact may have none.
-        """
+        """Show a solved contact."""
         self._folder = folder
         self._box.set_visibility(True)
         self._words.clear()
@@ -299,13 +260,7 @@ def add(work: Work) -> None:
 
 
 class ContactPage:
-    """Page of one tab.
-
-    Attributes
-    ----------
-    session : Session
-        Session of the tab.
-    """
+    """Page of one tab."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

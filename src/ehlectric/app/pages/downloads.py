@@ -48,20 +48,10 @@ _COMMANDS = {"bearing": "bearing", "drive": "drive", "contact": "run", "sweep": 
 class Downloads:
     """Card with the downloads of a page, at the place where it is made.
 
-    Parameters
-    ----------
-    session : Session
-        Session of the tab, whose inputs are downloaded.
-    kind : str
-        "bearing", "drive", "contact" or "sweep".
-    folder : callable, optional
-        Returns the folder of a result of the present inputs that the page has; None, or a folder without
-        files, where there is none and the files are to be made.
-    only_made : bool
-        Whether the card has only what is made from a result: reports, and files for other programs.
+    ``folder``, returns the folder of a result of the present inputs that the page has; None, or a folder
+    without files, where there is none and the files are to be made; ``only_made``, whether the card has only
+    what is made from a result: reports, and files for other programs.
 
-    Notes
-    -----
     The contacts of a bearing's files are not solved, as its page shows them, unless the page has a folder
     with solved contacts.
     """

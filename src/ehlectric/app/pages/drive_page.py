@@ -95,15 +95,7 @@ REMEDIES = "remedies"
 
 
 class RemedyBox:
-    """Group with a box to tick for each usual remedy, and a list of the others of the file.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    change : callable
-        Called with key and new value, as by a form.
-    """
+    """Group with a box to tick for each usual remedy, and a list of the others of the file."""
 
     def __init__(self, session: Session, change: Callable[[str, Any], Awaitable[None]]) -> None:
         self._session, self._change = session, change
@@ -176,15 +168,7 @@ _KEY = "source.file"
 
 
 class WaveformField:
-    """Field for a measured common-mode voltage; build it in the group of the source.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    change : callable
-        Called with changes of the inputs by dotted key.
-    """
+    """Field for a measured common-mode voltage; build it in the group of the source."""
 
     def __init__(self, session: Session, change: Callable[[dict[str, Any]], Awaitable[None]]) -> None:
         self._session, self._change = session, change
@@ -275,13 +259,7 @@ def add(work: Work) -> None:
 
 
 class DrivePage:
-    """Page of one tab.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    """
+    """Page of one tab."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -355,13 +333,7 @@ class DrivePage:
             show_address(self.session.inputs, _PATH)
 
     def refresh(self) -> asyncio.Future[None]:
-        """Answer the present inputs.
-
-        Returns
-        -------
-        asyncio.Future
-            Ends with the answer at once.
-        """
+        """Answer the present inputs. Returns ends with the answer at once."""
         self.solving.forget()
         return self._ask()
 

@@ -28,19 +28,7 @@ _SEND = """async (event) => {
 
 
 class UploadField:
-    """Field for the file of an instrument.
-
-    Parameters
-    ----------
-    take : callable
-        Method of an object of the page, called with the event of NiceGUI that has the uploaded file.
-    refuse : callable
-        Called with a line that says why a file is not taken.
-    name : str
-        Name for tests and for the element of its error, "surface" or another one of the page.
-    label : str
-        Label of the field; that of a surface if not given.
-    """
+    """Field for the file of an instrument. ``label``, label of the field; that of a surface if not given."""
 
     def __init__(
         self,

@@ -29,24 +29,9 @@ _OWN = "~own"
 
 
 class Form:
-    """Fields of a page.
+    """Fields of a page. ``change``, called with key and new value; the value is a whole table where a new
+    input takes the place of others, and None removes the key.
 
-    Parameters
-    ----------
-    groups : sequence of Group
-        Fields under their headings.
-    inputs : Inputs
-        Present inputs.
-    change : callable
-        Called with key and new value; the value is a whole table where a new input takes the place of
-        others, and None removes the key.
-    label : str
-        Name of the form for a screen reader; forms of one page have names of their own.
-    elsewhere : sequence of str
-        Keys that other parts of the page have.
-
-    Notes
-    -----
     While a slider is dragged, a new value waits until the one before is answered, and only the last waiting
     value is sent.
     """

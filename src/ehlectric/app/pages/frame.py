@@ -206,19 +206,7 @@ def address_of(path: str, inputs: Inputs) -> str:
 
 
 class Toolbar:
-    """Toolbar of a page, at the place where it is made.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab, whose inputs are those of the page.
-    path : str
-        Address of the page, such as "/".
-    show : callable
-        Called after the inputs have changed by undo, redo or a file; the page then shows ``session.inputs``.
-    opens : bool
-        Whether files are opened, and other pages with the case.
-    """
+    """Toolbar of a page, at the place where it is made."""
 
     def __init__(self, session: Session, path: str, show: Show, *, opens: bool = True) -> None:
         self.session, self._path, self._show = session, path, show

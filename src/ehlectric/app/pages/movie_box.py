@@ -36,20 +36,7 @@ _FIRST = {**start("moving_roughness").value("motion"), "record": 60}
 
 
 class MovieBox:
-    """Box in which the roughness of a contact is set in motion and shown over time.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    changed : callable, optional
-        Called after the inputs of the session have another table ``motion``.
-
-    Attributes
-    ----------
-    folder : Path or None
-        Folder with the files of the movie, if it is complete and of the present inputs.
-    """
+    """Box in which the roughness of a contact is set in motion and shown over time."""
 
     def __init__(self, session: Session, changed: Changed | None = None) -> None:
         self._session, self._changed = session, changed

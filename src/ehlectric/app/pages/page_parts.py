@@ -28,11 +28,6 @@ def weakly(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
     The framework keeps the routes of uploads, and with them what they call, for long after the page has
     ended. With this function it does not keep the page, too.
 
-    Parameters
-    ----------
-    method : bound method
-        Method of an object that the page keeps, with one argument.
-
     Examples
     --------
     >>> class Page:
@@ -241,12 +236,8 @@ def figure(data: Mapping[str, Any], label: str) -> ui.plotly:
 
 
 class JobBox:
-    """Progress of a job, with a button that cancels it.
-
-    Parameters
-    ----------
-    done : callable
-        Called with the job when it has ended in any way.
+    """Progress of a job, with a button that cancels it. ``done``, called with the job when it has ended in
+    any way.
     """
 
     def __init__(self, done: Callable[[Job], Any]) -> None:

@@ -34,19 +34,7 @@ Changed = Callable[[str, Any], Awaitable[None]]
 
 
 class Keys:
-    """Fields of a table.
-
-    Parameters
-    ----------
-    table : str
-        Name of the table, before the keys in errors and in test marks.
-    keys : sequence of RoughKey
-        Fields in their order.
-    values : mapping
-        Present values by key.
-    changed : callable
-        Called with a key and its new value, None for an empty field.
-    """
+    """Fields of a table. ``changed``, called with a key and its new value, None for an empty field."""
 
     def __init__(
         self, table: str, keys: Sequence[RoughKey], values: Mapping[str, Any], changed: Changed
@@ -176,15 +164,7 @@ _SOURCE = RoughKey("source", "Surface", choices={"file": "from an instrument's f
 
 
 class RoughnessBox:
-    """Box in which rough surfaces are uploaded or made, processed, and put into the inputs.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    changed : callable
-        Called after the inputs of the session have other rough surfaces.
-    """
+    """Box in which rough surfaces are uploaded or made, processed, and put into the inputs."""
 
     def __init__(self, session: Session, changed: RoughnessChanged) -> None:
         self._session, self._changed = session, changed

@@ -30,35 +30,22 @@ A = TypeVar("A", bound=_Answer)
 
 @dataclass(frozen=True)
 class Words:
-    """Texts of a solution.
-
-    Attributes
-    ----------
-    solve : str
-        Button that starts it.
-    show_solved, show_quick : str
-        Buttons that change between its answer and the quick one.
-    back : str
-        Button that goes back to the inputs of the last answer.
-    earlier, running, done : str
-        Sentences on inputs that have changed since: beside a quick answer, while a solution runs, and when it
-        is done.
-    cancelled, failed : str
-        Sentence on a cancelled solution, and words before an error.
-    beyond : str
-        What an error has where only a quick answer lacks what is asked for.
-    """
+    """Texts of a solution."""
 
     solve: str
+    # show_solved and show_quick: buttons that change between its answer and the quick one.
     show_solved: str
     show_quick: str
-    back: str
+    back: str  # button that goes back to the inputs of the last answer
+    # earlier, running and done: sentences on inputs that have changed since: beside a quick answer, while a
+    # solution runs, and when it is done.
     earlier: str
     running: str
     done: str
+    # cancelled and failed: sentence on a cancelled solution, and words before an error.
     cancelled: str
     failed: str
-    beyond: str
+    beyond: str  # what an error has where only a quick answer lacks what is asked for
 
 
 # Solved answers that a tab keeps.
@@ -75,20 +62,8 @@ class _Solved(Generic[A]):
 
 
 class Solving(Generic[A]):
-    """Button that starts a solution, and the answers solved so far by their inputs.
-
-    Parameters
-    ----------
-    call : Call
-        Function with the inputs, the folder of the session, that of the files, and a progress.
-    words : Words
-        Texts.
-    session : Session
-        Session of the tab.
-    changed : callable
-        Called when another answer is to be shown.
-    back : callable
-        Called with inputs to go back to.
+    """Button that starts a solution, and the answers solved so far by their inputs. ``changed``, called when
+    another answer is to be shown.
     """
 
     def __init__(
@@ -137,14 +112,8 @@ class Solving(Generic[A]):
         self._message.set_visibility(False)
 
     def show(self, answer: A | None, error: Exception | None = None) -> None:
-        """Show how an answer was computed, and the buttons that suit it.
-
-        Parameters
-        ----------
-        answer : object or None
-            Answer that is shown; None for inputs that have none.
-        error : Exception, optional
-            Why they have none. Some have no quick answer, and can be solved all the same.
+        """Show how an answer was computed, and the buttons that suit it. ``answer``, answer that is shown;
+        None for inputs that have none.
         """
         solved = self._session.inputs.toml() in self._solved
         self.how.text = "" if answer is None else answer.how

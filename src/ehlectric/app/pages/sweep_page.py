@@ -77,17 +77,7 @@ _SEARCHED = 9
 
 
 class Box:
-    """Text field whose error is told beside it.
-
-    Parameters
-    ----------
-    label, value : str
-        Label and text.
-    test_id : str
-        Name of the field for tests.
-    typed : callable
-        Called with a new text.
-    """
+    """Text field whose error is told beside it."""
 
     def __init__(self, label: str, value: str, test_id: str, typed: Callable[[str], Awaitable[None]]) -> None:
         async def changed() -> None:
@@ -117,17 +107,7 @@ class Box:
 
 
 class RangesForm:
-    """Form of a sweep.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        Present inputs.
-    choices : SweepChoices or None
-        What may vary; None where the base case is not valid.
-    change : callable
-        Called with new inputs.
-    """
+    """Form of a sweep. ``choices``, what may vary; None where the base case is not valid."""
 
     def __init__(self, inputs: Inputs, choices: SweepChoices | None, change: Change) -> None:
         self._inputs, self._choices, self._change = inputs, choices, change
@@ -371,20 +351,7 @@ _FEW = 200
 
 
 class MapPart:
-    """Map of a sweep with its table.
-
-    Parameters
-    ----------
-    session : Session
-        Session of the tab.
-    shown : callable
-        Called with the dotted key of the result that shall be shown.
-
-    Attributes
-    ----------
-    shown : str
-        Dotted key of the shown result.
-    """
+    """Map of a sweep with its table."""
 
     def __init__(self, session: Session, shown: Callable[[str], Awaitable[None]]) -> None:
         self.session = session

@@ -52,23 +52,9 @@ _DEGREE = 24
 
 
 def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inner: bool) -> float:
-    """Stiffness K of Q = K delta^(3/2), from the exact Hertz ellipse of a ball and a ring.
-
-    Parameters
-    ----------
-    bearing : BallBearing
-        Geometry of the bearing.
-    modulus : float
-        Reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    angle : float
-        Contact angle [rad].
-    inner : bool
-        Whether the contact is with the inner ring.
-
-    Returns
-    -------
-    float
-        Stiffness K [N/m^(3/2)].
+    """Stiffness K of Q = K delta^(3/2), from the exact Hertz ellipse of a ball and a ring. ``modulus``,
+    reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; ``angle`` [rad].
+    Returns stiffness K [N/m^(3/2)].
 
     Examples
     --------
@@ -86,18 +72,8 @@ def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inn
 @lru_cache(maxsize=32)
 def stiffness_laws(bearing: BallBearing, modulus: float) -> tuple[Chebyshev, Chebyshev]:
     """Polynomials of log K in the cosine of the contact angle, for the inner and the outer contact.
-
-    Parameters
-    ----------
-    bearing : BallBearing
-        Geometry of the bearing.
-    modulus : float
-        Reduced modulus E' of ball and ring [Pa].
-
-    Returns
-    -------
-    inner, outer : Chebyshev
-        Natural logarithm of K [N/m^(3/2)] over the cosine, from 0 to 1.
+    ``modulus``, reduced modulus E' of ball and ring [Pa]. Returns natural logarithm of K [N/m^(3/2)] over the
+    cosine, from 0 to 1.
     """
 
     def law(*, inner: bool) -> Chebyshev:
@@ -130,24 +106,16 @@ _NUDGE = 4e-16
 
 @dataclass(frozen=True)
 class Contacts:
-    """Contacts of n balls with one groove.
+    """Contacts of n balls with one groove."""
 
-    Attributes
-    ----------
-    normal : ndarray, shape (n, 2)
-        Unit vector n along the contact: from the centre of the outer groove to the ball, or from the ball to
-        the centre of the inner groove.
-    depth : ndarray, shape (n,)
-        Elastic approach [m]; where the ball does not touch, it is negative, the gap with a minus sign.
-    load : ndarray, shape (n,)
-        Load Q [N].
-    tangent : ndarray, shape (n, 2, 2)
-        Derivative of the force Q n by the vector between the centres of ball and groove [N/m].
-    """
-
+    # Unit vector n along the contact: from the centre of the outer groove to the ball, or from the ball to
+    # the centre of the inner groove, shape (n, 2).
     normal: Array
+    # Elastic approach [m]; where the ball does not touch, it is negative, the gap with a minus sign,
+    # shape (n,).
     depth: Array
-    load: Array
+    load: Array  # load Q [N], shape (n,)
+    # Derivative of the force Q n by the vector between the centres of ball and groove [N/m], shape (n, 2, 2).
     tangent: Array
 
     @classmethod
@@ -173,23 +141,16 @@ class Contacts:
 
 @dataclass(frozen=True)
 class Grooves:
-    """Grooves of both rings, and contact stiffnesses of n balls.
+    """Grooves of both rings, and contact stiffnesses of n balls."""
 
-    Attributes
-    ----------
-    inner_offset, outer_offset : float
-        Distance (f - 1/2) D between the centres of ball and groove at first touch [m].
-    inner_stiffness, outer_stiffness : ndarray, shape (n,)
-        Stiffness K of the contacts of each ball [N/m^(3/2)].
-    outward : float
-        Centrifugal force on each ball [N]; zero at rest.
-    """
-
+    # inner_offset and outer_offset: distance (f - 1/2) D between the centres of ball and groove at first
+    # touch [m].
     inner_offset: float
     outer_offset: float
+    # inner_stiffness and outer_stiffness: stiffness K of the contacts of each ball [N/m^(3/2)], shape (n,).
     inner_stiffness: Array
     outer_stiffness: Array
-    outward: float
+    outward: float  # centrifugal force on each ball [N]; zero at rest
 
     def contacts(self, p: Array, g: Array, chosen: Mask | slice = slice(None)) -> tuple[Contacts, Contacts]:
         """Inner and outer contacts of balls at p, with the groove centres at 0 and g, shape (n, 2)."""
@@ -199,20 +160,10 @@ class Grooves:
 
 @dataclass(frozen=True)
 class Seats:
-    """Positions and contacts of n balls between two grooves.
+    """Positions and contacts of n balls between two grooves."""
 
-    Attributes
-    ----------
-    place : ndarray, shape (n, 2)
-        Position p of the ball's centre [m].
-    held : ndarray of bool, shape (n,)
-        Whether the ball is loaded by both grooves.
-    inner, outer : Contacts
-        Contacts with the inner and the outer groove.
-    """
-
-    place: Array
-    held: Mask
+    place: Array  # position p of the ball's centre [m], shape (n, 2)
+    held: Mask  # whether the ball is loaded by both grooves, shape (n,)
     inner: Contacts
     outer: Contacts
 
@@ -330,19 +281,7 @@ def seat(grooves: Grooves, g: Array, guess: Seats | None = None) -> Seats:
     At speed, a ball that does not touch the inner groove lies at the bottom of the outer groove, where
     centrifugal force presses it. At rest, an unloaded ball lies in the middle of its clearance.
 
-    Parameters
-    ----------
-    grooves : Grooves
-        Grooves and contact stiffnesses of n balls.
-    g : ndarray, shape (n, 2)
-        Centre of the inner groove at each ball, axial and radial [m].
-    guess : Seats or None
-        Seats at groove centres close to ``g``, as an initial guess.
-
-    Returns
-    -------
-    Seats
-        Positions and contacts of the n balls.
+    ``g``, centre of the inner groove at each ball, axial and radial [m], shape (n, 2).
 
     Examples
     --------
@@ -371,17 +310,8 @@ def lean_outward(grooves: Grooves, g: Array) -> Array:
     A ball lies at the bottom of the outer groove. Where the inner groove is in the way, the ball lies in the
     corner where it touches both grooves.
 
-    Parameters
-    ----------
-    grooves : Grooves
-        Grooves and contact stiffnesses of n balls.
-    g : ndarray, shape (n, 2)
-        Centre of the inner groove at each ball, axial and radial [m].
-
-    Returns
-    -------
-    ndarray, shape (n, 2)
-        Position p of each ball [m].
+    ``g``, centre of the inner groove at each ball, axial and radial [m], shape (n, 2). Returns position p of
+    each ball [m], shape (n, 2).
 
     Examples
     --------
@@ -412,61 +342,40 @@ _REACH = 0.1
 
 @dataclass(frozen=True)
 class BallEquilibrium:
-    """Ball bearing in equilibrium. Arrays have one value per ball, shape (n,).
+    """Ball bearing in equilibrium. Arrays have one value per ball, shape (n,)."""
 
-    Attributes
-    ----------
-    position : ndarray
-        Angle of the ball from the direction of the radial load [rad].
-    inner_load, outer_load : ndarray
-        Load Q of both contacts [N].
-    inner_angle, outer_angle : ndarray
-        Angle of both contacts [rad]; where a ball does not touch, angle of the smallest gap.
-    inner_approach, outer_approach : ndarray
-        Elastic approach of ball and ring in the contact [m]; 0 where they do not touch.
-    inner_gap, outer_gap : ndarray
-        Smallest distance between ball and groove [m]; 0 where they touch.
-    speeds : Speeds
-        Speeds of each ball in pure rolling at the mean of its two contact angles.
-    gyroscopic_moment : ndarray
-        Gyroscopic moment of each ball [N m]; its effect is neglected.
-    cage_speed : float
-        Mean orbital speed of the balls, weighted with their load on the inner ring [rad/s].
-    centrifugal_force : float
-        Centrifugal force on each ball at ``cage_speed`` [N].
-    axial_displacement : float
-        Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0.
-    radial_displacement, lateral_displacement : float
-        Displacement of the inner ring along the radial load, and towards the angle of 90 deg [m].
-    moment, lateral_moment : float
-        Moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos psi and sin psi [N m].
-        They are about the centre of the circle of inner groove centres; R_i is its radius.
-    residual : float
-        Largest unbalanced force on ring or ball over the sum of load and centrifugal force, dimensionless.
-    iterations : int
-        Number of Newton steps for the ring.
-    """
-
-    position: Array
+    position: Array  # angle of the ball from the direction of the radial load [rad]
+    # inner_load and outer_load: load Q of both contacts [N].
     inner_load: Array
     outer_load: Array
+    # inner_angle and outer_angle: angle of both contacts [rad]; where a ball does not touch, angle of the
+    # smallest gap.
     inner_angle: Array
     outer_angle: Array
+    # inner_approach and outer_approach: elastic approach of ball and ring in the contact [m]; 0 where they do
+    # not touch.
     inner_approach: Array
     outer_approach: Array
+    # inner_gap and outer_gap: smallest distance between ball and groove [m]; 0 where they touch.
     inner_gap: Array
     outer_gap: Array
-    speeds: Speeds
-    gyroscopic_moment: Array
-    cage_speed: float
-    centrifugal_force: float
+    speeds: Speeds  # speeds of each ball in pure rolling at the mean of its two contact angles
+    gyroscopic_moment: Array  # gyroscopic moment of each ball [N m]; its effect is neglected
+    cage_speed: float  # mean orbital speed of the balls, weighted with their load on the inner ring [rad/s]
+    centrifugal_force: float  # centrifugal force on each ball at ``cage_speed`` [N]
+    # Displacement of the inner ring from where both grooves face each other [m]; play up to A sin a_0
     axial_displacement: float
+    # radial_displacement and lateral_displacement: displacement of the inner ring along the radial load, and
+    # towards the angle of 90 deg [m].
     radial_displacement: float
     lateral_displacement: float
+    # moment and lateral_moment: moments that keep the ring from tilting, sums of R_i Q_i sin a_i times cos
+    # psi and sin psi [N m].
     moment: float
     lateral_moment: float
+    # Largest unbalanced force on ring or ball over the sum of load and centrifugal force, dimensionless.
     residual: float
-    iterations: int
+    iterations: int  # number of Newton steps for the ring
 
     def ring(self, *, inner: bool) -> RingLoads:
         """Contacts of all balls with the inner or the outer ring in equilibrium."""
@@ -678,31 +587,10 @@ def ball_equilibrium(
     speed, a ball without load from the inner ring lies in the outer groove under its centrifugal force, and
     its clearance is at the inner ring.
 
-    Parameters
-    ----------
-    bearing : BallBearing
-        Geometry of the bearing.
-    operation : Operation
-        Loads, speeds of the rings, and position of the cage.
-    modulus : float
-        Reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    density : float
-        Density of the balls [kg/m^3].
-    unloaded : str
-        Position of unloaded balls in a bearing at rest, without gravity: "centred", between equal gaps, or
-        "outer", at the outer ring, as in slow rotation.
-
-    Returns
-    -------
-    BallEquilibrium
-        Forces that balance to 1e-9 of the load plus the centrifugal force.
-
-    Raises
-    ------
-    InputError
-        Where the bearing cannot carry the load, or ``unloaded`` has another value.
-    ConvergenceError
-        Where the iteration does not converge.
+    ``modulus``, reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2;
+    ``density`` [kg/m^3]. Returns forces that balance to 1e-9 of the load plus the centrifugal force. Raises
+    InputError where the bearing cannot carry the load, or ``unloaded`` has another value; ConvergenceError
+    where the iteration does not converge.
 
     Examples
     --------

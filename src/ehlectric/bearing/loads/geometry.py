@@ -32,18 +32,12 @@ _SHORT = 2.5
 
 @dataclass(frozen=True)
 class ContactRadii:
-    """Radii of a rolling element and a ring at their contact, positive if convex, infinite if straight.
+    """Radii of a rolling element and a ring at their contact, positive if convex, infinite if straight."""
 
-    Attributes
-    ----------
-    element_x, element_y : float
-        Radii of the rolling element, in the rolling direction and across it [m].
-    ring_x, ring_y : float
-        Radii of the ring, in the rolling direction and across it [m].
-    """
-
+    # element_x and element_y: radii of the rolling element, in the rolling direction and across it [m].
     element_x: float
     element_y: float
+    # ring_x and ring_y: radii of the ring, in the rolling direction and across it [m].
     ring_x: float
     ring_y: float
 
@@ -90,28 +84,9 @@ class BallBearing:
 
     Either the radial clearance or the free contact angle is given; the other follows.
 
-    Attributes
-    ----------
-    elements : int
-        Number of balls.
-    ball_diameter, pitch_diameter : float
-        Ball diameter D and pitch diameter d_m [m]. d_m is the mean of both raceway diameters at the bottom
-        of the grooves.
-    inner_groove, outer_groove : float
-        Osculation f_i and f_o: radius of the groove over the diameter of the ball, above 0.5.
-    radial_clearance : float or None
-        Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
-    contact_angle : float or None
-        Free contact angle a_0, at which ball and grooves just touch without load [rad].
+    Raises InputError where the balls do not fit on their pitch circle, a value is out of range, or not
+    exactly one of clearance and contact angle is given.
 
-    Raises
-    ------
-    InputError
-        Where the balls do not fit on their pitch circle, a value is out of range, or not exactly one of
-        clearance and contact angle is given.
-
-    Notes
-    -----
     T. A. Harris and M. N. Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 2,
     doi:10.1201/9781420006599.
 
@@ -127,11 +102,17 @@ class BallBearing:
     """
 
     elements: int
+    # ball_diameter and pitch_diameter: ball diameter D and pitch diameter d_m [m]. d_m is the mean of both
+    # raceway diameters at the bottom of the grooves.
     ball_diameter: float
     pitch_diameter: float
+    # inner_groove and outer_groove: osculation f_i and f_o: radius of the groove over the diameter of the
+    # ball, above 0.5
     inner_groove: float
     outer_groove: float
+    # Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
     radial_clearance: float | None = None
+    # Free contact angle a_0, at which ball and grooves just touch without load [rad].
     contact_angle: float | None = None
 
     def __post_init__(self) -> None:
@@ -218,25 +199,8 @@ class BallBearing:
 
 @dataclass(frozen=True)
 class RollerBearing:
-    """Cylindrical roller bearing with one row of rollers.
-
-    Attributes
-    ----------
-    elements : int
-        Number of rollers.
-    roller_diameter, pitch_diameter : float
-        Roller diameter D and pitch diameter d_m [m]. d_m is the mean of both raceway diameters.
-    roller_length : float
-        Effective length L of the rollers [m].
-    radial_clearance : float
-        Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
-    profile : str
-        "none" for straight rollers, or "logarithmic" for the profile of ISO/TS 16281.
-
-    Raises
-    ------
-    InputError
-        Where the rollers do not fit on their pitch circle, or the profile is unknown.
+    """Cylindrical roller bearing with one row of rollers. Raises InputError where the rollers do not fit on
+    their pitch circle, or the profile is unknown.
 
     Examples
     --------
@@ -248,10 +212,14 @@ class RollerBearing:
     """
 
     elements: int
+    # roller_diameter and pitch_diameter: roller diameter D and pitch diameter d_m [m]. d_m is the mean of
+    # both raceway diameters.
     roller_diameter: float
     pitch_diameter: float
-    roller_length: float
+    roller_length: float  # effective length L of the rollers [m]
+    # Radial internal clearance, the full diametral play P_d [m]; negative with a radial preload.
     radial_clearance: float
+    # "none" for straight rollers, or "logarithmic" for the profile of ISO/TS 16281
     profile: str = "logarithmic"
 
     def __post_init__(self) -> None:
@@ -265,18 +233,9 @@ class RollerBearing:
         For L up to 2.5 D it is P(x) = 0.00035 D ln(1/(1 - (2 x/L)^2)). Longer rollers are straight except for
         1.25 D at either end, where P(x) = 0.0005 D ln(1/(1 - ((2 abs(x) - L)/(2.5 D) + 1)^2)).
 
-        Parameters
-        ----------
-        position : array_like, shape (n,)
-            Position x along the roller, from its middle, within L/2 [m].
+        ``position``, position x along the roller, from its middle, within L/2 [m], shape (n,). Returns relief
+        P [m]; it grows without bound towards the ends, shape (n,).
 
-        Returns
-        -------
-        ndarray, shape (n,)
-            Relief P [m]; it grows without bound towards the ends.
-
-        Notes
-        -----
         ISO/TS 16281:2008, profile functions of cylindrical rollers.
 
         Examples
@@ -322,21 +281,12 @@ Geometry: TypeAlias = BallBearing | RollerBearing
 
 @dataclass(frozen=True)
 class Speeds:
-    """Speeds of cage, elements and contacts in pure rolling.
+    """Speeds of cage, elements and contacts in pure rolling."""
 
-    Attributes
-    ----------
-    cage : Array or float
-        Angular speed of the element's centre about the axis of the bearing [rad/s].
-    spin : Array or float
-        Angular speed of the element about its own axis, relative to the cage [rad/s]. It is not the spinning
-        motion about the normal of a contact, which these formulas leave out.
-    inner_entrainment, outer_entrainment : Array or float
-        Entrainment speed (u1 + u2)/2, with the speeds of both surfaces relative to the contact [m/s].
-    """
-
-    cage: Array | float
-    spin: Array | float
+    cage: Array | float  # angular speed of the element's centre about the axis of the bearing [rad/s]
+    spin: Array | float  # angular speed of the element about its own axis, relative to the cage [rad/s]
+    # inner_entrainment and outer_entrainment: entrainment speed (u1 + u2)/2, with the speeds of both surfaces
+    # relative to the contact [m/s].
     inner_entrainment: Array | float
     outer_entrainment: Array | float
 
@@ -355,22 +305,10 @@ def rolling_speeds(
     at w_i - w_c relative to the cage. The outer raceway, with the radius d_m (1 + g)/2, turns at w_c - w_o in
     the other sense. The surface speed of both is the entrainment speed, (w_i - w_o) (1 - g^2) d_m/4.
 
-    Parameters
-    ----------
-    element_diameter, pitch_diameter : float
-        Diameter D of the element and pitch diameter d_m [m].
-    inner_speed, outer_speed : float
-        Angular speeds w_i and w_o of the rings [rad/s].
-    contact_angle : array_like, shape (...)
-        Contact angle a [rad].
+    ``element_diameter`` and ``pitch_diameter``, diameter D of the element and pitch diameter d_m [m];
+    ``inner_speed`` and ``outer_speed``, angular speeds w_i and w_o of the rings [rad/s]; ``contact_angle``
+    [rad], shape (...). Returns speeds, shape (...).
 
-    Returns
-    -------
-    Speeds
-        Speeds, shape (...).
-
-    Notes
-    -----
     T. A. Harris and M. N. Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 10,
     doi:10.1201/9781420006599. The ball's own axis is perpendicular to the line of contact.
 
@@ -391,21 +329,9 @@ def rolling_speeds(
 
 
 def centrifugal_force(mass: float, pitch_diameter: float, cage_speed: float) -> float:
-    """Centrifugal force of an element, m (d_m/2) w_c^2.
-
-    Parameters
-    ----------
-    mass : float
-        Mass m of the element [kg].
-    pitch_diameter : float
-        Pitch diameter d_m [m].
-    cage_speed : float
-        Angular speed w_c of the cage [rad/s].
-
-    Returns
-    -------
-    float
-        Centrifugal force [N].
+    """Centrifugal force of an element, m (d_m/2) w_c^2. ``mass``, mass m of the element [kg];
+    ``pitch_diameter``, pitch diameter d_m [m]; ``cage_speed``, angular speed w_c of the cage [rad/s]. Returns
+    centrifugal force [N].
 
     Examples
     --------
@@ -421,22 +347,9 @@ def gyroscopic_moment(mass: float, diameter: float, speeds: Speeds, contact_angl
     The ball's own axis is taken perpendicular to the line of contact. An axis closer to the axis of the
     bearing, as with outer raceway control, makes the moment smaller.
 
-    Parameters
-    ----------
-    mass, diameter : float
-        Mass m [kg] and diameter D [m] of the ball.
-    speeds : Speeds
-        Speeds of the ball: w_s about its own axis, and w_c of the cage.
-    contact_angle : array_like, shape (...)
-        Contact angle a [rad].
+    ``mass`` and ``diameter``, mass m [kg] and diameter D [m] of the ball; ``contact_angle`` [rad],
+    shape (...). Returns gyroscopic moment [N m], shape (...).
 
-    Returns
-    -------
-    ndarray, shape (...)
-        Gyroscopic moment [N m].
-
-    Notes
-    -----
     T. A. Harris and M. N. Kotzalas, Advanced Concepts of Bearing Technology, 5th ed., 2006, chapter 3,
     doi:10.1201/9781420006582.
 

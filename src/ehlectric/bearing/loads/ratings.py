@@ -40,18 +40,8 @@ def static_factor(ratio: float) -> float:
     A ball of one millimetre loads both grooves to 4200 MPa, with radii of 0.52 D on the inner and 0.53 D on
     the outer ring. f_0 is a fifth of the smaller of both loads.
 
-    Parameters
-    ----------
-    ratio : float
-        D cos(a)/d_m, ball diameter by the cosine of the contact angle, over pitch diameter; 0 to 0.5.
+    Returns f_0 [N/mm^2], between 7 and 17.
 
-    Returns
-    -------
-    float
-        f_0 [N/mm^2], between 7 and 17.
-
-    Notes
-    -----
     The numbers follow from Hertz' formulas. They reproduce the 41 values from 0 to 0.4 of the table of ISO 76
     to 0.06, the table as read in a public JavaScript program for bearings, function
     ``sfereRadiali``; its value at 0.06, 15.7 between 15.7 and 16.1, is left out.
@@ -75,18 +65,8 @@ def dynamic_factor(ratio: float) -> float:
     f_c = K (1 + b^(10/3))^(-3/10) g^0.3 (1 - g)^1.39/(1 + g)^(1/3) (2 f/(2 f - 1))^0.41 with g the ratio,
     b = 1.04 ((1 - g)/(1 + g))^1.72 and f = 0.52 of both grooves.
 
-    Parameters
-    ----------
-    ratio : float
-        g = D cos(a)/d_m, ball diameter by the cosine of the contact angle, over pitch diameter; above 0.
+    Returns f_c [N/mm^1.8].
 
-    Returns
-    -------
-    float
-        f_c [N/mm^1.8].
-
-    Notes
-    -----
     Formula of Lundberg and Palmgren, as two public programs quote it, with K = 37.91. The K here, 38.2, is
     0.95 of 0.41 of 98.0665 N: with it, the 40 values from 0.01 to 0.4 of the table of ISO 281 come out to
     0.15 %, the table as read in the program that `static_factor` names.
@@ -108,18 +88,8 @@ def roller_dynamic_factor(ratio: float) -> float:
     f_c = K (1 + b^(9/2))^(-2/9) g^(2/9) (1 - g)^(29/27)/(1 + g)^(1/4) with K = 207.9 by 0.83, g the ratio and
     b = 1.04 ((1 - g)/(1 + g))^(143/108).
 
-    Parameters
-    ----------
-    ratio : float
-        g = D/d_m, roller diameter over pitch diameter; above 0.
+    Returns f_c [N/mm^(50/27)].
 
-    Returns
-    -------
-    float
-        f_c [N/mm^(50/27)].
-
-    Notes
-    -----
     Formula of Lundberg and Palmgren, as quoted with 207 and 208 by two public programs.
 
     Examples
@@ -137,21 +107,9 @@ def roller_dynamic_factor(ratio: float) -> float:
 def ball_static_rating(
     elements: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
 ) -> float:
-    """Basic static radial load rating of a ball bearing, C_0r = f_0 Z D^2 cos(a) of ISO 76.
-
-    Parameters
-    ----------
-    elements : int
-        Number Z of balls.
-    ball_diameter, pitch_diameter : float
-        Ball diameter D and pitch diameter d_m [m].
-    contact_angle : float, optional
-        Contact angle a [rad].
-
-    Returns
-    -------
-    float
-        C_0r [N].
+    """Basic static radial load rating of a ball bearing, C_0r = f_0 Z D^2 cos(a) of ISO 76. ``ball_diameter``
+    and ``pitch_diameter``, ball diameter D and pitch diameter d_m [m]; ``contact_angle`` [rad]. Returns C_0r
+    [N].
 
     Examples
     --------
@@ -172,19 +130,8 @@ def ball_dynamic_rating(
 
     C_r = b_m f_c cos(a)^0.7 Z^(2/3) D^1.8 with b_m = 1.3, and 3.647 D^1.4 in place of D^1.8 above 25.4 mm.
 
-    Parameters
-    ----------
-    elements : int
-        Number Z of balls.
-    ball_diameter, pitch_diameter : float
-        Ball diameter D and pitch diameter d_m [m].
-    contact_angle : float, optional
-        Contact angle a [rad].
-
-    Returns
-    -------
-    float
-        C_r [N].
+    ``ball_diameter`` and ``pitch_diameter``, ball diameter D and pitch diameter d_m [m]; ``contact_angle``
+    [rad]. Returns C_r [N].
 
     Examples
     --------
@@ -204,18 +151,8 @@ def roller_static_rating(
     elements: int, roller_diameter: float, pitch_diameter: float, length: float
 ) -> float:
     """Basic static load rating of a cylindrical roller bearing, C_0r = 44 (1 - D/d_m) Z L D of ISO 76.
-
-    Parameters
-    ----------
-    elements : int
-        Number Z of rollers.
-    roller_diameter, pitch_diameter, length : float
-        Roller diameter D, pitch diameter d_m, and effective length L of a roller [m].
-
-    Returns
-    -------
-    float
-        C_0r [N].
+    ``roller_diameter``, ``pitch_diameter`` and ``length``, roller diameter D, pitch diameter d_m, and
+    effective length L of a roller [m]. Returns C_0r [N].
 
     Examples
     --------
@@ -235,17 +172,8 @@ def roller_dynamic_rating(
 
     C_r = b_m f_c L^(7/9) Z^(3/4) D^(29/27) with b_m = 1.1.
 
-    Parameters
-    ----------
-    elements : int
-        Number Z of rollers.
-    roller_diameter, pitch_diameter, length : float
-        Roller diameter D, pitch diameter d_m, and effective length L of a roller [m].
-
-    Returns
-    -------
-    float
-        C_r [N].
+    ``roller_diameter``, ``pitch_diameter`` and ``length``, roller diameter D, pitch diameter d_m, and
+    effective length L of a roller [m]. Returns C_r [N].
 
     Examples
     --------

@@ -39,55 +39,28 @@ _FLAT = 1e-13
 
 @dataclass(frozen=True)
 class RingLoads:
-    """Contacts of all elements with one ring in equilibrium.
+    """Contacts of all elements with one ring in equilibrium."""
 
-    Attributes
-    ----------
-    load : ndarray, shape (n,)
-        Load of each contact [N].
-    angle : ndarray, shape (n,)
-        Contact angle of each element [rad]; zero for rollers.
-    approach : ndarray, shape (n,)
-        Elastic approach of element and ring in the contact [m]; 0 where they do not touch.
-    gap : ndarray, shape (n,)
-        Distance between element and ring [m]; 0 where they touch.
-    entrainment_speed : ndarray, shape (n,)
-        Entrainment speed in pure rolling [m/s].
-    """
-
-    load: Array
-    angle: Array
+    load: Array  # load of each contact [N], shape (n,)
+    angle: Array  # contact angle of each element [rad]; zero for rollers, shape (n,)
+    # Elastic approach of element and ring in the contact [m]; 0 where they do not touch, shape (n,).
     approach: Array
-    gap: Array
-    entrainment_speed: Array
+    gap: Array  # distance between element and ring [m]; 0 where they touch, shape (n,)
+    entrainment_speed: Array  # entrainment speed in pure rolling [m/s], shape (n,)
 
 
 @dataclass(frozen=True)
 class Operation:
-    """Loads on a bearing, speeds of its rings, and the position of its cage.
-
-    Attributes
-    ----------
-    radial_load : float
-        Radial load on the inner ring, towards the angle 0 [N].
-    axial_load : float
-        Axial load on the inner ring, towards positive axial positions [N].
-    inner_speed, outer_speed : float
-        Angular speeds of the rings [rad/s].
-    cage_angle : float
-        Angle of the first element from the direction of the radial load [rad].
-
-    Raises
-    ------
-    InputError
-        Where the radial load is negative, or there is no load: then the position of the ring is arbitrary.
+    """Loads on a bearing, speeds of its rings, and the position of its cage. Raises InputError where the
+    radial load is negative, or there is no load: then the position of the ring is arbitrary.
     """
 
-    radial_load: float
-    axial_load: float = 0.0
+    radial_load: float  # radial load on the inner ring, towards the angle 0 [N]
+    axial_load: float = 0.0  # axial load on the inner ring, towards positive axial positions [N]
+    # inner_speed and outer_speed: angular speeds of the rings [rad/s].
     inner_speed: float = 0.0
     outer_speed: float = 0.0
-    cage_angle: float = 0.0
+    cage_angle: float = 0.0  # angle of the first element from the direction of the radial load [rad]
 
     def __post_init__(self) -> None:
         if self.radial_load < 0.0:
@@ -133,30 +106,11 @@ def balance(
 ) -> tuple[Array, float, int]:
     """Displacement of a ring at which the forces of its elements balance the load.
 
-    Parameters
-    ----------
-    reaction : callable
-        Function of the displacement, shape (n,) [m]. It returns the force of the elements, shape (n,) [N],
-        and its derivative, shape (n, n) [N/m], which is symmetric and positive semidefinite.
-    load : ndarray, shape (n,)
-        Load on the ring [N].
-    start : ndarray, shape (n,)
-        Initial guess of the displacement [m].
-    reach : float
-        Largest component of the first step [m]; it grows where the ring moves freely.
-    scale : float
-        Force that the residual is relative to [N].
-    aim : float
-        Residual at which the iteration ends.
-
-    Returns
-    -------
-    position : ndarray, shape (n,)
-        Displacement [m].
-    residual : float
-        Largest component of the imbalance over ``scale``; above ``GOOD`` the iteration did not converge.
-    iterations : int
-        Number of Newton steps.
+    ``reaction``, function of the displacement, shape (n,) [m]; ``load`` [N], shape (n,); ``start``, initial
+    guess of the displacement [m], shape (n,); ``reach``, largest component of the first step [m]; it grows
+    where the ring moves freely; ``scale``, force that the residual is relative to [N]. Returns ``position``,
+    displacement [m], shape (n,); ``residual``, largest component of the imbalance over ``scale``; above
+    ``GOOD`` the iteration did not converge; ``iterations``, number of Newton steps.
 
     Examples
     --------

@@ -39,50 +39,34 @@ _MOST_STEPS = 100
 
 @dataclass(frozen=True)
 class RollerEquilibrium:
-    """Roller bearing in equilibrium. Arrays have one value per roller, shape (n,), unless stated.
+    """Roller bearing in equilibrium. Arrays have one value per roller, shape (n,), unless stated."""
 
-    Attributes
-    ----------
-    position : ndarray
-        Angle of the roller from the direction of the radial load [rad].
-    inner_load, outer_load : ndarray
-        Load of both contacts [N].
-    slice_position : ndarray, shape (m,)
-        Position of the middle of each slice, from the middle of the roller [m].
-    inner_line_load, outer_line_load : ndarray, shape (n, m)
-        Load of each slice per length [N/m].
-    inner_approach, outer_approach : ndarray
-        Elastic approach of ring and roller at the middle of the roller [m]; 0 where they do not touch.
-    inner_gap, outer_gap : ndarray
-        Distance between the raceway and the middle of the roller [m]; 0 where they touch.
-    speeds : Speeds
-        Speeds of cage, rollers and contacts in pure rolling.
-    centrifugal_force : float
-        Centrifugal force on each roller [N].
-    radial_displacement, lateral_displacement : float
-        Displacement of the inner ring along the radial load, and towards the angle of 90 deg [m].
-    residual : float
-        Largest unbalanced force on ring or roller over the sum of load and centrifugal force, dimensionless.
-    iterations : int
-        Number of Newton steps for the ring.
-    """
-
-    position: Array
+    position: Array  # angle of the roller from the direction of the radial load [rad]
+    # inner_load and outer_load: load of both contacts [N].
     inner_load: Array
     outer_load: Array
+    # Position of the middle of each slice, from the middle of the roller [m], shape (m,).
     slice_position: Array
+    # inner_line_load and outer_line_load: load of each slice per length [N/m], shape (n, m).
     inner_line_load: Array
     outer_line_load: Array
+    # inner_approach and outer_approach: elastic approach of ring and roller at the middle of the roller [m];
+    # 0 where they do not touch.
     inner_approach: Array
     outer_approach: Array
+    # inner_gap and outer_gap: distance between the raceway and the middle of the roller [m]; 0 where they
+    # touch.
     inner_gap: Array
     outer_gap: Array
-    speeds: Speeds
-    centrifugal_force: float
+    speeds: Speeds  # speeds of cage, rollers and contacts in pure rolling
+    centrifugal_force: float  # [N]
+    # radial_displacement and lateral_displacement: displacement of the inner ring along the radial load, and
+    # towards the angle of 90 deg [m].
     radial_displacement: float
     lateral_displacement: float
+    # Largest unbalanced force on ring or roller over the sum of load and centrifugal force, dimensionless.
     residual: float
-    iterations: int
+    iterations: int  # number of Newton steps for the ring
 
     # Cylindrical rollers carry no axial load, do not tilt the ring, and have no gyroscopic moment.
     axial_displacement: ClassVar[None] = None
@@ -111,17 +95,8 @@ def line_stiffness(length: float, modulus: float) -> float:
     which the approach is proportional to (Q/E')^(9/10); c_L is therefore proportional to E'. The steel of the
     standard is assumed to have an elastic modulus of 206 GPa and Poisson's ratio 0.3.
 
-    Parameters
-    ----------
-    length : float
-        Effective length L of the roller [m].
-    modulus : float
-        Reduced modulus E' of roller and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-
-    Returns
-    -------
-    float
-        Stiffness c_L [N/m^(10/9)].
+    ``length``, effective length L of the roller [m]; ``modulus``, reduced modulus E' of roller and ring [Pa],
+    with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Returns stiffness c_L [N/m^(10/9)].
 
     Examples
     --------
@@ -136,21 +111,11 @@ def line_stiffness(length: float, modulus: float) -> float:
 
 @dataclass(frozen=True)
 class _Rollers:
-    """Rollers between two raceways.
+    """Rollers between two raceways."""
 
-    Attributes
-    ----------
-    stiffness : float
-        Stiffness of one slice in one contact [N/m^(10/9)].
-    relief : ndarray, shape (m,)
-        Relief of each slice [m].
-    outward : float
-        Centrifugal force on each roller [N].
-    """
-
-    stiffness: float
-    relief: Array
-    outward: float
+    stiffness: float  # stiffness of one slice in one contact [N/m^(10/9)]
+    relief: Array  # relief of each slice [m], shape (m,)
+    outward: float  # centrifugal force on each roller [N]
 
     @cached_property
     def least_relief(self) -> float:
@@ -261,33 +226,10 @@ def roller_equilibrium(
     in series, so c is 2^(10/9) c_L over the number of slices. The outer contact also carries the centrifugal
     force.
 
-    Parameters
-    ----------
-    bearing : RollerBearing
-        Geometry of the bearing.
-    operation : Operation
-        Loads, speeds of the rings, and position of the cage.
-    modulus : float
-        Reduced modulus E' of roller and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-    density : float
-        Density of the rollers [kg/m^3].
-    unloaded : str
-        Position of unloaded rollers in a bearing at rest, without gravity: "centred", between equal gaps, or
-        "outer", at the outer ring. At speed they lie at the outer ring.
-    slices : int
-        Number of slices of a roller, odd and at least 31.
-
-    Returns
-    -------
-    RollerEquilibrium
-        Forces that balance to 1e-9 of the load plus the centrifugal force.
-
-    Raises
-    ------
-    InputError
-        Where the bearing cannot carry the load, or an option is out of range.
-    ConvergenceError
-        Where the iteration does not converge.
+    ``modulus``, reduced modulus E' of roller and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2;
+    ``density`` [kg/m^3]; ``slices``, number of slices of a roller, odd and at least 31. Returns forces that
+    balance to 1e-9 of the load plus the centrifugal force. Raises InputError where the bearing cannot carry
+    the load, or an option is out of range; ConvergenceError where the iteration does not converge.
 
     Examples
     --------

@@ -25,19 +25,7 @@ _OF_ELEMENTS = frozenset(
 
 def mirrored(at: Equilibrium, position: Array) -> Equilibrium:
     """Equilibrium with the cage at the opposite angle, mirrored about the plane through axis and radial load.
-
-    Parameters
-    ----------
-    at : BallEquilibrium or RollerEquilibrium
-        Equilibrium with the first element at an angle below the pitch of the elements.
-    position : ndarray, shape (n,)
-        Angles of the elements with the cage at the pitch less that angle [rad]. They are those of ``at`` in
-        reverse order, with the other sign, but for a whole turn.
-
-    Returns
-    -------
-    BallEquilibrium or RollerEquilibrium
-        Equilibrium of the mirrored bearing.
+    ``position``, angles of the elements with the cage at the pitch less that angle [rad], shape (n,).
     """
     values = {field.name: getattr(at, field.name) for field in dataclasses.fields(at)}
     turned = {name: values[name][::-1] for name in _OF_ELEMENTS & values.keys()}
@@ -49,19 +37,8 @@ def mirrored(at: Equilibrium, position: Array) -> Equilibrium:
 
 
 def mechanics_of(at: Equilibrium) -> dict[str, Any]:
-    """Loads, displacements and speeds of a bearing, by the keys of ``mechanics`` in summary.json.
-
-    Parameters
-    ----------
-    at : BallEquilibrium or RollerEquilibrium
-        Equilibrium at one position of the cage.
-
-    Returns
-    -------
-    dict
-        Values in SI units; None for the values that roller bearings do not have. Speeds are those of pure
-        rolling. The contact angles of balls differ, and with them their speeds: the dict has the largest
-        speed of elements and contacts, and the mean speed of the cage.
+    """Loads, displacements and speeds of a bearing, by the keys of ``mechanics`` in summary.json. Returns
+    values in SI units; None for the values that roller bearings do not have.
 
     Examples
     --------

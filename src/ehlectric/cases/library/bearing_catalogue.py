@@ -21,14 +21,9 @@ CLASSES: tuple[ClearanceClass, ...] = get_args(ClearanceClass)
 
 @dataclass(frozen=True)
 class ClearanceRange:
-    """Radial internal clearance that a class allows, before the bearing is mounted.
+    """Radial internal clearance that a class allows, before the bearing is mounted."""
 
-    Attributes
-    ----------
-    least, most : float
-        Smallest and largest radial internal clearance [m].
-    """
-
+    # least and most: smallest and largest radial internal clearance [m].
     least: float
     most: float
 
@@ -47,29 +42,10 @@ def _rows() -> tuple[dict[str, str], ...]:
 
 
 def clearance_range(kind: str, clearance_class: ClearanceClass, bore: float) -> ClearanceRange:
-    """Range of the radial internal clearance of a new, unmounted bearing with a cylindrical bore.
+    """Range of the radial internal clearance of a new, unmounted bearing with a cylindrical bore. ``bore``
+    [m]. Returns smallest and largest clearance [m]. Raises InputError if the table of the kind has no bearing
+    of this bore.
 
-    Parameters
-    ----------
-    kind : str
-        Kind of the bearing: "deep-groove ball" or "cylindrical roller".
-    clearance_class : str
-        Class of ISO 5753-1, one of ``CLASSES``.
-    bore : float
-        Diameter of the bore [m].
-
-    Returns
-    -------
-    ClearanceRange
-        Smallest and largest clearance [m].
-
-    Raises
-    ------
-    InputError
-        If the table of the kind has no bearing of this bore.
-
-    Notes
-    -----
     The table is that of ISO 5753-1 as the general catalogues of SKF and NSK print it, which agree.
 
     Examples
@@ -140,60 +116,33 @@ INTERNAL = ("elements", "element_diameter", "pitch_diameter", "roller_length")
 
 @dataclass(frozen=True)
 class Rating:
-    """Basic load ratings of a bearing as its maker prints them.
+    """Basic load ratings of a bearing as its maker prints them."""
 
-    Attributes
-    ----------
-    maker, designation : str
-        Maker, and his name of the bearing.
-    dynamic, static : float
-        Basic dynamic rating C_r and basic static rating C_0r [N].
-    static_factor : float or None
-        Factor f_0 of ISO 76, where the maker prints it.
-    """
-
+    # maker and designation: maker, and his name of the bearing.
     maker: str
     designation: str
+    # dynamic and static: basic dynamic rating C_r and basic static rating C_0r [N].
     dynamic: float
     static: float
-    static_factor: float | None = None
+    static_factor: float | None = None  # factor f_0 of ISO 76, where the maker prints it
 
 
 @dataclass(frozen=True)
 class CatalogueBearing:
-    """Bearing of the library with its dimensions, ratings and sources.
-
-    Attributes
-    ----------
-    name : str
-        Name for ``bearing.base``.
-    kind : str
-        Kind of the bearing, as in a bearing file.
-    elements : int
-        Number Z of balls or rollers.
-    bore, outer_diameter, width, element_diameter, pitch_diameter : float
-        Dimensions [m].
-    roller_length : float or None
-        Effective length of a roller [m].
-    contact_angle : float
-        Contact angle free of load [rad]; zero of deep-groove and roller bearings.
-    rating : Rating or None
-        Printed load ratings; none of a bearing that no maker sells.
-    sources : tuple of Source
-        Sources of all values.
-    """
+    """Bearing of the library with its dimensions, ratings and sources."""
 
     name: str
     kind: str
-    elements: int
+    elements: int  # number Z of balls or rollers
+    # bore, outer_diameter, width, element_diameter and pitch_diameter: dimensions [m].
     bore: float
     outer_diameter: float
     width: float
     element_diameter: float
     pitch_diameter: float
-    roller_length: float | None
-    contact_angle: float
-    rating: Rating | None
+    roller_length: float | None  # effective length of a roller [m]
+    contact_angle: float  # contact angle free of load [rad]; zero of deep-groove and roller bearings
+    rating: Rating | None  # printed load ratings; none of a bearing that no maker sells
     sources: tuple[Source, ...]
 
     @property
@@ -203,17 +152,7 @@ class CatalogueBearing:
 
 
 def catalogue_bearing(name: str) -> CatalogueBearing:
-    """Bearing of the library by its name.
-
-    Parameters
-    ----------
-    name : str
-        Name of the bearing, one of ``bearing_names()``.
-
-    Returns
-    -------
-    CatalogueBearing
-        Dimensions and ratings in SI units.
+    """Bearing of the library by its name. Returns dimensions and ratings in SI units.
 
     Examples
     --------

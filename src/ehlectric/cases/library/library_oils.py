@@ -35,12 +35,7 @@ class Grade:
         return f"a viscosity grade of ISO 3448: {', '.join(map(str, GRADES))}"
 
     def parse(self, entry: object) -> int:
-        """Grade as a whole number.
-
-        Raises
-        ------
-        InputError
-            If the entry is not a grade of ISO 3448.
+        """Grade as a whole number. Raises InputError if the entry is not a grade of ISO 3448.
 
         Examples
         --------
@@ -63,46 +58,18 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 
 @dataclass(frozen=True)
 class Source:
-    """Source of some values of a file of the library.
-
-    Attributes
-    ----------
-    keys : tuple of str
-        Keys of the values.
-    kind : str
-        One of ``KINDS``; "by rule" follows from published values by a rule that the note states.
-    citation : str
-        Where the values were read; empty where they are assumed.
-    doi : str
-        DOI of the citation, or empty.
-    note : str
-        What else has to be known, such as the rule or the reason for an assumption.
-    """
+    """Source of some values of a file of the library."""
 
     keys: tuple[str, ...]
-    kind: Kind
-    citation: str = ""
+    kind: Kind  # one of ``KINDS``; "by rule" follows from published values by a rule that the note states
+    citation: str = ""  # where the values were read; empty where they are assumed
     doi: str = ""
-    note: str = ""
+    note: str = ""  # what else has to be known, such as the rule or the reason for an assumption
 
 
 def sources_of(table: Mapping[str, Any]) -> tuple[Source, ...]:
-    """Sources of a file of the library, in the order of its ``[[source]]`` tables.
-
-    Parameters
-    ----------
-    table : mapping
-        All tables of the file.
-
-    Returns
-    -------
-    tuple of Source
-        One source for each table.
-
-    Raises
-    ------
-    InputError
-        If a source has a kind that does not exist, or no citation; an assumed value needs a note at least.
+    """Sources of a file of the library, in the order of its ``[[source]]`` tables. Raises InputError if a
+    source has a kind that does not exist, or no citation; an assumed value needs a note at least.
     """
     return tuple(_source(entry) for entry in table.get("source", ()))
 
@@ -131,19 +98,6 @@ _NESTED = ("temperature",)
 class LibraryOil:
     """Oil of the library.
 
-    Attributes
-    ----------
-    name : str
-        Name of the oil, the value of ``lubricant.base``.
-    title : str
-        What the oil is, in one line.
-    table : mapping
-        Table ``[lubricant]`` in the form of a case file.
-    sources : tuple of Source
-        Sources of the values: each key has one.
-    needs : tuple of str
-        Keys of ``[lubricant]`` that a case must give, because no source of them was found.
-
     Examples
     --------
     >>> oil = library_oil("paper")
@@ -153,8 +107,9 @@ class LibraryOil:
 
     name: str
     title: str
-    table: Mapping[str, Any]
+    table: Mapping[str, Any]  # table ``[lubricant]`` in the form of a case file
     sources: tuple[Source, ...]
+    # Keys of ``[lubricant]`` that a case must give, because no source of them was found.
     needs: tuple[str, ...] = ()
 
     def values(self) -> dict[str, Any]:
@@ -167,13 +122,7 @@ class LibraryOil:
         return weakest(self.sources, self.values())
 
     def source(self, key: str) -> Source:
-        """Source of the value of a dotted key.
-
-        Raises
-        ------
-        KeyError
-            If the oil has no value of this key.
-        """
+        """Source of the value of a dotted key. Raises KeyError if the oil has no value of this key."""
         for source in self.sources:
             if key in source.keys:
                 return source
@@ -201,16 +150,6 @@ def _values(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
 
 def library_oil(name: str) -> LibraryOil:
     """Oil of the library with its sources.
-
-    Parameters
-    ----------
-    name : str
-        Name of the oil, one of ``library.lubricant_names()``.
-
-    Returns
-    -------
-    LibraryOil
-        Title, values and sources of the oil.
 
     Examples
     --------

@@ -58,16 +58,8 @@ def _jit(function: F, **options: bool) -> F:
 def compile_for(
     function: Callable[..., Any], arguments: tuple[Any, ...], told: Callable[[str], None]
 ) -> None:
-    """Compile a function for the types of its arguments, or read it from the disk.
-
-    Parameters
-    ----------
-    function : callable
-        Function that was made by ``compiled``.
-    arguments : tuple
-        Arguments with which it will be called.
-    told : callable
-        Called with a text before the function is compiled, and not where it is on the disk.
+    """Compile a function for the types of its arguments, or read it from the disk. ``told``, called with a
+    text before the function is compiled, and not where it is on the disk.
     """
     dispatcher, typeof = cast("Any", function), cast("Any", numba.typeof)
     listener = _Told(told, dispatcher)

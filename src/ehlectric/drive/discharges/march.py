@@ -66,14 +66,8 @@ def add_parabola(means: Array, start: float, duration: float, first: float, midd
 
     Each mean is weighted by a triangle, which is 1 at a time of the mean and 0 at those before and after it.
 
-    Parameters
-    ----------
-    means : ndarray, shape (n,)
-        Means at evenly spaced times; the time after the last one is that of the first one again.
-    start, duration : float
-        Where the parabola begins, and how long it goes on, in spacings of the means.
-    first, middle, last : float
-        Voltage at its begin, in its middle and at its end [V].
+    ``means``, means at evenly spaced times; the time after the last one is that of the first one again,
+    shape (n,); ``first``, ``middle`` and ``last``, voltage at its begin, in its middle and at its end [V].
     """
     straight, bend = last - first, 2.0 * (first + last - 2.0 * middle)
     at, end = start, start + duration
@@ -92,20 +86,10 @@ def add_parabola(means: Array, start: float, duration: float, first: float, midd
 
 
 def spectrum_of(means: Array) -> Array:
-    """Amplitudes of the lines of a spectrum from triangular means.
+    """Amplitudes of the lines of a spectrum from triangular means. ``means``, means of a voltage at evenly
+    spaced times of the measured one [V], shape (n,). Returns absolute mean, and the amplitudes of the lines
+    at whole multiples of one over the measured time [V], shape (n/8 + 1,).
 
-    Parameters
-    ----------
-    means : ndarray, shape (n,)
-        Means of a voltage at evenly spaced times of the measured one [V].
-
-    Returns
-    -------
-    ndarray, shape (n/8 + 1,)
-        Absolute mean, and the amplitudes of the lines at whole multiples of one over the measured time [V].
-
-    Notes
-    -----
     A triangular mean multiplies the Fourier coefficient of line m by sinc(m/n)^2, with
     sinc(x) = sin(pi x)/(pi x), which is divided out. Sampling adds the coefficients of lines n - m, n + m and
     so on; that of line n - m has the weight (m/(n - m))^2.
@@ -139,84 +123,39 @@ RESERVE = 16
 
 
 class Films(NamedTuple):
-    """Films of both bearings.
+    """Films of both bearings."""
 
-    Attributes
-    ----------
-    scale : ndarray, shape (2, positions)
-        Breakdown voltage at which a draw is 1 [V]; infinite for films that do not break down.
-    positions : ndarray of int, shape (2,)
-        Number of positions of the elements.
-    step : ndarray, shape (2,)
-        Time from one position to the next [s].
-    shape : ndarray, shape (2,)
-        Shape of Weibull's law; infinite without scatter.
-    renewal : ndarray, shape (2,)
-        Mean time after which a new film with a new threshold is in the contacts [s].
-    arc : ndarray, shape (2,)
-        Arc resistance [Ohm].
-    extinction : ndarray, shape (2,)
-        Voltage across the arc below which it goes out [V].
-    recovery : ndarray, shape (2,)
-        Time from there until the film insulates again [s].
-    touch : ndarray, shape (2, 2)
-        Mean times without and with touching asperities [s].
-    states : ndarray of int, shape (1,)
-        States of one film: 2, or 3 where films touch.
-    """
-
+    # Breakdown voltage at which a draw is 1 [V]; infinite for films that do not break down,
+    # shape (2, positions).
     scale: Array
-    positions: Integers
-    step: Array
-    shape: Array
-    renewal: Array
-    arc: Array
-    extinction: Array
-    recovery: Array
-    touch: Array
-    states: Integers
+    positions: Integers  # number of positions of the elements, shape (2,)
+    step: Array  # time from one position to the next [s], shape (2,)
+    shape: Array  # shape of Weibull's law; infinite without scatter, shape (2,)
+    renewal: Array  # mean time after which a new film with a new threshold is in the contacts [s], shape (2,)
+    arc: Array  # arc resistance [Ohm], shape (2,)
+    extinction: Array  # voltage across the arc below which it goes out [V], shape (2,)
+    recovery: Array  # time from there until the film insulates again [s], shape (2,)
+    touch: Array  # mean times without and with touching asperities [s], shape (2, 2)
+    states: Integers  # states of one film: 2, or 3 where films touch, shape (1,)
 
 
 class State(NamedTuple):
-    """Where a march stands; it is changed in place.
+    """Where a march stands; it is changed in place."""
 
-    Attributes
-    ----------
-    x : ndarray, shape (n,)
-        States of the circuit.
-    ring : ndarray of complex, shape (1,)
-        Amplitude of the ringing [V].
-    clocks : ndarray, shape (2, 4)
-        Times left [s].
-    place : ndarray of int, shape (2,)
-        Position of the elements.
-    phase : ndarray of int, shape (2,)
-        Phase of each film.
-    draw : ndarray, shape (2,)
-        Threshold of each film over its scale.
-    event : ndarray, shape (2, 8)
-        Event of each film so far.
-    time : ndarray, shape (2,)
-        Time [s], as a sum of whole chunks and of what has passed since.
-    cursor : ndarray, shape (3,)
-        Next segment, what has passed of it [s], and whether it has begun (1) or not (0).
-    random : ndarray, shape (2, 2, m)
-        Random numbers of an exponential distribution of mean 1, of each film for thresholds and for times.
-    used : ndarray of int, shape (2, 2)
-        How many of them are used.
-    """
-
-    x: Array
-    ring: Complex
-    clocks: Array
-    place: Integers
-    phase: Integers
-    draw: Array
-    event: Array
-    time: Array
+    x: Array  # states of the circuit, shape (n,)
+    ring: Complex  # amplitude of the ringing [V], shape (1,)
+    clocks: Array  # times left [s], shape (2, 4)
+    place: Integers  # position of the elements, shape (2,)
+    phase: Integers  # phase of each film, shape (2,)
+    draw: Array  # threshold of each film over its scale, shape (2,)
+    event: Array  # event of each film so far, shape (2, 8)
+    time: Array  # time [s], as a sum of whole chunks and of what has passed since, shape (2,)
+    # Next segment, what has passed of it [s], and whether it has begun (1) or not (0), shape (3,).
     cursor: Array
+    # Random numbers of an exponential distribution of mean 1, of each film for thresholds and for times,
+    # shape (2, 2, m).
     random: Array
-    used: Integers
+    used: Integers  # how many of them are used, shape (2, 2)
 
 
 class Segments(NamedTuple):
@@ -278,52 +217,29 @@ def burns_in(state: State, b: int) -> bool:
 
 
 class Meters(NamedTuple):
-    """Measured values; they are changed in place.
+    """Measured values; they are changed in place."""
 
-    Attributes
-    ----------
-    edges : ndarray, shape (2,)
-        Lowest and highest voltage of the histograms [V], which are doubled where a voltage is beyond them.
-    histogram : ndarray, shape (2, bins)
-        Time at the voltages of each bin [s]; the number of bins is a multiple of four, and half of them are
-        below zero.
-    limits : ndarray, shape (l,)
-        Limits of the voltage [V].
-    above : ndarray, shape (2, l)
-        Time at which the absolute voltage is above each limit [s].
-    peak : ndarray, shape (2,)
-        Largest absolute voltage [V].
-    shaft : ndarray, shape (n,)
-        Triangular means of the shaft voltage over the measured time [V], as in ``spectrum``.
-    spaced : ndarray, shape (2,)
-        Time of the first mean and spacing of the means [s].
-    touching : ndarray, shape (2,)
-        Largest absolute voltage while asperities touch [V].
-    square : ndarray, shape (2,)
-        Integral of the squared voltage over time [V^2 s].
-    trace : ndarray, shape (m, 4)
-        Time [s], voltage of the source without its ringing, and both voltages [V], until the table is full.
-    traced : ndarray of int, shape (1,)
-        Rows of the trace that are filled.
-    until : ndarray, shape (2,)
-        Time interval of the trace [s].
-    rough : ndarray, shape (2,)
-        Tolerances of the voltage: within which it is taken as straight between two times, and below which
-        the ringing of the source is over [V].
-    """
-
+    # Lowest and highest voltage of the histograms [V], which are doubled where a voltage is beyond them,
+    # shape (2,).
     edges: Array
+    # Time at the voltages of each bin [s]; the number of bins is a multiple of four, and half of them are
+    # below zero, shape (2, bins).
     histogram: Array
-    limits: Array
-    above: Array
-    peak: Array
+    limits: Array  # limits of the voltage [V], shape (l,)
+    above: Array  # time at which the absolute voltage is above each limit [s], shape (2, l)
+    peak: Array  # largest absolute voltage [V], shape (2,)
+    # Triangular means of the shaft voltage over the measured time [V], as in ``spectrum``, shape (n,).
     shaft: Array
-    spaced: Array
-    touching: Array
-    square: Array
+    spaced: Array  # time of the first mean and spacing of the means [s], shape (2,)
+    touching: Array  # largest absolute voltage while asperities touch [V], shape (2,)
+    square: Array  # integral of the squared voltage over time [V^2 s], shape (2,)
+    # Time [s], voltage of the source without its ringing, and both voltages [V], until the table is full,
+    # shape (m, 4).
     trace: Array
-    traced: Array
-    until: Array
+    traced: Array  # rows of the trace that are filled, shape (1,)
+    until: Array  # time interval of the trace [s], shape (2,)
+    # Tolerances of the voltage: within which it is taken as straight between two times, and below which the
+    # ringing of the source is over [V], shape (2,).
     rough: Array
 
 
@@ -444,30 +360,14 @@ _FED = 1.0 + 1e-9
 
 
 class Work(NamedTuple):
-    """Arrays in which a march works; they are changed in place.
+    """Arrays in which a march works; they are changed in place."""
 
-    Attributes
-    ----------
-    piece : ndarray of complex, shape (ROWS, n + FURTHER)
-        Present piece.
-    course : Course
-        Voltages over the present piece.
-    volts : ndarray, shape (2,)
-        Voltages across both films at the end of the present piece [V].
-    charges : ndarray, shape (n,)
-        Charges of the nodes while elements move [C].
-    events : ndarray, shape (m, 8)
-        Table that takes the events.
-    filled : ndarray of int, shape (1,)
-        Rows of the table that are filled.
-    """
-
-    piece: Complex
-    course: Course
-    volts: Array
-    charges: Array
-    events: Array
-    filled: NDArray[np.int64]
+    piece: Complex  # present piece, shape (ROWS, n + FURTHER)
+    course: Course  # voltages over the present piece
+    volts: Array  # voltages across both films at the end of the present piece [V], shape (2,)
+    charges: Array  # charges of the nodes while elements move [C], shape (n,)
+    events: Array  # table that takes the events, shape (m, 8)
+    filled: NDArray[np.int64]  # rows of the table that are filled, shape (1,)
 
 
 def work_of(size: int, events: int) -> Work:
@@ -598,10 +498,7 @@ def _piece(circuits: Circuits, films: Films, state: State, source: Source, left:
 
     ``volts`` takes the voltages across both films at the end.
 
-    Returns
-    -------
-    tuple
-        Time that has passed [s], what ended it, and at which film.
+    Returns time that has passed [s], what ended it, and at which film.
     """
     c = state_of(films, state)
     begin(circuits, c, state.x, source, piece)
@@ -752,23 +649,7 @@ def _pass_time(circuits: Circuits, state: State, t: float, silent: float) -> Non
 @compiled
 def advance(circuits: Circuits, films: Films, segments: Segments, state: State, meters: Meters,
             work: Work) -> None:  # fmt: skip
-    """March through segments of the source, from where the state stands until their end.
-
-    Parameters
-    ----------
-    circuits : Circuits
-        Modes of all states of the circuit.
-    films : Films
-        Films of both bearings.
-    segments : Segments
-        Source of this chunk.
-    state : State
-        Where the march stands; it is moved on. At the end of the segments its cursor is (-1, 0).
-    meters : Meters
-        What is measured; it is moved on.
-    work : Work
-        Takes the events. Where their table is full, or random numbers run out, the march stops in between.
-    """
+    """March through segments of the source, from where the state stands until their end."""
     piece, course, volts = work.piece, work.course, work.volts
     k, passed = int(state.cursor[0]), state.cursor[1]
     work.filled[0] = 0

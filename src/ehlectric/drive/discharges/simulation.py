@@ -52,28 +52,16 @@ BLOCKS = 40
 
 @dataclass(frozen=True)
 class Measuring:
-    """Settings of a measurement.
+    """Settings of a measurement."""
 
-    Attributes
-    ----------
-    start, duration : float
-        Time from which on it is measured, and how long [s].
-    highest : float
-        Voltage that is about the highest one [V], of which tolerances are parts.
-    limits : tuple of float
-        Limits of the voltage [V].
-    trace : float
-        Time that the trace covers [s].
-    at_event : bool
-        Whether the trace is around a typical one of the first events, where there are any, and not at the
-        begin.
-    """
-
+    # start and duration: time from which on it is measured, and how long [s].
     start: float
     duration: float
-    highest: float
-    limits: tuple[float, ...]
-    trace: float
+    highest: float  # voltage that is about the highest one [V], of which tolerances are parts
+    limits: tuple[float, ...]  # limits of the voltage [V]
+    trace: float  # time that the trace covers [s]
+    # Whether the trace is around a typical one of the first events, where there are any, and not at the
+    # begin.
     at_event: bool = False
 
 
@@ -178,29 +166,9 @@ def simulate(
     progress: Callable[[float], None] = lambda _: None,
     compiling: Callable[[str], None] = lambda _: None,
 ) -> Record:
-    """March through a source, and record what happens.
-
-    Parameters
-    ----------
-    circuits : Circuits
-        Modes of the circuit in all of its states.
-    films : Films
-        Films of both bearings.
-    chunks : iterator of Segments
-        Source; a chunk ends where measuring begins.
-    measuring : Measuring
-        What is measured.
-    seed : int
-        Seed of the random numbers.
-    progress : callable
-        Called with the simulated time [s].
-    compiling : callable
-        Called with a text where the march has to be compiled.
-
-    Returns
-    -------
-    Record
-        Events, histograms, a spectrum and a trace.
+    """March through a source, and record what happens. ``chunks``, source; a chunk ends where measuring
+    begins; ``progress``, called with the simulated time [s]; ``compiling``, called with a text where the
+    march has to be compiled. Returns events, histograms, a spectrum and a trace.
     """
     state = _state(circuits.jump.shape[1])
     random = _Random(seed)

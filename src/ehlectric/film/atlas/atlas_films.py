@@ -32,21 +32,11 @@ _ENDS = np.linspace(0.0, _END, 17)
 
 @dataclass(frozen=True)
 class OilGroups:
-    """Coefficient and weak groups of an oil, from its laws of viscosity and density over pressure.
+    """Coefficient and weak groups of an oil, from its laws of viscosity and density over pressure."""
 
-    Attributes
-    ----------
-    alpha : float
-        Pressure-viscosity coefficient of the atlas [1/Pa].
-    shape : float
-        ln(alpha/alpha*), which grows with the curvature of the viscosity law, dimensionless.
-    compressibility : float
-        Slope of the density ratio at zero pressure over alpha, dimensionless.
-    """
-
-    alpha: float
-    shape: float
-    compressibility: float
+    alpha: float  # pressure-viscosity coefficient of the atlas [1/Pa]
+    shape: float  # ln(alpha/alpha*), which grows with the curvature of the viscosity law, dimensionless
+    compressibility: float  # slope of the density ratio at zero pressure over alpha, dimensionless
 
     @classmethod
     def of(cls, viscosity: PressureLaw, density: PressureLaw) -> OilGroups:
@@ -61,20 +51,10 @@ def film_coefficient(viscosity: PressureLaw, density: PressureLaw) -> float:
 
     alpha_m = (1 - e^-3)/Int_0^(3/alpha*) (eta(0)/eta(p)) (rho(0)/rho(p))^2 dp
 
-    Parameters
-    ----------
-    viscosity : callable
-        ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
-    density : callable
-        rho/rho0 and its derivative by pressure [1/Pa], as a function of the pressure [Pa].
+    ``viscosity``, ln(eta/eta0) and its derivative by pressure [1/Pa], as a function of the pressure [Pa];
+    ``density``, rho/rho0 and its derivative by pressure [1/Pa], as a function of the pressure [Pa]. Returns
+    coefficient [1/Pa]; alpha for an incompressible oil of Barus' law.
 
-    Returns
-    -------
-    float
-        Coefficient [1/Pa]; alpha for an incompressible oil of Barus' law.
-
-    Notes
-    -----
     With the mass per area m = rho h, the Reynolds equation of the inlet is
     dp/dx = 12 u eta rho^2 (m - m0)/m^3. The density therefore acts as a factor rho^2 of the viscosity.
 
@@ -154,35 +134,23 @@ class AtlasFilm:
     """Film of a smooth, fully flooded, isothermal contact, interpolated in the atlas.
 
     Films are in Moes' unit, R (eta0 u_s/(E' R))^(1/2), with the radius R along entrainment.
-
-    Attributes
-    ----------
-    central, minimum, mean : float
-        Film thickness at x = y = 0, smallest film thickness, and mean over the Hertz zone.
-    mass : float
-        Density ratio times film thickness at x = y = 0, which depends least on the oil.
-    central_pressure : float
-        Pressure at x = y = 0 over the Hertz pressure.
-    zone, inlet, outlet : float
-        Mean of rho(0) h(0)/(rho h) over the Hertz zone; integral of dA/h before and behind the middle of the
-        contact, outside the Hertz zone, over that of the dry gap plus the central film. They give
-        capacitances.
-    minimum_at : tuple of float
-        Place of the smallest film, x/b along and abs(y)/a across entrainment.
-    errors : dict
-        Relative error of each number, which about 95 % of solved contacts keep.
     """
 
+    # central, minimum and mean: film thickness at x = y = 0, smallest film thickness, and mean over the Hertz
+    # zone.
     central: float
     minimum: float
     mean: float
-    mass: float
-    central_pressure: float
+    mass: float  # density ratio times film thickness at x = y = 0, which depends least on the oil
+    central_pressure: float  # pressure at x = y = 0 over the Hertz pressure
+    # zone, inlet and outlet: mean of rho(0) h(0)/(rho h) over the Hertz zone; integral of dA/h before and
+    # behind the middle of the contact, outside the Hertz zone, over that of the dry gap plus the central
+    # film.
     zone: float
     inlet: float
     outlet: float
-    minimum_at: tuple[float, float]
-    errors: dict[str, float]
+    minimum_at: tuple[float, float]  # place of the smallest film, x/b along and abs(y)/a across entrainment
+    errors: dict[str, float]  # relative error of each number, which about 95 % of solved contacts keep
 
 
 @lru_cache(maxsize=1)
@@ -194,25 +162,9 @@ def reference_groups() -> OilGroups:
 def atlas_film(groups: Groups, laws: Laws | None = None, oil: OilGroups | None = None) -> AtlasFilm:
     """Film of a smooth contact from its groups.
 
-    Parameters
-    ----------
-    groups : Groups
-        M, L and k of the contact, L with the coefficient of ``OilGroups``.
-    laws : tuple of callable, optional
-        ln(eta/eta0) and rho/rho0 over pressure [Pa]; without them those of the reference oil, with the spread
-        between oils as an error.
-    oil : OilGroups, optional
-        Groups of the oil, where they are known already.
-
-    Returns
-    -------
-    AtlasFilm
-        Numbers of the film with their errors.
-
-    Raises
-    ------
-    InputError
-        Outside the range of the atlas.
+    ``laws``, ln(eta/eta0) and rho/rho0 over pressure [Pa]; without them those of the reference oil, with the
+    spread between oils as an error; ``oil``, groups of the oil, where they are known already. Returns numbers
+    of the film with their errors. Raises InputError: outside the range of the atlas.
     """
     known = laws is not None
     laws = reference_laws() if laws is None else laws
@@ -307,22 +259,14 @@ def _ratio(density: Callable[..., Any], pressure: float) -> float:
 
 @dataclass(frozen=True)
 class ContactFilm:
-    """Film of a contact from the atlas, in SI units.
+    """Film of a contact from the atlas, in SI units."""
 
-    Attributes
-    ----------
-    central_thickness, minimum_thickness, mean_thickness : float
-        Film thickness at x = y = 0, smallest film thickness, and mean over the Hertz zone [m].
-    groups : Groups
-        M, L and k, with L made with the coefficient of the atlas.
-    film : AtlasFilm
-        Dimensionless film, with the errors.
-    """
-
+    # central_thickness, minimum_thickness and mean_thickness: film thickness at x = y = 0, smallest film
+    # thickness, and mean over the Hertz zone [m].
     central_thickness: float
     minimum_thickness: float
     mean_thickness: float
-    groups: Groups
+    groups: Groups  # M, L and k, with L made with the coefficient of the atlas
     film: AtlasFilm
 
     @property
@@ -332,24 +276,8 @@ class ContactFilm:
 
 
 def contact_film(contact: LineContact | PointContact, oil: Oil) -> ContactFilm:
-    """Film of a smooth, fully flooded, isothermal contact, interpolated in the atlas.
-
-    Parameters
-    ----------
-    contact : LineContact or PointContact
-        Radii, modulus, load and speed; its coefficient is replaced by that of the oil's laws.
-    oil : Oil
-        Oil at the temperature of the contact.
-
-    Returns
-    -------
-    ContactFilm
-        Films [m], with the relative error of each.
-
-    Raises
-    ------
-    InputError
-        If the contact is outside the atlas.
+    """Film of a smooth, fully flooded, isothermal contact, interpolated in the atlas. Returns films [m], with
+    the relative error of each. Raises InputError if the contact is outside the atlas.
 
     Examples
     --------

@@ -51,18 +51,12 @@ SKEW = 1.0 / 6.0
 
 @dataclass(frozen=True)
 class Groups:
-    """Moes' groups of a contact.
+    """Moes' groups of a contact."""
 
-    Attributes
-    ----------
-    moes_m, moes_l : float
-        M and L, dimensionless. L is made with the coefficient of ``atlas.coefficient``.
-    ratio : float or None
-        Ratio k of the semi-axes, across over along entrainment; None for a line contact.
-    """
-
+    # moes_m and moes_l: M and L, dimensionless. L is made with the coefficient of ``atlas.coefficient``
     moes_m: float
     moes_l: float
+    # Ratio k of the semi-axes, across over along entrainment; None for a line contact.
     ratio: float | None = None
 
     @property
@@ -133,18 +127,9 @@ def lubricant_coordinate(groups: Groups) -> float:
 def film_problem(
     groups: Groups, laws: tuple[Callable[..., Any], Callable[..., Any]], alpha: float, nodes: int
 ) -> FilmProblem:
-    """Dimensionless film problem of a contact with Moes' groups and an oil.
-
-    Parameters
-    ----------
-    groups : Groups
-        Groups of the contact.
-    laws : tuple of callable
-        Viscosity law ln(eta/eta0) and density law rho/rho0 over pressure [Pa].
-    alpha : float
-        Coefficient [1/Pa] with which L is made.
-    nodes : int
-        Number of nodes along and across a point contact, and along a line contact.
+    """Dimensionless film problem of a contact with Moes' groups and an oil. ``laws``, viscosity law
+    ln(eta/eta0) and density law rho/rho0 over pressure [Pa]; ``alpha``, coefficient [1/Pa] with which L is
+    made.
     """
     pressure = groups.hertz_number / alpha
     guess = groups.formula / groups.thickness_unit

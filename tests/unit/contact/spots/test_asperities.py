@@ -10,7 +10,7 @@ from ehlectric import Case, load, solve
 from ehlectric.contact.check import check_case
 from ehlectric.contact.run import save
 from ehlectric.contact.touching import Coarser, about_share, asperities, share_text, spot_warnings
-from ehlectric.figures import figure_names as files
+from ehlectric.figures import figure_names as known
 from ehlectric.figures.contact_findings import finding
 from ehlectric.figures.result_figures import figure, figure_names
 from ehlectric.quantities.contact_results import CONTACT_KEYS
@@ -202,7 +202,7 @@ def test_verdict_speaks_of_the_spots():
     rows = {row.key: row for row in result_rows(result)}
     assert "discharge.breakdown_voltage" not in rows
     assert rows["asperities.breakdown_5"].value == found.electrical.breakdown_5
-    assert f"{found.electrical.breakdown_5:.2g} V" in finding(result, files.BREAKDOWN_FIGURE)
+    assert f"{found.electrical.breakdown_5:.2g} V" in finding(result, known.BREAKDOWN_FIGURE)
     assert "breakdown-expected" not in [warning.code for warning in result.warnings]
 
 
@@ -215,14 +215,14 @@ def test_surfaces_that_do_not_touch_have_no_spots():
     assert (found.spots.number, found.touching.load_share, found.coarser) == (0, 0.0, None)
     assert found.electrical.behaviour == "capacitive"
     assert not any("asperities" in row.name for row in result_rows(result))
-    assert files.SPOTS_FIGURE not in [f"{name}.png" for name in figure_names(result)]
+    assert known.SPOTS_FIGURE not in [f"{name}.png" for name in figure_names(result)]
     assert solve(Case.from_dict(table | {"roughness": []})).asperities is None
 
 
 @BOTH
 def test_figure_of_the_spots(geometry):
     result = solved(geometry)
-    assert f"{figure_names(result)[-1]}.png" == files.SPOTS_FIGURE
-    drawn = figure(result, files.SPOTS_FIGURE)
+    assert f"{figure_names(result)[-1]}.png" == known.SPOTS_FIGURE
+    drawn = figure(result, known.SPOTS_FIGURE)
     legend = [text.get_text() for text in drawn.axes[0].get_legend().get_texts()]
     assert "surfaces touch" in legend
