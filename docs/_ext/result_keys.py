@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ehlectric.quantities import contact_results as contact
-from ehlectric.quantities import motion_results as motion
-from ehlectric.quantities.bearing_results import BEARING_KEYS
-from ehlectric.quantities.drive_results import DRIVE_KEYS
 from ehlectric.quantities.quantity import Keys
+from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS
 
 _DISCHARGE, _METER, _SURFACES = "discharge", "meter", "rough"
 # Tables of a drive that repeat the keys of its drive end.
@@ -17,18 +14,16 @@ _OTHER_END, _REMEDIES = "non_drive_end", "remedies"
 
 def summary_pages() -> dict[str, str]:
     """Text of each table by the name of its file, for results of every kind."""
-    line, point = (
-        _without(_without(keys, _DISCHARGE), _METER) for keys in (contact.LINE_KEYS, contact.POINT_KEYS)
-    )
+    line, point = (_without(_without(keys, _DISCHARGE), _METER) for keys in CONTACT_KEYS.values())
     other = {name: key for name, key in point.items() if line.get(name) != key}
-    discharges = [_within(keys, _DISCHARGE) for keys in contact.CONTACT_KEYS.values()]
+    discharges = [_within(keys, _DISCHARGE) for keys in CONTACT_KEYS.values()]
     # What was done to each rough surface has the keys of the surfaces of a contact.
-    motions = [_without(keys, _SURFACES) for keys in motion.MOTION_KEYS.values()]
+    motions = [_without(keys, _SURFACES) for keys in MOTION_KEYS.values()]
     return {
         "summary_line": _table(line),
         "summary_point": _table(other),
         "summary_discharge": _table(*discharges),
-        "summary_meter": _table(_within(contact.POINT_KEYS, _METER)),
+        "summary_meter": _table(_within(CONTACT_KEYS["point"], _METER)),
         "summary_bearing": _table(BEARING_KEYS),
         "summary_drive": _table(_without(_without(DRIVE_KEYS, _OTHER_END), _REMEDIES)),
         "summary_motion": _table(*motions),

@@ -21,9 +21,9 @@ from ehlectric.bearing.warnings import bearing_warnings
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.discharge.film_verdict import Verdict
 from ehlectric.errors import InputError, ResultWarning, shown
-from ehlectric.quantities.bearing_results import BEARING_KEYS, CONTACT_KEYS
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import BEARING_KEYS, ELEMENT_KEYS
 from ehlectric.quantities.units import rpm
 from ehlectric.runtime.files import plain
 from ehlectric.runtime.progress import Progress
@@ -207,7 +207,7 @@ class BearingResult(Shown):
         numbers = [name for name in frame if name in units]
         frame[numbers] = frame[numbers].astype(float)
         frame.attrs["units"] = {str(name): units[str(name)] for name in numbers}
-        frame.attrs["descriptions"] = {str(name): CONTACT_KEYS[str(name)].meaning for name in frame}
+        frame.attrs["descriptions"] = {str(name): ELEMENT_KEYS[str(name)].meaning for name in frame}
         return frame
 
     def _headline(self) -> str:

@@ -13,9 +13,9 @@ from ehlectric.discharge.film_verdict import DOUBTS, STRENGTH_UNKNOWN, Level, Ve
 from ehlectric.drive.drive_record import FEW
 from ehlectric.drive.warnings import MOSTLY
 from ehlectric.errors import CODES, ResultWarning
-from ehlectric.quantities.drive_results import NAMES_OF_ENDS
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import NAMES_OF_ENDS
 
 # Discharges in a second, by Weibull's law at the largest voltage, up to which none is expected: one a minute,
 # where a drive that discharges does so thousands of times in a second.

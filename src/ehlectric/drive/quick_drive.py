@@ -9,8 +9,8 @@ from ehlectric.bearing.quick_contacts import formula_factor, quick_case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.film_verdict import STRENGTH_UNKNOWN, Level, Verdict, ratio_text
 from ehlectric.drive.drive_verdict import SELDOM, most_by_law
-from ehlectric.quantities.drive_results import NAMES_OF_ENDS
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import NAMES_OF_ENDS
 
 _RING = (
     "The grounding ring leads the charge of the shaft away, which the divider leaves out: "

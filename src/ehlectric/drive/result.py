@@ -18,8 +18,8 @@ from ehlectric.drive.stored import dataset_of
 from ehlectric.drive.summary import drive_summary, whole_summary
 from ehlectric.drive.warnings import drive_warnings
 from ehlectric.errors import ResultWarning
-from ehlectric.quantities.drive_results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import EVENT_COLUMNS, NAMES_OF_ENDS, SPECTRUM_COLUMNS
 from ehlectric.runtime.progress import Progress, silent
 from ehlectric.runtime.values import Shown, headline
 from ehlectric.version import __version__

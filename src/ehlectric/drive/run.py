@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.drive.stored import SCHEMA, parts_of
-from ehlectric.quantities.drive_results import EVENT_COLUMNS, SPECTRUM_COLUMNS
+from ehlectric.quantities.results import EVENT_COLUMNS, SPECTRUM_COLUMNS
 from ehlectric.runtime.file_rules import check_format, refusing
 from ehlectric.runtime.files import Content, column_head, csv_of, json_of, write_together
 from ehlectric.runtime.folders import RESULT_LOCK, alone_in

@@ -21,8 +21,8 @@ from ehlectric.drive.source_pieces import Ringing, edges, ringing_of, sampled
 from ehlectric.drive.warnings import bearing_warnings
 from ehlectric.drive.waveform_file import Waveform
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.drive_results import LIMITS
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import LIMITS
 from ehlectric.runtime.progress import Progress, silent
 
 # Fundamental periods that are simulated where the case gives no duration, and periods before them in which

@@ -35,10 +35,10 @@ from ehlectric.figures.style import (
     style,
     titled,
 )
-from ehlectric.quantities.drive_results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.palette import BLACK, BLUE, GREY, MIDDLE_GREY, ORANGE
+from ehlectric.quantities.results import DRIVE_BOOK, EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.units import rpm, unit_for
 
 # Names of both bearings in titles and legends, and their colours.

@@ -14,7 +14,7 @@ from ehlectric.arrays import Array
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.law import PressureLaw
 from ehlectric.lubricant.viscosity import initial_alpha, reciprocal_asymptotic_alpha, unfinished_share
-from ehlectric.quantities.oil_results import LAW_NAMES
+from ehlectric.quantities.results import LAW_NAMES
 
 # Share of the integral of alpha* beyond its end above which a warning tells that it has no definite value.
 _UNFINISHED = 0.01

@@ -23,8 +23,8 @@ from ehlectric.cases.library.library_oils import KINDS, Source, sources_of
 from ehlectric.cases.oil_inputs import Properties
 from ehlectric.errors import InputError, printable, shown
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.drive_results import NAMES_OF_ENDS
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.results import NAMES_OF_ENDS
 from ehlectric.report.limits import Limit, Reference
 from ehlectric.report.report_content import Block, Cell, Link, Section, Table, Text
 from ehlectric.runtime.values import is_number

@@ -22,9 +22,9 @@ from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.result import DriveResult
 from ehlectric.errors import CODES, printable
 from ehlectric.figures.figure_names import with_units_kept
-from ehlectric.quantities.drive_results import EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.formats import amount, number_text
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
+from ehlectric.quantities.results import EVENT_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Summary
 from ehlectric.quantities.sheets import REMEDIES
 from ehlectric.quantities.units import rpm, unit_for

@@ -20,7 +20,7 @@ from ehlectric.cases.case import Case
 from ehlectric.cases.defaults import HOW, QUICK
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.quantities.contact_results import CONTACT_BOOK
+from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Words, row_of
 from ehlectric.quantities.units import rpm
 from ehlectric.sweep.sweep_inputs import Sweep

@@ -78,10 +78,8 @@ def files_of_results(folder: str | Path, *, keep: tuple[str, ...] = ()) -> tuple
 
 def _maps(folder: Path) -> Iterator[str]:
     """Names of the maps and lines of sweeps in a folder: files named by a key of a summary."""
-    from ehlectric.quantities.bearing_results import BEARING_KEYS
-    from ehlectric.quantities.contact_results import CONTACT_KEYS
-    from ehlectric.quantities.drive_results import DRIVE_KEYS
     from ehlectric.quantities.quantity import key_of
+    from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS
 
     known = (*CONTACT_KEYS.values(), BEARING_KEYS, DRIVE_KEYS)
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():

@@ -10,13 +10,10 @@ from ehlectric.arrays import Array
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.drive_case import DriveCase, SweptCase
 from ehlectric.cases.input_keys import input_of, kind_of, unit_of
-from ehlectric.quantities.bearing_results import BEARING_KEYS
-from ehlectric.quantities.contact_results import CONTACT_KEYS
-from ehlectric.quantities.drive_results import DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.formats import Scale, scale_for
 from ehlectric.quantities.inputs import end_and_key
-from ehlectric.quantities.motion_results import MOTION_KEYS
 from ehlectric.quantities.quantity import Keys, key_of
+from ehlectric.quantities.results import BEARING_KEYS, CONTACT_KEYS, DRIVE_KEYS, MOTION_KEYS, NAMES_OF_ENDS
 
 
 @dataclass(frozen=True)

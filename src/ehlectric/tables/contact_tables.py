@@ -19,8 +19,8 @@ from ehlectric.contact.touching import share_text
 from ehlectric.discharge.discharge_laws import LARGEST_PIT, MEAN_PIT
 from ehlectric.film.film_error import UNRESOLVED
 from ehlectric.quantities.bounds import bound_words, contact_bounds
-from ehlectric.quantities.contact_results import CONTACT_BOOK
 from ehlectric.quantities.formats import amount, formatted
+from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, row_of, sheet_rows, value_at
 from ehlectric.quantities.sheets import CHECK, CONTACT
 

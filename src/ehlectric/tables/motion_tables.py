@@ -10,7 +10,7 @@ from ehlectric.cases.case import Case
 from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.touching import share_text
 from ehlectric.quantities.bounds import ideal_bounds
-from ehlectric.quantities.motion_results import MOTION_BOOK
+from ehlectric.quantities.results import MOTION_BOOK
 from ehlectric.quantities.rows import Row, Summary, Words, sheet_rows, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
 from ehlectric.tables.contact_tables import condition_rows

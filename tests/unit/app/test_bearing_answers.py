@@ -23,8 +23,8 @@ from ehlectric.app.page_warnings import Told, beside, counts, elsewhere
 from ehlectric.bearing.result import solve_bearing
 from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import CODES, InputError, ResultWarning
-from ehlectric.quantities.bearing_results import BEARING_BOOK
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.units import rpm
 from ehlectric.runs.by_kind import run
 from ehlectric.runs.example_files import example_text

@@ -21,8 +21,8 @@ from ehlectric.motion.stored import TOUCHING, solved_part
 from ehlectric.motion.stored_run import MotionRun, read_motion
 from ehlectric.motion.summary import run_errors, summary_of
 from ehlectric.motion.warnings import touch_warnings
-from ehlectric.quantities.motion_results import MOTION_KEYS
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import MOTION_KEYS
 from ehlectric.runtime.file_rules import UnfitError
 from ehlectric.tables.motion_tables import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving

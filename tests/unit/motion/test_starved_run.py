@@ -12,7 +12,7 @@ from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.unsteady import UnsteadyFilm
 from ehlectric.motion.run import run
 from ehlectric.motion.stored_run import read_motion
-from ehlectric.quantities.motion_results import MOTION_KEYS
+from ehlectric.quantities.results import MOTION_KEYS
 from ehlectric.tables.motion_tables import run_rows
 from tests.helpers.moving_cases import LINE, POINT, moving
 from tests.helpers.starved_motion import line, motion, smooth

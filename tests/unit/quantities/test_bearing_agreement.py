@@ -9,8 +9,8 @@ import pytest
 from ehlectric import solve
 from ehlectric.app.compute.bearing_answers import answer_of
 from ehlectric.app.compute.compare_answers import side
-from ehlectric.quantities.bearing_results import BEARING_BOOK
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.report.report_facts import row_tables
 from ehlectric.runs.solve import load
 from ehlectric.sweep.labels import label_of

@@ -9,8 +9,8 @@ from ehlectric.app.compute.contact_answers import view_of
 from ehlectric.cases.input_keys import kind_of
 from ehlectric.contact.result import PointResult
 from ehlectric.quantities.bounds import contact_bounds
-from ehlectric.quantities.contact_results import CONTACT_BOOK
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import CONTACT_BOOK
 from ehlectric.quantities.rows import shown_unit
 from ehlectric.quantities.sheets import CHECK, CONTACT, CONTACT_CARDS, SPOT_CARDS, TOUCHING_CARDS
 from ehlectric.report.report_content import Table

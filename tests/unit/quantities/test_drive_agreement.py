@@ -9,8 +9,8 @@ from ehlectric import load, solve_drive
 from ehlectric.app.compute.drive_answers import drive_numbers, ends_table
 from ehlectric.drive.solver import prepare
 from ehlectric.drive.summary import checked_summary
-from ehlectric.quantities.drive_results import DRIVE_BOOK, DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import DRIVE_BOOK, DRIVE_KEYS, NAMES_OF_ENDS
 from ehlectric.quantities.rows import shown_unit
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
 from ehlectric.report.drive_report import number_tables

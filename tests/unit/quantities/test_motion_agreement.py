@@ -9,9 +9,8 @@ from ehlectric.cases.input_keys import kind_of
 from ehlectric.motion.result import MotionResult
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
-from ehlectric.quantities.contact_results import CONTACT_BOOK
-from ehlectric.quantities.motion_results import MOTION_BOOK, MOTION_KEYS
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import CONTACT_BOOK, MOTION_BOOK, MOTION_KEYS
 from ehlectric.quantities.rows import shown_unit, value_at
 from ehlectric.quantities.sheets import MOTION, MOTION_CHECK
 from ehlectric.report.report_content import Table

@@ -10,9 +10,9 @@ from ehlectric.bearing.result import solve_bearing
 from ehlectric.motion.run import run_motion
 from ehlectric.motion.stored_run import read_motion
 from ehlectric.motion.summary import summary_of
-from ehlectric.quantities.contact_results import heat_keys
 from ehlectric.quantities.formats import scale_for
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import CONTACT_KEYS
 from ehlectric.quantities.units import to_si
 from ehlectric.sweep.engine import solve_point
 from ehlectric.sweep.labels import label_of, result_keys
@@ -32,7 +32,8 @@ LENGTHS = {"line": {"length": "10 mm"}, "point": {}}
 METER = {"fill": "oil", "coating": {"thickness": "1 um", "relative_permittivity": 9}}
 KINDS = ["line", "point", "balls", "rollers", "drive", "moving line", "moving point"]
 # Keys within the table film of a summary of heat and shear; both kinds of contact have the same ones.
-HEAT = {f"film.{key}" for key in heat_keys("W")}
+FILM = [key for key in CONTACT_KEYS["line"] if key.startswith("film.")]
+HEAT = {*FILM[FILM.index("film.rheology") :]}
 UNITS = Path(__file__).parent / "units.csv"
 
 

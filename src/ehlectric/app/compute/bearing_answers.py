@@ -45,8 +45,8 @@ from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.defaults import HOW, Contacts, quick_way
 from ehlectric.discharge.film_verdict import Verdict, ratio_text
 from ehlectric.errors import InputError
-from ehlectric.quantities.bearing_results import BEARING_BOOK
 from ehlectric.quantities.formats import amount
+from ehlectric.quantities.results import BEARING_BOOK
 from ehlectric.quantities.rows import Row, row_of, value_at
 from ehlectric.quantities.sheets import BEARING_CARDS, DIFFERENCES, PAGE_COLUMNS
 from ehlectric.report.light import light_of

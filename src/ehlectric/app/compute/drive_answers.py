@@ -23,8 +23,8 @@ from ehlectric.drive.solver import SIMULATING, prepare
 from ehlectric.drive.summary import checked_summary
 from ehlectric.drive.warnings import bearing_warnings, machine_warnings
 from ehlectric.errors import InputError
-from ehlectric.quantities.drive_results import DRIVE_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.inputs import ENDS
+from ehlectric.quantities.results import DRIVE_BOOK, NAMES_OF_ENDS
 from ehlectric.quantities.rows import Row, Sheet, Summary
 from ehlectric.quantities.sheets import DRIVE, DRIVE_CARDS, DRIVE_CHECK
 from ehlectric.report.light import light_of

@@ -35,9 +35,9 @@ from ehlectric.figures.drive_figures import (
     variants,
     voltage_unit,
 )
-from ehlectric.quantities.drive_results import EVENT_KEYS, STATISTICS
 from ehlectric.quantities.formats import formatted, number_text
 from ehlectric.quantities.palette import BLUE, MIDDLE_GREY, faint
+from ehlectric.quantities.results import EVENT_KEYS, STATISTICS
 from ehlectric.quantities.units import unit_for
 
 # Largest number of discharges of a bearing in the table.

@@ -13,8 +13,8 @@ from ehlectric.contact.touching import Coarser, about_share, asperities, share_t
 from ehlectric.figures import figure_names as known
 from ehlectric.figures.contact_findings import finding
 from ehlectric.figures.result_figures import figure, figure_names
-from ehlectric.quantities.contact_results import CONTACT_KEYS
 from ehlectric.quantities.quantity import key_of
+from ehlectric.quantities.results import CONTACT_KEYS
 from ehlectric.report.light import light_of
 from ehlectric.tables.contact_tables import result_rows
 from tests.helpers.each import each

@@ -1,0 +1,148 @@
+"""Results of all kinds by the dotted keys of summary.json, from the files ``*_results.toml`` of this folder.
+
+``contact_results.toml`` explains the fields of an entry. Keys that several kinds have, those of oils and of
+surfaces, stand once. A book has besides the keys of a summary what outputs show and no summary stores.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from importlib import resources
+from types import MappingProxyType
+from typing import Any
+
+from ehlectric.quantities.inputs import input_at
+from ehlectric.quantities.quantity import Keys, Quantity, under
+
+# What the laws of an oil describe, in the order of files.
+LAW_NAMES = (
+    *("atmospheric", "viscosity", "density", "permittivity", "conductivity"),
+    *("thermal_conductivity", "heat_capacity", "strength"),
+)
+
+# Voltages whose share of time the summary of a drive has [V]: in the field, discharges begin at a few volts.
+LIMITS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
+
+# Bearings of a drive in labels, by the names of their tables.
+NAMES_OF_ENDS: Mapping[str, str] = MappingProxyType(
+    {"drive_end": "drive end", "non_drive_end": "non-drive end"}
+)
+
+# Statistics of the discharges of a bearing, by the ends of their keys.
+STATISTICS = {"mean": "mean", "median": "median", "high": "95th percentile", "largest": "maximum"}
+
+# Columns of the spectrum of the shaft voltage, with their units.
+SPECTRUM_COLUMNS = {"frequency": "Hz", "shaft_voltage": "V"}
+
+# Table of a file whose keys stand in no table of a summary.
+_OUTSIDE = "summary"
+
+_GEOMETRIES = ("line", "point")
+
+
+@cache
+def _entries(kind: str) -> Mapping[str, Mapping[str, Any]]:
+    """Fields of the entries of a kind of result, by dotted key."""
+    path = resources.files("ehlectric.quantities").joinpath(f"{kind}_results.toml")
+    return {
+        name if table == _OUTSIDE else f"{table}.{name}": fields
+        for table, keys in tomllib.loads(path.read_text(encoding="utf-8")).items()
+        for name, fields in keys.items()
+    }
+
+
+def _quantity(key: str, fields: Mapping[str, Any], geometry: str) -> Quantity:
+    """Quantity of an entry for a geometry; an input has the label of the book of inputs."""
+    chosen = {
+        name: value[geometry] if isinstance(value, dict) else value
+        for name, value in fields.items()
+        if name not in ("only", "stored")
+    }
+    given = input_at(key.removeprefix("inputs.")) if key.startswith("inputs.") else None
+    return Quantity(**({} if given is None else {"label": given.label, "meaning": given.meaning}) | chosen)
+
+
+def _read(kind: str, geometry: str = "", *, stored: bool = True) -> dict[str, Quantity]:
+    """Quantities of a file by dotted key: those that a summary stores, or the others."""
+    return {
+        key: _quantity(key, fields, geometry)
+        for key, fields in _entries(kind).items()
+        if fields.get("stored", True) is stored and fields.get("only", geometry) == geometry
+    }
+
+
+def _within(table: str, keys: Keys) -> dict[str, Quantity]:
+    """Quantities of a table, by their names in it."""
+    return {key.removeprefix(f"{table}."): one for key, one in keys.items() if key.startswith(f"{table}.")}
+
+
+def _of_heights(statistics: Keys, zone: str) -> dict[str, Quantity]:
+    """Statistics of z1 + z2 within a zone."""
+    return {
+        name: replace(one, meaning=f"{one.meaning}, of z1 + z2 within the {zone}")
+        for name, one in statistics.items()
+    }
+
+
+_SURFACES = _read("surface")
+_PROFILE, _MAP = _within("profile", _SURFACES), _within("map", _SURFACES)
+_OF_PROFILE = {
+    **_within("surface", _SURFACES),
+    **under("steps", {**_within("profile_step", _SURFACES), **_PROFILE}),
+}
+# Keys of a rough surface; a point contact may have a profile too, which is constant across its direction.
+_ROUGH: Mapping[str, Keys] = {
+    "line": _OF_PROFILE,
+    "point": {**_OF_PROFILE, **under("steps", {**_within("map_step", _SURFACES), **_MAP})},
+}
+_COMBINED: Mapping[str, Keys] = {
+    "line": _of_heights(_PROFILE, "Hertz zone"),
+    "point": _of_heights(_MAP, "rectangle around the Hertz ellipse"),
+}
+_OIL = under("lubricant", _within("oil", _read("oil")))
+
+# Contacts, by geometry.
+CONTACT_KEYS: Mapping[str, Keys] = {
+    geometry: {
+        **_OIL,
+        **_read("contact", geometry),
+        **under("roughness.surfaces", _ROUGH[geometry]),
+        **under("roughness.combined", _COMBINED[geometry]),
+    }
+    for geometry in _GEOMETRIES
+}
+CONTACT_BOOK: Mapping[str, Keys] = {
+    geometry: {**keys, **_read("contact", geometry, stored=False)} for geometry, keys in CONTACT_KEYS.items()
+}
+
+# Contacts with moving roughness, by geometry.
+MOTION_KEYS: Mapping[str, Keys] = {
+    geometry: {**_read("motion", geometry), **under("rough", _ROUGH[geometry])} for geometry in _GEOMETRIES
+}
+MOTION_BOOK: Mapping[str, Keys] = {
+    geometry: {**keys, **_read("motion", geometry, stored=False)} for geometry, keys in MOTION_KEYS.items()
+}
+
+# Bearings, and the rows of their contacts, which are also the columns of contacts.csv.
+BEARING_KEYS: Keys = {**_OIL, **_read("bearing")}
+BEARING_BOOK: Keys = {**BEARING_KEYS, **_read("bearing", stored=False)}
+ELEMENT_KEYS: Keys = _within("contacts", BEARING_KEYS)
+
+# Drives: the table "end" is that of the bearing at either end, "event" a row of the table of discharges.
+_DRIVE = _read("drive")
+_ENDS: Keys = {
+    f"{end}.{name}": replace(one, label=f"{one.label}, {words}" if one.label else "")
+    for end, words in NAMES_OF_ENDS.items()
+    for name, one in _within("end", _DRIVE).items()
+}
+DRIVE_KEYS: Keys = {
+    **{key: one for key, one in _DRIVE.items() if not key.startswith(("end.", "event."))},
+    **_ENDS,
+    **under("remedies", _ENDS),
+}
+DRIVE_BOOK: Keys = {**_DRIVE, **DRIVE_KEYS, **_read("drive", stored=False)}
+EVENT_KEYS: Keys = _within("event", _DRIVE)
+EVENT_COLUMNS = {name: one.unit for name, one in EVENT_KEYS.items()}
