@@ -10,7 +10,7 @@ flows from high to low pressure. A face lies half-way between two nodes. Quantit
 enter as a mean of the two nodes, and this mean is taken in this module only.
 
 Another relation between flux and pressure gradient is one more function in ``FLOWS``, or the value of
-``Fluid.flow``, as that of a shear-thinning fluid (``ehlectric.film.sheared``).
+``Fluid.flow``, as that of a shear-thinning fluid (``film.shear_flow``).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 If the iteration does not converge from this guess, it starts again from the Hertz pressure. If it still does
 not converge, or if the film is thinner somewhere than the boundary film, the surfaces touch, and
-``ehlectric.film.mixed`` solves the film with the nodes where they do.
+``film.touching_solver`` solves the film with the nodes where they do.
 """
 
 from __future__ import annotations
