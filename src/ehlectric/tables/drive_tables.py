@@ -177,7 +177,7 @@ _WORDS = Words(
     },
     values={
         "source.edges": _edges,
-        "end.films": lambda s: HOW[s["end"]["films"]],
+        "end.films": lambda s: HOW.get(s["end"].get("films")),
         "end.events_per_second_range": _range,
     },
     hidden=_hidden,

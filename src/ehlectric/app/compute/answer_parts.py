@@ -25,7 +25,7 @@ from ehlectric.runs.file_kinds import FileKind, kind_of_tables
 from ehlectric.sweep.sweep_inputs import Sweep
 
 
-def cards(rows: Iterable[Row], keys: Sequence[str]) -> list[Number]:
+def cards(rows: Iterable[Row], keys: Iterable[str]) -> list[Number]:
     """Numbers of some keys, in the order of the keys; those that no row has are left out.
 
     A key of the form "film_formulas.*.minimum_thickness" takes the first row of this form.
