@@ -1,28 +1,27 @@
-"""Breakdown voltages of a bearing and its shaft, and the discharges: energy, pit, current density,
+"""Breakdown voltages of a bearing and its shaft, and its discharges: energy, pit, current density and
 leakage.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from operator import mul, truediv
 
 import numpy as np
 from scipy.linalg import expm
 
 from ehlectric.arrays import Array
-from ehlectric.bearing.circuit import Circuit, leakage_conductance, shaft_first_break, shaft_through_breakdown
+from ehlectric.bearing.circuit import leakage_conductance, shaft_first_break, shaft_through_breakdown
 from ehlectric.bearing.impedance import film_share, oil_relaxation_time, shaft_capacitance, shaft_path
 from ehlectric.bearing.solution import (
     BearingSolution,
-    RingState,
     capacitance,
     capacitance_is_bound,
     insulating,
     lubrication,
 )
 from ehlectric.cases.bearing_inputs import ROLLERS, Motor
-from ehlectric.cases.discharge_inputs import Pit
 from ehlectric.discharge.discharge_laws import (
     CURRENT_DENSITY_LIMITS,
     beside_limits,
@@ -32,6 +31,11 @@ from ehlectric.discharge.discharge_laws import (
 )
 from ehlectric.errors import ResultWarning
 from ehlectric.quantities.formats import amount
+
+
+def known(law: Callable[..., float], *values: float | None) -> float | None:
+    """Value of a law; None where one of its arguments is not known."""
+    return None if None in values else law(*values)
 
 
 def voltage_ratio(winding_rotor: float, rotor_frame: float, first: float, second: float) -> float:
@@ -78,13 +82,12 @@ def shaft_voltage(solution: BearingSolution) -> float | None:
 
 def film_voltage(solution: BearingSolution) -> float | None:
     """Part of the shaft voltage across the films, from ring to ring [V]; None as ``shaft_voltage``."""
-    shaft, share = shaft_voltage(solution), film_share(solution)
-    return None if shaft is None or share is None else share * shaft
+    return known(mul, film_share(solution), shaft_voltage(solution))
 
 
 def margin(voltage: float, shaft: float | None) -> float | None:
     """Shaft voltage at breakdown [V] over shaft voltage [V], dimensionless; None without a shaft voltage."""
-    return None if shaft is None else voltage / shaft
+    return known(truediv, voltage, shaft)
 
 
 @dataclass(frozen=True)
@@ -111,18 +114,21 @@ class Breakdown:
 
 
 def breakdown_of(solution: BearingSolution) -> Breakdown | None:
-    """Bearing and shaft voltages at which the films of a solved bearing break down. Returns None for ceramic
-    elements, where surfaces touch, or without a dielectric strength.
+    """Bearing and shaft voltages at which the films of a solved bearing break down.
+
+    None for ceramic elements, where surfaces touch, and without a dielectric strength.
     """
     circuits, path = solution.circuits(), shaft_path(solution)
     first = np.array([circuit.first_break for circuit in circuits])
     through = np.array([circuit.through_breakdown for circuit in circuits])
     if not insulating(solution) or not np.all(np.isfinite(through)):
         return None
+    weakest = circuits[int(np.argmin(first))]
+    k = int(np.argmin(weakest.first_breaks))
     return Breakdown(
         first_break=float(np.min(first)),
         first_break_mean=float(np.mean(first)),
-        first_break_at=_weakest(circuits[int(np.argmin(first))]),
+        first_break_at=f"{'inner' if weakest.inner_first[k] else 'outer'} contact of element {k}",
         through_breakdown=float(np.min(through)),
         through_breakdown_mean=float(np.mean(through)),
         shaft_first_break=min(shaft_first_break(circuit, path) for circuit in circuits),
@@ -130,10 +136,10 @@ def breakdown_of(solution: BearingSolution) -> Breakdown | None:
     )
 
 
-def _weakest(circuit: Circuit) -> str:
-    """Name of the contact that breaks down first."""
-    k = int(np.argmin(circuit.first_breaks))
-    return f"{'inner' if circuit.inner_first[k] else 'outer'} contact of element {k}"
+def first_margin(solution: BearingSolution) -> float | None:
+    """Margin of a solved bearing: shaft voltage of its first breakdown over its shaft voltage, or None."""
+    breakdown = breakdown_of(solution)
+    return None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
 
 
 def strength_per_volt(solution: BearingSolution) -> float | None:
@@ -197,22 +203,21 @@ def bearing_costs(solution: BearingSolution) -> BearingCosts:
     case, breakdown = solution.case, breakdown_of(solution)
     across = film_voltage(solution) if insulating(solution) else None
     total, pit = _discharged(solution), case.discharge.pit
-    discharged, at_break = _energy(total, across), None
-    if breakdown is not None:
-        at_break = _energy(total, breakdown.first_break)
+    discharged = known(stored_energy, total, across)
+    at_break = known(stored_energy, total, None if breakdown is None else breakdown.first_break)
+    melting = (None,) if pit is None else (pit.efficiency, pit.melting_energy)
+    volume, at_first = (known(melted_volume, energy, *melting) for energy in (discharged, at_break))
     areas = conducting_areas(solution)
     whole, largest = float(np.sum(areas)), float(np.max(areas))
     current = case.discharge.peak_current
-    volume = _melted(pit, discharged)
-    at_first = _melted(pit, at_break)
     return BearingCosts(
         discharged_capacitance=total,
-        bearing_energy=None if across is None else stored_energy(capacitance(solution), across),
+        bearing_energy=known(stored_energy, capacitance(solution), across),
         discharge_energy=discharged,
         breakdown_energy=at_break,
         pit_volume=volume,
-        pit_diameter=None if volume is None else pit_diameter(volume),
-        breakdown_pit_diameter=None if at_first is None else pit_diameter(at_first),
+        pit_diameter=known(pit_diameter, volume),
+        breakdown_pit_diameter=known(pit_diameter, at_first),
         hertz_area=whole,
         current_density=None if current is None or not whole else current / whole,
         element_current_density=None if current is None or not largest else current / largest,
@@ -233,26 +238,12 @@ def _discharged(solution: BearingSolution) -> float | None:
     return None if external is None else own + path.behind_coating(external + path.parallel)
 
 
-def _energy(total: float | None, voltage: float | None) -> float | None:
-    return None if total is None or voltage is None else stored_energy(total, voltage)
-
-
-def _melted(pit: Pit | None, energy: float | None) -> float | None:
-    """Volume of one surface that an energy [J] melts [m^3]; None where one of both is not known."""
-    if pit is None or energy is None:
-        return None
-    return melted_volume(energy, pit.efficiency, pit.melting_energy)
-
-
 def conducting_areas(solution: BearingSolution) -> Array:
     """Area of the smaller dry contact of each element, shape (n,) [m^2]; 0 where a ring does not load it."""
     factor = 4.0 if solution.case.bearing.kind == ROLLERS else np.pi
-
-    def area(ring: RingState) -> Array:
-        return factor * ring.values.semi_axis_x * ring.values.semi_axis_y
-
-    inner, outer = solution.positions[0].rings
-    return np.minimum(area(inner), area(outer))
+    axes = [(ring.values.semi_axis_x, ring.values.semi_axis_y) for ring in solution.positions[0].rings]
+    inner, outer = (factor * along * across for along, across in axes)
+    return np.minimum(inner, outer)
 
 
 def current_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,6 @@ from ehlectric.bearing.solving import quick_solution
 from ehlectric.cases.bearing_inputs import ROLLERS
 from ehlectric.errors import InputError
 from ehlectric.formulas.asperities import (
-    LOAD_SHARE,
     LOWEST_SEPARATION,
     AsperityContact,
     SpectralMoments,
@@ -64,9 +64,6 @@ DEFAULT_SHARE = "patir_cheng"
 # of either end the time-averaged current or charge is that of the one state to 1 %, which is less than the
 # error of any film. Such a bearing still discharges at times: 1 % of the time is minutes in a day.
 CAPACITIVE, RESISTIVE = 0.01, 0.99
-
-# What the share of time of a contact is from, without and with ``[bearing.summits]``.
-_MODELS = {False: "clarke", True: "greenwood_williamson"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,13 +128,12 @@ class BearingDuty:
 
 
 def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDuty:
-    """Load shares of asperities and shares of time with contact in a solved bearing. ``film_scale``, factor
-    on all film thicknesses, dimensionless; for films of a quick way, scaled to solved ones. Returns contacts
-    at each position of the cage, and the whole bearing.
+    """Load shares of asperities, and shares of time with contact, in a solved bearing.
 
-    Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which pressure
-    flattens. An element conducts while both its contacts do, and one element shorts the bearing
-    (``asperities.intermittency``). All contacts are taken as independent.
+    ``film_scale`` is a factor on all film thicknesses, for those of quick contacts that are scaled to solved
+    ones. Films are those of smooth surfaces, and the roughness is that of the unloaded surfaces, which
+    pressure flattens. An element conducts while both its contacts do, and one element shorts the bearing. All
+    contacts are taken as independent.
     """
     rings = tuple(
         (_ring(solution, position.inner, film_scale), _ring(solution, position.outer, film_scale))
@@ -153,7 +149,7 @@ def duty_of(solution: BearingSolution, *, film_scale: float = 1.0) -> BearingDut
         touching_time_share=touching,
         clarke_time_share=_mean_share([(a.contact_probability, b.contact_probability) for a, b in rings]),
         insulated=insulated,
-        model=_MODELS[solution.case.bearing.summits is not None],
+        model="clarke" if solution.case.bearing.summits is None else "greenwood_williamson",
         regime=regime_of(share, touching=state == "conducting" and not coated),
     )
 
@@ -191,7 +187,9 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
 
     ratio = film / bearing.composite_rq
     shares, probability = load_shares(ratio), contact_probability(ratio)
-    low = np.min([_in_range(name, share, ratio) for name, share in shares.items()], axis=0)
+    # Johnson's fit ends at a share of 0, and is no lower bound beyond its range.
+    beyond = {"johnson": ratio >= johnson_end()}
+    low = np.min([np.where(beyond.get(name, False), np.inf, each) for name, each in shares.items()], axis=0)
     spots, real, time_share = None, None, probability
     if bearing.summits is not None:
         factor = 4.0 if bearing.kind == ROLLERS else np.pi
@@ -210,12 +208,6 @@ def _ring(solution: BearingSolution, ring: RingState, film_scale: float) -> Ring
         contact_time_share=whole(time_share),
         real_area=real,
     )
-
-
-def _in_range(name: str, share: Array, ratio: Array) -> Array:
-    """Load share by a law, infinite beyond its range: Johnson's fit ends at a share of 0."""
-    assert name in LOAD_SHARE
-    return np.where(ratio < johnson_end(), share, np.inf) if name == "johnson" else share
 
 
 def _touching(solution: BearingSolution, film: Array) -> AsperityContact:
@@ -249,7 +241,7 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     Returns speed [rad/s] at which the bearing becomes capacitive: it conducts ``CAPACITIVE`` of the time, or
     its least lambda ratio is 1 if that speed is higher; of a bearing that is capacitive it is the next lower
     one, of another the next higher one. None where there is none from a 27th to 27 times the speed of the
-    case; for ceramic elements and coatings, which insulate at any speed; for an oil that no quick way
+    case; for ceramic elements and coatings, which insulate at any speed; for an oil that no quick contact
     describes; and where a film of the solution is not converged.
 
     Films at other speeds are from the atlas, or by formula where the contacts of the case are, and are
@@ -265,14 +257,8 @@ def capacitive_speed(solution: BearingSolution) -> float | None:
     own, start = math.log(case.bearing.inner_speed), quick_solution(quick)
     scale = lambda_ratio(solution) / lambda_ratio(start)
 
-    known: dict[float, float] = {}
-
+    @cache
     def excess(log: float) -> float:
-        if log not in known:
-            known[log] = found(log)
-        return known[log]
-
-    def found(log: float) -> float:
         """How far the bearing is beyond both limits, by logarithms; negative where it is not capacitive."""
         changed = quick.replace({"bearing.inner_speed": math.exp(log)})
         at = start if log == own else quick_solution(changed)
@@ -319,15 +305,8 @@ def duty_summary(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]
     return found | {"expected_spots": float(max(spots)) if spots else None}
 
 
-def contact_duty(ring: RingDuty, k: int) -> dict[str, float | None]:
-    """Values of the contact of element ``k`` with a ring, as in a row of ``contacts``."""
-    ratio, spots = ring.central_lambda_ratio[k], ring.expected_spots
-    return {
-        "central_lambda_ratio": float(ratio) if np.isfinite(ratio) else None,
-        "asperity_share": float(ring.asperity_share[k]),
-        "asperity_share_low": float(ring.asperity_share_low[k]),
-        "asperity_share_high": float(ring.asperity_share_high[k]),
-        "contact_probability": float(ring.contact_probability[k]),
-        "expected_spots": None if spots is None else float(spots[k]),
-        "contact_time_share": float(ring.contact_time_share[k]),
-    }
+def contact_duty(ring: RingDuty, k: int) -> dict[str, Any]:
+    """Values of the contact of element ``k`` with a ring, for a row of ``contacts``."""
+    own = {name: None if values is None else values[k] for name, values in vars(ring).items()}
+    del own["real_area"]
+    return own

@@ -1,12 +1,11 @@
-"""Electrical circuit of a bearing: contacts of all elements, a coating in series, and a capacitance
-parallel to both.
-"""
+"""Electrical circuit of a bearing: contacts of all elements, and coating and capacitances next to them."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
@@ -14,9 +13,12 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.cases.bearing_inputs import Bearing
 from ehlectric.runtime.stored import stored
 
+# Number, or array of numbers.
+N = TypeVar("N", float, Array)
+
 
 def series(first: Array, second: Array) -> Array:
-    """Capacitance of two capacitors in series, C1 C2/(C1 + C2) [F].
+    """Capacitance of two capacitors in series, C1 C2/(C1 + C2) [F], or admittance of two of them [S].
 
     Examples
     --------
@@ -212,18 +214,14 @@ class Path:
         """Whether a ring has a coating."""
         return math.isfinite(self.coating)
 
-    def film_share(self, films: float) -> float:
+    def film_share(self, films: N) -> N:
         """Share of the shaft voltage across films of a capacitance [F], C_c/(C_c + C), dimensionless.
 
         The share is that of a capacitive divider: right after an edge of the voltage, and at frequencies far
         above those at which oil and coating conduct.
         """
-        return 1.0 / (1.0 + films / self.coating)
-
-    def film_shares(self, films: Array) -> Array:
-        """Share of the shaft voltage across films of several capacitances [F], as ``film_share``."""
-        shares: Array = 1.0 / (1.0 + films / self.coating)
-        return shares
+        share: N = 1.0 / (1.0 + films / self.coating)
+        return share
 
     def total(self, films: float) -> float:
         """Capacitance from shaft to housing with films of a capacitance [F]."""
@@ -248,9 +246,7 @@ class Path:
 
 
 def path_of(bearing: Bearing) -> Path:
-    """Circuit between shaft and housing of a bearing, beside its films. Returns capacitances in SI units;
-    without the keys there is no coating and no parallel capacitance.
-    """
+    """Circuit between shaft and housing of a bearing, next to its films."""
     coating = bearing.coating
     if coating is None:
         return Path(parallel=bearing.parallel_capacitance or 0.0)
@@ -296,4 +292,4 @@ def shaft_through_breakdown(circuit: Circuit, path: Path) -> float:
     remaining = np.where(circuit.inner_first, circuit.outer_breakdown, circuit.inner_breakdown)
     shorted = circuit.capacitance - circuit.elements + other
     first = circuit.first_breaks / path.film_share(circuit.capacitance)
-    return float(np.min(np.maximum(first, remaining / path.film_shares(shorted))))
+    return float(np.min(np.maximum(first, remaining / path.film_share(shorted))))

@@ -107,6 +107,11 @@ class BearingConditions(Generic[G_co]):
     clearance: MountedClearance | None = None
 
     @property
+    def rings(self) -> tuple[RingConditions, RingConditions]:
+        """Conditions of the contacts with the inner and with the outer ring."""
+        return self.inner, self.outer
+
+    @property
     def film_factor(self) -> float:
         """Film factor of the ring whose films it reduces more, dimensionless, at most 1."""
         return min(self.inner.film_factor, self.outer.film_factor)

@@ -1,15 +1,15 @@
-"""Film factor of the contacts of a bearing, of heat and of supply of oil, and the friction of rolling.
+"""Film factor of the contacts of a bearing by heat and by the supply of oil, and the friction of rolling.
 
-Hydrodynamic rolling resistance of all contacts of a bearing, from one solved contact of each ring.
-It is one part of the friction of a bearing. Spin and the slip along the ellipse of a ball, cage, ribs and
-ends of rollers, seals, oil that is churned, and hysteresis of the steel have no part in it.
+The friction is the hydrodynamic rolling resistance of all contacts, from one solved contact of each ring.
+Spin and slip of the balls, cage, ribs, seals, churned oil and hysteresis of the steel add to it, and are not
+computed.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import Any
 
@@ -20,7 +20,7 @@ from ehlectric.bearing.bearing_kinds import kind_of
 from ehlectric.bearing.conditions import BearingConditions, ContactFriction
 from ehlectric.bearing.loads.geometry import Geometry, rolling_speeds
 from ehlectric.bearing.ring_contacts import Contact, RingContacts, check_contact, error_of_contact
-from ehlectric.bearing.solution import BearingSolution, RingState
+from ehlectric.bearing.solution import BearingSolution
 from ehlectric.cases.bearing_case import BearingCase
 from ehlectric.cases.bearing_inputs import ROLLERS, Bearing
 from ehlectric.cases.case_oil import Lubricant, temperature_coefficient
@@ -58,17 +58,13 @@ def half_time(solution: BearingSolution) -> float | None:
     bearing = solution.case.bearing
     if bearing.supply == "flooded" or bearing.kind == ROLLERS:
         return None
-    rings = zip((solution.inner, solution.outer), solution.positions[0].rings, strict=True)
-    return min(_half_time(ring, state) for ring, state in rings)
-
-
-def _half_time(ring: RingContacts[Any], state: RingState) -> float:
-    """Time in which the most loaded film of a ring halves [s]."""
-    most, values = int(np.argmax(state.load)), state.values
-    axes = float(values.semi_axis_x[most]), float(values.semi_axis_y[most])
-    return contact_half_time(
-        ring, float(values.max_pressure[most]), axes, float(values.central_thickness[most])
-    )
+    times = []
+    for ring, state in zip((solution.inner, solution.outer), solution.positions[0].rings, strict=True):
+        most, values = int(np.argmax(state.load)), state.values
+        quantities = values.max_pressure, values.semi_axis_x, values.semi_axis_y, values.central_thickness
+        pressure, along, across, thickness = (float(quantity[most]) for quantity in quantities)
+        times.append(contact_half_time(ring, pressure, (along, across), thickness))
+    return min(times)
 
 
 def contact_half_time(
@@ -154,9 +150,8 @@ def solved_heat(case: BearingCase, ring: RingContacts[Any], load: float) -> tupl
 
 def _flooded(ring: RingContacts[Any]) -> RingContacts[Any]:
     """Contacts with a ring whose films are isothermal and fully flooded."""
-    at = ring.conditions
-    inner, outer = (replace(own, film_factor=1.0) for own in (at.inner, at.outer))
-    return replace(ring, conditions=replace(at, inner=inner, outer=outer))
+    inner, outer = (replace(own, film_factor=1.0) for own in ring.conditions.rings)
+    return replace(ring, conditions=replace(ring.conditions, inner=inner, outer=outer))
 
 
 def _hot(case: BearingCase, contact: Contact, grid: Grid) -> _HotContact:
@@ -248,32 +243,21 @@ def _friction(
 _LEAST = 0.01
 
 
-@dataclass(frozen=True)
-class FilmFactor:
-    """Film thickness over that of isothermal, fully flooded oil, with its parts; dimensionless."""
+def factors_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> dict[str, Any]:
+    """Film factor of the contacts with a ring at its temperature [K], and its parts, for ``RingConditions``.
 
-    total: float  # film thickness over that of isothermal, fully flooded oil
-    # Part of the heat in the inlet; None where a number stands for it and possibly for more.
-    heat: float | None = None
-    # Part of the supply of oil; None where ``total`` contains it, as in a measured film factor.
-    supply: float | None = None
-    # Part of the heat in the inlet by formula, also where the heat is to be solved; None where no heat is
-    # computed.
-    inlet_shear: float | None = None
-
-
-def film_factor_of(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> FilmFactor:
-    """Film factor of the contacts with a ring at its temperature [K], by the bearing file. ``temperature``
-    [K]. Raises InputError where the rule for a way of supply leaves next to no film.
+    The film factor is NaN where its heat has to be solved. Raises InputError where the rule for a kind of
+    supply leaves next to no film.
     """
     factor, supply = case.bearing.film_factor, _supply_factor(case.bearing, oil)
     if isinstance(factor, float):
-        return FilmFactor(factor * supply, None, supply)
+        return {"film_factor": factor * supply, "supply_factor": supply}
     if factor == "none":
-        return FilmFactor(supply, 1.0, supply)
+        return {"film_factor": supply, "heat_factor": 1.0, "supply_factor": supply}
     by_formula = _inlet_shear(case, geometry, oil, temperature)
     heat = by_formula if factor == "inlet-shear" else math.nan
-    return FilmFactor(heat * supply, heat, supply, by_formula)
+    parts = {"heat_factor": heat, "supply_factor": supply, "inlet_shear_factor": by_formula}
+    return {"film_factor": heat * supply, **parts}
 
 
 def _inlet_shear(case: BearingCase, geometry: Geometry, oil: Oil, temperature: float) -> float:
@@ -316,16 +300,6 @@ def _supply_factor(bearing: Bearing, oil: Oil) -> float:
     return float(factor)
 
 
-# Numbers of the contact of each ring in the summary, by the attribute of its friction.
-_OF_CONTACT = {
-    "rolling_coefficient": "rolling_coefficient",
-    "contact_power_loss": "power_loss",
-    "inlet_temperature_rise": "inlet_temperature_rise",
-    "max_temperature_rise": "max_temperature_rise",
-    "temperature_rise_error": "temperature_rise_error",
-}
-
-
 def rolling_force(ring: RingContacts[Any], friction: ContactFriction, load: Array) -> Array:
     """Hydrodynamic rolling force on each surface of the contacts with a ring. ``load``, loads of the contacts
     [N]; 0 without contact, shape (...). Returns force [N]: that of the solved contact times the ratio of the
@@ -352,12 +326,13 @@ def rolling_power_loss(solution: BearingSolution) -> float | None:
     power [W] with flooded contacts, 2 F u for each of them; None where no heat is solved.
     """
     power = 0.0
-    for ring in (solution.inner, solution.outer):
-        own = solution.conditions.inner if ring.inner else solution.conditions.outer
+    for k, (ring, own) in enumerate(
+        zip((solution.inner, solution.outer), solution.conditions.rings, strict=True)
+    ):
         if own.friction is None:
             return None
-        states = [position.inner if ring.inner else position.outer for position in solution.positions]
-        force = rolling_force(ring, own.friction, np.array([state.load for state in states]))
+        loads = np.array([position.rings[k].load for position in solution.positions])
+        force = rolling_force(ring, own.friction, loads)
         power += 2.0 * ring.speed * float(np.mean(np.sum(force, axis=-1)))
     return power
 
@@ -369,10 +344,11 @@ def friction_summary(solution: BearingSolution) -> dict[str, float | None]:
         "rolling_power_loss": power,
         "rolling_moment": None if power is None else power / solution.case.bearing.inner_speed,
     }
-    for name, own in (("inner", solution.conditions.inner), ("outer", solution.conditions.outer)):
-        for key, attribute in _OF_CONTACT.items():
-            value = None if own.friction is None else getattr(own.friction, attribute)
-            numbers[f"{name}_{key}"] = value
+    for name, own in zip(("inner", "outer"), solution.conditions.rings, strict=True):
+        for each in fields(ContactFriction)[1:]:
+            # The power loss of the bearing has its own key.
+            key = "contact_power_loss" if each.name == "power_loss" else each.name
+            numbers[f"{name}_{key}"] = getattr(own.friction, each.name, None)
     return numbers
 
 

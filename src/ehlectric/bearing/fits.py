@@ -147,8 +147,7 @@ class Clearance:
 
 
 def clearance_at(mounting: Mounting, temperatures: Temperatures) -> Clearance:
-    """Radial clearance of a mounted bearing at the temperatures of its parts. Returns clearance, and
-    interferences and pressures of both fits.
+    """Radial clearance of a mounted bearing at the temperatures of its parts, and the state of both fits.
 
     Every part expands freely with its own temperature, which changes both interferences. The pressures of the
     fits widen the inner raceway and narrow the outer one. Stresses and expansions are small, so both add up.

@@ -1,40 +1,28 @@
 """Capacitance of the gaps around the loaded contacts, from the geometry of element and raceway. SI units.
 
-Raceway of a ball: a groove about the axis of the bearing, and its gap to a rigid ball. SI units.
-The raceway is a torus: a groove of radius r_g about a circle around the bearing axis. Along rolling it is
-convex at the inner ring and concave at the outer ring. A point Q on it has the azimuth phi from the ball, and
-the angle psi across the groove, from its bottom and positive towards the contact. The ball's centre O is at
-the distance R_o from the axis, and the gap at the contact angle alpha is h0. With e = r_g - r - h0,
+The raceway of a ball is a torus: a groove of radius r_g about a circle around the bearing axis. Along rolling
+it is convex at the inner ring and concave at the outer ring. A point Q on it has the azimuth phi from the
+ball, and the angle psi across the groove, from its bottom and positive towards the contact. The ball's centre
+O is at the distance R_o from the axis, and the gap at the contact angle alpha is h0. With e = r_g - r - h0,
 u = psi - alpha and the radius of the raceway at Q, R = R_o + s (r_g cos psi - e cos alpha), where s is 1 at
 the outer ring and -1 at the inner ring,
 
     abs(Q - O)^2 = (r + h0)^2 + 4 r_g e sin^2(u/2) + 4 R R_o sin^2(phi/2).
 
-This form avoids differences of large numbers. The gap at Q is measured along the radius of the ball,
-abs(Q - O) - r.
-
-Capacitance between a ball and the groove of its raceway, outside the loaded film. SI units.
-The gap between rigid bodies is that of ``ehlectric.bearing.gaps``.
-``formulas.capacitances.charge_density`` gives the charge on the raceway. It is integrated across the
-groove from shoulder to shoulder. Along rolling, it is integrated over the part that half of the ball faces:
-to where the normal of the raceway is tangent to the ball.
-
-The model neglects the field lines from the lands beside the groove, from the raceway between two balls, and
-from the ball to cage and shields. For a ball over an infinite plane, the neglected part would be 30 % of the
-total at h0/r = 1e-3. It is less in a groove, which partly encloses the ball.
-
-Capacitance between a roller and its raceway outside the loaded film, per length of the roller. SI units.
-Roller and raceway are circles. The raceway is convex at the inner ring and concave at the outer ring. R is
-the radius of the raceway, r that of the roller, and h0 the smallest gap. The roller's centre O is at
-R_o = R + r + h0 from the bearing axis at the inner ring, and at R_o = R - r - h0 at the outer ring. For a
-point Q on the raceway at the azimuth phi
+A roller and its raceway are circles. R is the radius of the raceway, r that of the roller, and h0 the
+smallest gap. The roller's centre O is at R_o = R + r + h0 from the bearing axis at the inner ring, and at
+R_o = R - r - h0 at the outer ring. For a point Q on the raceway at the azimuth phi
 
     abs(Q - O)^2 = (r + h0)^2 + 4 R R_o sin^2(phi/2).
 
-The gap at Q is measured along the radius of the roller, abs(Q - O) - r.
-``formulas.capacitances.charge_density`` gives the charge on the raceway. It is integrated over the part
-that half of the roller faces: to where the normal of the raceway is tangent to the roller. The field around
-the ends of the roller is neglected.
+Both forms avoid differences of large numbers. The gap at Q is measured along the radius of the element:
+abs(Q - O) - r. ``formulas.capacitances.charge_density`` gives the charge on the raceway. It is integrated
+along rolling over the part that half of the element faces: to where the normal of the raceway is tangent to
+the element; and across a groove from shoulder to shoulder.
+
+The model neglects the field lines from the lands beside the groove, from the raceway between two elements,
+around the ends of a roller, and to cage and shields. For a ball over an infinite plane, the neglected part
+would be 30 % of the total at h0/r = 1e-3. It is less in a groove, which partly encloses the ball.
 """
 
 from __future__ import annotations

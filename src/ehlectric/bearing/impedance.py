@@ -71,8 +71,9 @@ def rough_capacitance(solution: BearingSolution) -> float | None:
 
 
 def meter_capacitance(solution: BearingSolution) -> float | None:
-    """Capacitance that a meter reads from shaft to housing, with rough films. Returns capacitance [F]; None
-    as ``rough_capacitance``; for ceramic elements it follows from ``element_capacitance``, and is None
+    """Capacitance that a meter reads from shaft to housing, with rough films [F].
+
+    None as ``rough_capacitance``. For ceramic elements it follows from ``element_capacitance``, and is None
     without this key.
     """
     return meter_reading(solution, rough_capacitance(solution))
@@ -125,24 +126,15 @@ def _states(
     p, q = (ring.contact_time_share for ring in rings)
     both = p * q
     shares = (1.0 - p) * (1.0 - q), p * (1.0 - q), (1.0 - p) * q
-    apart = (
-        _series(inner, outer),
-        _series(inner + closed, outer),
-        _series(inner, outer + closed),
-    )
+    apart = series(inner, outer), series(inner + closed, outer), series(inner, outer + closed)
     mixed = sum(part * state for part, state in zip(shares, apart, strict=True))
     # An element that always touches both rings is never open: any admittance does in its place.
     opened = np.where(both < 1.0, mixed / np.maximum(1.0 - both, np.finfo(float).tiny), apart[0])
-    through = _series(inner + closed, outer + closed)
+    through = series(inner + closed, outer + closed)
     share = float(1.0 - np.prod(1.0 - both))
     added = np.sum(both * (through - opened), axis=1) / share if share > 0.0 else 0.0
     films = np.sum(opened, axis=1)
     return share, films, films + added
-
-
-def _series(first: Array, second: Array) -> Array:
-    """Admittance of two admittances in series."""
-    return first * second / (first + second)
 
 
 # Frequencies reach up to at least _HIGHEST [Hz], and down to _BELOW_CORNER times the corner frequency of the

@@ -14,12 +14,11 @@ from scipy.optimize import brentq
 from ehlectric.bearing.bearing_discharges import (
     Breakdown,
     breakdown_of,
+    first_margin,
     leakage_warnings,
-    margin,
     shaft_leakage,
     shaft_voltage,
 )
-from ehlectric.bearing.bearing_discharges import margin as margin_of
 from ehlectric.bearing.bearing_touching import duty_of, time_text
 from ehlectric.bearing.film_factor import supply_words
 from ehlectric.bearing.impedance import film_share, shaft_path
@@ -65,7 +64,7 @@ from ehlectric.quantities.rows import value_at
 from ehlectric.quantities.units import rpm, rpm_text
 
 # Tables and keys on which neither films nor breakdown voltages of contacts depend.
-_BESIDE_FILMS = (
+_NOT_IN_FILMS = (
     "motor.",
     "discharge.conductivity",
     "bearing.composite_rq",
@@ -112,11 +111,7 @@ class QuickMargins:
         """Margins by quick contacts, scaled to those of a solution. Raises InputError where the solution has
         no margin, or the formulas have none for the same inputs.
         """
-        breakdown = breakdown_of(solution)
-        solved = None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
-        if solved is None:
-            raise InputError.worded(None, "the bearing has no margin")
-        own, quick = MarginPoint(solved, lambda_ratio(solution)), _solved(solution.case)
+        own, quick = MarginPoint(_margin_of(solution), lambda_ratio(solution)), _solved(solution.case)
         point = _point(quick)
         if point.margin == 0.0:
             text = "without solved contacts the surfaces touch already in the case itself"
@@ -133,8 +128,8 @@ class QuickMargins:
             if key in _NOT_QUICK:
                 raise InputError.worded(key, "has an effect that only solved contacts have")
         case = self.case.replace(changes)
-        beside = all(key.startswith(_BESIDE_FILMS) for key in changes)
-        point = _point(replace(self.quick, case=case) if beside else _solved(case))
+        same_films = all(key.startswith(_NOT_IN_FILMS) for key in changes)
+        point = _point(replace(self.quick, case=case) if same_films else _solved(case))
         ratio = self.lambda_factor * point.lambda_ratio
         return MarginPoint(self.margin_factor * point.margin, ratio)
 
@@ -145,18 +140,20 @@ def _solved(case: BearingCase) -> BearingSolution:
     if quick is None:
         assert refused is not None
         raise refused
-    return quick_solution(quick, beside=(*_BESIDE_FILMS, *_UNUSED))
+    return quick_solution(quick, without_effect=(*_NOT_IN_FILMS, *_UNUSED))
 
 
 def _point(solution: BearingSolution) -> MarginPoint:
     """Margin and lambda ratio of a solution with quick contacts."""
-    ratio, breakdown = lambda_ratio(solution), breakdown_of(solution)
-    if not insulating(solution):
-        return MarginPoint(0.0, ratio)
-    value = None if breakdown is None else margin(breakdown.shaft_first_break, shaft_voltage(solution))
-    if value is None:
+    return MarginPoint(_margin_of(solution) if insulating(solution) else 0.0, lambda_ratio(solution))
+
+
+def _margin_of(solution: BearingSolution) -> float:
+    """Margin of a solution; raises an InputError where it has none."""
+    found = first_margin(solution)
+    if found is None:
         raise InputError.worded(None, "the bearing has no margin")
-    return MarginPoint(value, ratio)
+    return found
 
 
 # Smallest and largest speed that are looked at, divided by the speed of the case.
@@ -217,11 +214,11 @@ class SpeedRange:
 
 
 def speed_range(margins: QuickMargins) -> SpeedRange:
-    """Find the speeds at which the margin of a bearing crosses 1. Returns speeds from a tenth of the case's
-    speed to four times this speed.
+    """Speeds at which the margin of a bearing crosses 1, from a tenth of the speed of the case to four times
+    it.
 
-    The temperature is that of the case at all speeds. The margin rises with the speed. Only with inlet
-    shear heating or a supply by rule it falls again at high speed; more speeds are computed then.
+    The temperature is that of the case at all speeds. The margin rises with the speed. Only with inlet shear
+    heating or a supply by rule it falls again at high speed; more speeds are computed then.
     """
     own = math.log(margins.case.bearing.inner_speed)
     known = {own: margins.own}
@@ -350,17 +347,18 @@ class _Change:
 
 
 def effects_of(margins: QuickMargins, margin: float) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
-    """Effects of strength, temperature, clearance, load and motor, and of all inputs that have a range.
-    ``margin``, margin of the bearing, dimensionless. Returns ``effects``, the largest effect first; a range
-    of the file replaces the change that is made without it; ``left_out``, inputs whose effect has no result,
-    and why.
+    """Effects of strength, temperature, clearance, load, motor and all inputs with a range on the margin.
+
+    ``margin`` is that of the bearing, dimensionless. A range of the file replaces the usual change of an
+    input. Returns the effects, the largest first, and texts about inputs whose effect could not be computed.
     """
     case, effects, left_out = margins.case, [], []
-    ranges = {one.key: (one.low, one.high) for one in case.ranges or ()}
     table = case.to_dict()
     if _temperature_is_unused(case):
         left_out.append("temperature: without effect, because lubricant.viscosity is given")
-    for change in _changes(case, table, ranges):
+    changes = {change.key: change for change in _standard(case, table)}
+    changes |= {one.key: _Change(one.key, _label(one.key), (one.low, one.high)) for one in case.ranges or ()}
+    for change in changes.values():
         try:
             low, high = (_margin(margins, margin, table, change, end) for end in change.ends)
         except InputError as error:
@@ -390,18 +388,6 @@ def _temperature_is_unused(case: BearingCase) -> bool:
     return constant and not over_temperature and case.bearing.fits is None
 
 
-def _changes(
-    case: BearingCase, table: Mapping[str, Any], ranges: Mapping[str, tuple[float, float]]
-) -> Iterator[_Change]:
-    """Changes of the inputs that the case has; a range takes the place of the change without it."""
-    standard = {change.key: change for change in _standard(case, table)}
-    for key in dict.fromkeys([*standard, *ranges]):
-        if key in ranges:
-            yield _Change(key, _label(key), ranges[key])
-        else:
-            yield standard[key]
-
-
 def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
     """Changes of strength, temperature, clearance or contact angle, load, and motor."""
     bearing = case.bearing
@@ -417,10 +403,7 @@ def _standard(case: BearingCase, table: Mapping[str, Any]) -> Iterator[_Change]:
     if oil is not None and oil.iso_vg is not None:
         label = f"{_label(_AT_40)} (limits of ISO VG {oil.iso_vg})"
         yield _Change(_AT_40, label, _part(oil.at_40(), GRADE_WIDTH))
-    if bearing.unmounted_clearance is not None:
-        yield _Change("bearing.fits.unmounted_clearance", *_clearance(bearing, bearing.unmounted_clearance))
-    elif bearing.radial_clearance is not None:
-        yield _Change("bearing.radial_clearance", *_clearance(bearing, bearing.radial_clearance))
+    yield from _clearance(bearing)
     if bearing.contact_angle is not None:
         key = "bearing.contact_angle"
         yield _Change(key, _label(key), _around(bearing.contact_angle, ANGLE))
@@ -447,13 +430,19 @@ def _temperature(bearing: Bearing) -> _Change:
     return _Change(keys[0], label, _around(bearing.oil_temperature, TEMPERATURE), shift_of=keys)
 
 
-def _clearance(bearing: Bearing, clearance: float) -> tuple[str, tuple[float, float]]:
-    """Name of the clearance [m] and its two values: those of its class, or a step either way."""
-    name = _label("bearing.radial_clearance" if bearing.fits is None else "bearing.fits.unmounted_clearance")
+def _clearance(bearing: Bearing) -> Iterator[_Change]:
+    """Change of the clearance to the limits of its class, or by a step either way; none without one."""
+    key, clearance = "bearing.fits.unmounted_clearance", bearing.unmounted_clearance
+    if clearance is None:
+        key, clearance = "bearing.radial_clearance", bearing.radial_clearance
+    if clearance is None:
+        return
     if bearing.clearance_class is None or bearing.bore is None:
-        return name, _around(clearance, CLEARANCE)
+        yield _Change(key, _label(key), _around(clearance, CLEARANCE))
+        return
     limits = clearance_range(bearing.kind, bearing.clearance_class, bearing.bore)
-    return f"{name} (limits of class {bearing.clearance_class})", (limits.least, limits.most)
+    label = f"{_label(key)} (limits of class {bearing.clearance_class})"
+    yield _Change(key, label, (limits.least, limits.most))
 
 
 def _part(value: float, part: float) -> tuple[float, float]:
@@ -477,16 +466,13 @@ def _label(key: str) -> str:
 def margin_range(
     margins: QuickMargins, margin: float, effects: Iterable[Effect]
 ) -> tuple[float, float] | None:
-    """Margin with all inputs of ``ranges`` at their unfavourable ends, and at their favourable ends.
+    """Margin with all inputs of ``ranges`` at their unfavourable ends, and at their favourable ends; None
+    without.
 
-    ``margin``, margin of the bearing, dimensionless. Returns smallest and largest margin, dimensionless; the
-    smallest is 0 where the surfaces touch; None without ranges. Raises InputError where a range has no effect
-    on contacts from the atlas, or one of the two cases cannot be computed.
-
-    The ends are found one input at a time, and then taken together: 2n + 2 bearings with contacts from
-    the atlas for n ranges. This is the range of the margin where every input acts in one direction over
-    its range. It is wider than an interval of confidence, because all inputs are seldom at their worst at
-    once.
+    The ends are found one input at a time, and then taken together: 2n + 2 bearings with quick contacts for n
+    ranges. The range is wider than an interval of confidence, because all inputs are seldom at their worst at
+    once. The smallest margin is 0 where the surfaces touch. Raises InputError where a range has no effect on
+    quick contacts, or one of both cases cannot be computed.
     """
     by_key = {effect.key: effect for effect in effects}
     ranges = margins.case.ranges or ()
@@ -500,19 +486,13 @@ def margin_range(
             raise InputError.worded(f"ranges.{one.key}", "its ends have no margin without solved contacts")
         ends = {one.low: effect.low_margin, one.high: effect.high_margin}
         # The value of the case counts as well, as it may lie outside of its range or at the top of a curve.
-        worst |= _chosen(one.key, min(ends, key=ends.__getitem__), ends, margin, lowest=True)
-        best |= _chosen(one.key, max(ends, key=ends.__getitem__), ends, margin, lowest=False)
-    low = margins.at(worst).margin if worst else margin
-    high = margins.at(best).margin if best else margin
-    return min(low, margin), max(high, margin)
-
-
-def _chosen(
-    key: str, end: float, ends: Mapping[float, float], margin: float, *, lowest: bool
-) -> dict[str, float]:
-    """Change of a key to an end of its range; none where the value of the case is the more extreme one."""
-    beyond = ends[end] < margin if lowest else ends[end] > margin
-    return {key: end} if beyond else {}
+        low, high = min(ends, key=ends.__getitem__), max(ends, key=ends.__getitem__)
+        if ends[low] < margin:
+            worst[one.key] = low
+        if ends[high] > margin:
+            best[one.key] = high
+    lowest, highest = (margins.at(changes).margin if changes else margin for changes in (worst, best))
+    return min(lowest, margin), max(highest, margin)
 
 
 @dataclass(frozen=True)
@@ -552,14 +532,11 @@ class MarginAnalysis:
 
 
 def analyse_margin(solution: BearingSolution) -> MarginAnalysis:
-    """Analyse the margin of a solved bearing.
+    """Analyse the margin of a solved bearing, by some twenty bearings with quick contacts, in a few seconds.
 
-    The analysis solves some twenty bearings with contacts from the atlas, which takes a few seconds at most.
-
-    Returns without values where the bearing has no margin, or where its films must not be used.
+    The analysis has no values where the bearing has no margin, or its films must not be used.
     """
-    breakdown = breakdown_of(solution)
-    margin = None if breakdown is None else margin_of(breakdown.shaft_first_break, shaft_voltage(solution))
+    margin = first_margin(solution)
     if margin is None or not solution.converged:
         return MarginAnalysis(margin)
     try:
@@ -582,13 +559,13 @@ _OPENING = "Contacts discharge at a low voltage as they open"
 
 
 def bearing_verdict(solution: BearingSolution, analysis: MarginAnalysis) -> Verdict:
-    """Verdict on a solved bearing. Returns grey where the numbers must not be used, for ceramic elements, and
-    without a strength or a shaft voltage.
+    """Verdict on a solved bearing; grey where the numbers must not be used, for ceramic elements, and without
+    a strength or a shaft voltage.
 
-    The margin may lie anywhere between its values at the ends of the stated ranges. Estimated errors of
-    films widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its
-    lower end is that at a probability of 5 %. Without a stated range of the strength, a margin that a change
-    of the strength by 20 % takes across 1 is yellow, too.
+    The margin may lie anywhere between its values at the ends of the stated ranges. Estimated errors of films
+    widen this interval, and ``formula_factor`` for contacts by formula. With a Weibull law its lower end is
+    that at a probability of 5 %. Without a stated range of the strength, a margin that a change of the
+    strength by 20 % takes across 1 is yellow, too.
     """
     warnings = bearing_warnings(solution)
     refused = unusable(warnings)
@@ -630,10 +607,11 @@ def _judged(
     shaft: float,
     warned: Iterable[str],
 ) -> Verdict:
-    """Verdict on a bearing with a margin, with the doubts that its warnings tell."""
+    """Verdict on a bearing with a margin; ``warned`` are sentences of warnings that make it doubtful."""
     margin = breakdown.shaft_first_break / shaft
-    low, high = _possible(solution, analysis, margin)
-    strength = _strength_is_open(solution)
+    low, high = _widened(solution, *_stated(solution, analysis, margin))
+    # Without a stated range of the strength a usual one counts.
+    strength = not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
     if strength:
         weakest, strongest = strength_interval(margin)
         low, high = min(low, weakest), max(high, strongest)
@@ -687,11 +665,6 @@ def _leaks(solution: BearingSolution) -> str:
     )
 
 
-def _possible(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
-    """Smallest and largest margin that are possible."""
-    return _widened(solution, *_stated(solution, analysis, margin))
-
-
 def _stated(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> tuple[float, float]:
     """Smallest and largest margin within the stated ranges, the smallest at 5 % of a Weibull law."""
     low = margin if analysis.low is None else analysis.low
@@ -707,11 +680,6 @@ def _widened(solution: BearingSolution, low: float, high: float) -> tuple[float,
         return low / factor, high * factor
     off = film_error(solution)
     return low * (1.0 - off), high * (1.0 + off)
-
-
-def _strength_is_open(solution: BearingSolution) -> bool:
-    """Whether the case states no range of the strength, so that a usual one counts."""
-    return not any(one.key.startswith("discharge.") for one in solution.case.ranges or ())
 
 
 def _doubts(solution: BearingSolution, analysis: MarginAnalysis, margin: float) -> Iterator[str]:

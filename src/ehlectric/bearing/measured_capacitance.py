@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -181,11 +182,7 @@ class OperatingPoint:
         formulas.
         """
         # What is in parallel is taken off the measured values, and the measured factor contains the supply.
-        alone: dict[str, Any] = {}
-        if case.bearing.parallel_capacitance is not None:
-            alone["bearing.parallel_capacitance"] = None
-        if case.bearing.supply != "flooded":
-            alone["bearing.supply"] = "flooded"
+        alone = {"bearing.parallel_capacitance": None, "bearing.supply": "flooded"}
         changed, refused = quick_case(case.replace({**changes, **alone}), constant=True)
         if changed is None:
             assert refused is not None
@@ -296,7 +293,7 @@ def solved_correction(
             # What is in parallel is taken off the measured values.
             case.replace({**rows[place], "contacts": "solved", "bearing.parallel_capacitance": None}),
             prepared,
-            progress=partial(_told, progress, text),
+            progress=partial(_bearing_progress, progress, text),
             workers=workers,
         )
         if not solution.converged:
@@ -307,7 +304,7 @@ def solved_correction(
     return correction
 
 
-def _told(progress: Progress, text: str, done: int, of: int, _: str) -> None:
+def _bearing_progress(progress: Progress, text: str, done: int, of: int, _: str) -> None:
     """Progress of one of several bearings."""
     progress(done, of, text)
 
@@ -419,74 +416,57 @@ def _half_width(
 # Largest number of different speeds and temperatures, each of which takes some tenths of a second.
 MOST_POINTS = 1000
 
-# Columns that the measurement itself fills, and those that the search fills.
-_SEARCHED = ("computed", "film_factor", "minimum_thickness", "lambda_ratio")
+# Columns that the search fills; the slope is d ln(capacitance)/d ln(film factor).
+_SEARCHED = ("computed", "film_factor", "slope", "lambda_ratio")
 
 
-@dataclass(frozen=True, eq=False)
-class _Search:
-    """Search for the film factors of rows, with what all rows share."""
-
-    case: BearingCase
-    correction: Correction
-    rows: tuple[Mapping[str, Any], ...]
-
-    def found(self, targets: Array, progress: Progress) -> tuple[dict[str, Array], Array, tuple[str, ...]]:
-        """Columns of the search, slopes d ln C/d ln f of the rows, and reasons of rows without a factor."""
-        n = len(self.rows)
-        columns = {name: np.full(n, np.nan) for name in _SEARCHED}
-        slopes, reasons = np.full(n, np.nan), [""] * n
-        points: dict[tuple[Any, ...], OperatingPoint] = {}
-        guess = 1.0
-        for k, (row, target) in enumerate(zip(self.rows, targets.tolist(), strict=True)):
-            progress(k, n, "film factors")
-            key = tuple(row.values())
-            try:
-                if key not in points:
-                    points[key] = OperatingPoint.of(self.case, row)
-                values = _row(points[key], self.correction, target, guess)
-            except (InputError, NoFactorError) as error:
-                reasons[k] = str(error)
-                continue
-            *searched, slopes[k], reasons[k] = values
-            for name, value in zip(_SEARCHED, searched, strict=True):
+def _search(
+    case: BearingCase,
+    correction: Correction,
+    rows: Sequence[Mapping[str, Any]],
+    targets: Array,
+    progress: Progress,
+) -> tuple[dict[str, Array], tuple[str, ...]]:
+    """Columns of the search for the film factors of rows, and reasons of rows without a factor."""
+    n = len(rows)
+    columns, reasons = {name: np.full(n, np.nan) for name in _SEARCHED}, [""] * n
+    points: dict[tuple[Any, ...], OperatingPoint] = {}
+    guess = 1.0
+    for k, (row, target) in enumerate(zip(rows, targets.tolist(), strict=True)):
+        progress(k, n, "film factors")
+        key = tuple(row.values())
+        try:
+            if key not in points:
+                points[key] = OperatingPoint.of(case, row)
+            for name, value in _row(points[key], correction, target, guess):
                 columns[name][k] = value
-            guess = columns["film_factor"][k] if np.isfinite(columns["film_factor"][k]) else guess
-        progress(n, n, "film factors")
-        columns["minimum_thickness"] = columns["lambda_ratio"] * self.case.bearing.composite_rq
-        return columns, slopes, tuple(reasons)
+        except (InputError, NoFactorError) as error:
+            reasons[k] = str(error)
+        else:
+            guess = columns["film_factor"][k]
+    progress(n, n, "film factors")
+    return columns, tuple(reasons)
 
 
 def _row(
     point: OperatingPoint, correction: Correction, target: float, guess: float
-) -> tuple[float, float, float, float, float, str]:
-    """Computed capacitance, film factor, film (filled later), lambda ratio, slope, and reason of a row."""
-
-    def state(factor: float) -> FilmState:
-        return correction.of(point.at(factor))
-
-    def value(factor: float) -> float:
-        return state(factor).capacitance
-
-    none = float("nan")
-    try:
-        computed = value(1.0)
-    except InputError:
-        # The film at a film factor of 1 may be too thin or too thick, and that of the row is not.
-        computed = none
+) -> Iterator[tuple[str, float]]:
+    """Names and values of the columns of a row; a NoFactorError says why a row has no film factor."""
+    capacitance = _capacitance(point, correction)
+    # The film at a film factor of 1 may be too thin or too thick, and that of the row is not.
+    with suppress(InputError):
+        yield "computed", capacitance(1.0)
     if not target > 0.0:
         why = "its phase is not that of a capacitor" if np.isnan(target) else "it is not above the background"
-        return computed, none, none, none, none, why
-    try:
-        factor = film_factor_of(value, target, guess)
-        slope = slope_at(value, factor)
-    except NoFactorError as error:
-        return computed, none, none, none, none, str(error)
-    ratio = state(factor).lambda_ratio
+        raise NoFactorError(why)
+    factor = film_factor_of(capacitance, target, guess)
+    slope = slope_at(capacitance, factor)
+    ratio = correction.of(point.at(factor)).lambda_ratio
     if ratio < CONDUCTING:
-        why = f"its film would have a lambda ratio of {ratio:.2g}, at which surfaces touch and conduct"
-        return computed, none, none, none, none, why
-    return computed, factor, none, ratio, slope, ""
+        raise NoFactorError(
+            f"its film would have a lambda ratio of {ratio:.2g}, at which surfaces touch and conduct"
+        )
+    yield from (("film_factor", factor), ("slope", slope), ("lambda_ratio", ratio))
 
 
 def bearing_factors(
@@ -523,8 +503,7 @@ def bearing_factors(
     correction = Correction.none()
     if case.contacts == "solved":
         correction = solved_correction(case, rows, targets, progress, workers)
-    columns, slopes, reasons = _Search(case, correction, rows).found(targets, progress)
-    search = columns, slopes, reasons
+    search = _search(case, correction, rows, targets, progress)
     return _result(case, measured, meter, (background, own), search, correction, rows)
 
 
@@ -560,13 +539,13 @@ def _result(
     measured: Measurement,
     meter: MeasuredCapacitance,
     taken_off: tuple[float | None, bool],
-    search: tuple[dict[str, Array], Array, tuple[str, ...]],
+    search: tuple[dict[str, Array], tuple[str, ...]],
     correction: Correction,
     rows: tuple[Mapping[str, Any], ...],
 ) -> FilmFactors:
     """Film factors with their uncertainties, mean and warnings."""
-    (background, own_background), (searched, slopes, reasons) = taken_off, search
-    factors = searched["film_factor"]
+    (background, own_background), (searched, reasons) = taken_off, search
+    factors, slopes = searched["film_factor"], searched["slope"]
     found, targets = np.isfinite(factors), meter.value - (background or 0.0)
     speeds = np.array([row["bearing.inner_speed"] for row in rows])
     stated = None if meter.uncertainty is None else meter.uncertainty / targets / -slopes
@@ -580,13 +559,21 @@ def _result(
         own = None if stated is None else stated[found]
         mean = mean_factor(factors[found], own, shared)
         trend = slope_of(speeds[found], factors[found], own)
-    columns = _measured_columns(measured, meter, rows, targets) | {
+    columns: dict[str, Array | None] = {
+        "line": np.array(measured.lines, dtype=float),
+        "time": measured.values.get("time"),
+        "speed": speeds,
+        "temperature": measured.values.get("temperature"),
+        "measured_capacitance": meter.value,
+        "parallel_resistance": meter.resistance,
+        "capacitance": targets,
+        "capacitance_uncertainty": meter.uncertainty,
         "computed": searched["computed"],
         "film_factor": factors,
-        **({} if stated is None else {"factor_uncertainty": stated * factors}),
-        **_systematic(shared, factors, found),
+        "factor_uncertainty": None if stated is None else stated * factors,
+        "factor_systematic": _systematic(shared, factors, found),
         **fitted_columns(targets, factors, slopes, mean),
-        "minimum_thickness": searched["minimum_thickness"],
+        "minimum_thickness": searched["lambda_ratio"] * case.bearing.composite_rq,
         "lambda_ratio": searched["lambda_ratio"],
     }
     warnings = (
@@ -606,7 +593,7 @@ def _result(
         solves=correction.solves,
         formula_error=error,
         background=background,
-        columns=columns,
+        columns={name: values for name, values in columns.items() if values is not None},
         reasons=reasons,
         mean=mean,
         slope=trend,
@@ -614,32 +601,13 @@ def _result(
     )
 
 
-def _measured_columns(
-    measured: Measurement, meter: MeasuredCapacitance, rows: tuple[Mapping[str, Any], ...], targets: Array
-) -> dict[str, Array]:
-    """Columns with what was measured."""
-    columns = {"line": np.array(measured.lines, dtype=float)}
-    if measured.has("time"):
-        columns["time"] = measured.values["time"]
-    columns["speed"] = np.array([row["bearing.inner_speed"] for row in rows])
-    if measured.has("temperature"):
-        columns["temperature"] = measured.values["temperature"]
-    columns["measured_capacitance"] = meter.value
-    if meter.resistance is not None:
-        columns["parallel_resistance"] = meter.resistance
-    columns["capacitance"] = targets
-    if meter.uncertainty is not None:
-        columns["capacitance_uncertainty"] = meter.uncertainty
-    return columns
-
-
-def _systematic(shared: Mapping[str, Array], factors: Array, found: Array) -> dict[str, Array]:
-    """Column with the standard uncertainty of the factors from ranges; none without ranges."""
+def _systematic(shared: Mapping[str, Array], factors: Array, found: Array) -> Array | None:
+    """Standard uncertainty of the factors from ranges of inputs; None without ranges."""
     if not shared:
-        return {}
+        return None
     column = np.full(len(factors), np.nan)
     column[found] = factors[found] * np.sqrt(sum(change**2 for change in shared.values()))
-    return {"factor_systematic": column}
+    return column
 
 
 def _error(case: BearingCase, rows: tuple[Mapping[str, Any], ...], factors: Array) -> float:
@@ -656,7 +624,6 @@ def _film_warnings(case: BearingCase, error: float | None) -> tuple[ResultWarnin
     if error is None:
         return ()
     text = f"{OF_CONTACTS[case.contacts]}: films may be {percent(error)} off, and so may film factors"
-    if case.contacts == "atlas":
-        return (ResultWarning("atlas-contacts", text),)
-    solved = 'contacts = "solved" takes minutes and has no such error'
-    return (ResultWarning("formula-contacts", f"{text}; {solved}"),)
+    if case.contacts == "formula":
+        text += '; contacts = "solved" takes minutes and has no such error'
+    return (ResultWarning(f"{case.contacts}-contacts", text),)

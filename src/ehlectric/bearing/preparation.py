@@ -14,11 +14,11 @@ from scipy.optimize import bisect
 
 from ehlectric.bearing.bearing_kinds import KINDS, kind_of
 from ehlectric.bearing.conditions import BearingConditions, RingConditions, Solid
-from ehlectric.bearing.film_factor import film_factor_of, solved_heat
+from ehlectric.bearing.film_factor import factors_of, solved_heat
 from ehlectric.bearing.loads.geometry import Geometry
 from ehlectric.bearing.loads.ring import Operation
 from ehlectric.bearing.loads.totals import Equilibrium, mirrored
-from ehlectric.bearing.mounted_clearance import MountedClearance, mounted_clearance
+from ehlectric.bearing.mounted_clearance import mounted_clearance
 from ehlectric.bearing.quick_contacts import check_quick, is_quick
 from ehlectric.bearing.ring_contacts import Contact, RingContacts
 from ehlectric.cases.bearing_case import BearingCase
@@ -158,7 +158,8 @@ def resolve_bearing(case: BearingCase) -> BearingConditions[Any]:
     element, ring = Solid.of(bearing.element_material), Solid.of(bearing.ring_material)
     with _keys_of_bearing():
         clearance = mounted_clearance(bearing)
-        geometry = kind.geometry(_in_operation(bearing, clearance))
+        running = {} if clearance is None else {"radial_clearance": clearance.running.clearance}
+        geometry = kind.geometry(bearing.model_copy(update=running))
     return BearingConditions(
         bearing=bearing,
         geometry=geometry,
@@ -182,18 +183,8 @@ def _ring_conditions(case: BearingCase, geometry: Geometry, *, inner: bool) -> R
     """Conditions of the contacts with a ring, at its temperature."""
     temperature, key = case.bearing.ring_temperature(inner=inner), case.bearing.temperature_key(inner=inner)
     oil = _oil(case, temperature, key)
-    factor = film_factor_of(case, geometry, oil, temperature)
-    strength = case.discharge.at(temperature, key)
-    return RingConditions(
-        temperature, oil, strength, factor.total, factor.heat, factor.supply, factor.inlet_shear
-    )
-
-
-def _in_operation(bearing: Bearing, clearance: MountedClearance | None) -> Bearing:
-    """Bearing with its radial clearance in operation."""
-    if clearance is None:
-        return bearing
-    return bearing.model_copy(update={"radial_clearance": clearance.running.clearance})
+    factors = factors_of(case, geometry, oil, temperature)
+    return RingConditions(temperature, oil, case.discharge.at(temperature, key), **factors)
 
 
 @contextmanager
@@ -247,8 +238,8 @@ def prepare_bearing(case: BearingCase, positions: int) -> PreparedBearing:
     prepared = PreparedBearing(conditions, equilibria, inner, outer)
     if case.bearing.film_factor == "solved":
         found = (solved_heat(case, ring, largest_load(prepared, ring)) for ring in prepared.rings)
-        rings = (conditions.inner, conditions.outer)
-        return _with_rings(prepared, *(own.heated(*heat) for own, heat in zip(rings, found, strict=True)))
+        rings = zip(conditions.rings, found, strict=True)
+        return _with_rings(prepared, *(own.heated(*heat) for own, heat in rings))
     _check_films(prepared)
     return prepared
 
@@ -260,9 +251,10 @@ def with_film_factor(prepared: PreparedBearing, factor: float) -> PreparedBearin
     heat and supply. Returns bearing with the same equilibria. Raises InputError where the films leave no room
     between the bodies.
     """
-    at = prepared.conditions
-    rings = (RingConditions(own.temperature, own.oil, own.discharge, factor) for own in (at.inner, at.outer))
-    return _with_rings(prepared, *rings)
+    rings = prepared.conditions.rings
+    return _with_rings(
+        prepared, *(RingConditions(own.temperature, own.oil, own.discharge, factor) for own in rings)
+    )
 
 
 def _with_rings(prepared: PreparedBearing, *rings: RingConditions) -> PreparedBearing:
@@ -314,8 +306,8 @@ def least_load(ring: RingContacts[Any]) -> float:
 def loads_to_solve(prepared: PreparedBearing, ring: RingContacts[Any], *, quick: bool) -> list[float]:
     """Loads of a ring's contacts to solve [N], by increasing load.
 
-    The loads of the kind, or more for a quick way, are evenly spaced in their logarithm. Lighter loads come
-    before them where elements carry hardly more than their centrifugal force.
+    The loads of the kind, or more for quick contacts, are evenly spaced in their logarithm. Lighter loads
+    come before them where elements carry hardly more than their centrifugal force.
     """
     all_loads = np.concatenate([at.ring(inner=ring.inner).load for at in prepared.equilibria])
     largest = float(np.max(all_loads))

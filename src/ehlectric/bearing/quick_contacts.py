@@ -145,8 +145,8 @@ _STRIP = np.sqrt(1.0 - _RATIO**2), 0.5 * _WEIGHT
 
 
 def ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, Array], Array]:
-    """Gap of a ball's dry contact, widened by its central film. ``central``, central film thickness [m].
-    Returns ``nodes``, nodes along and across entrainment [m], shapes (nx,); ``gap``, gap [m], shape (nx, ny).
+    """Nodes along and across entrainment [m] of a ball, and the gap of its dry contact, widened by its
+    central film [m].
     """
     conditions, dry = contact.conditions, contact.dry
     b, side = dry.semi_axis_x, dry.semi_axis_y * conditions.side
@@ -158,8 +158,8 @@ def ball_gap(contact: BallContact, central: float) -> tuple[tuple[Array, Array],
 
 
 def roller_gap(contact: RollerContact, central: float) -> tuple[Array, Array]:
-    """Gap of a roller's dry contact, widened by its central film [m]. Returns nodes along entrainment, and
-    the gap [m], shape (n,).
+    """Nodes along entrainment [m] of a roller, and the gap of its dry contact, widened by its central film
+    [m].
     """
     conditions = contact.conditions
     x, b = np.linspace(*LINE, _LINE_NODES), conditions.half_width
@@ -188,19 +188,6 @@ def hertz_mean(contact: Contact, law: Callable[[Array], Array]) -> float:
     """Mean over the Hertz area of a number that depends on the Hertz pressure [Pa]."""
     ratio, weights = _ELLIPSE if isinstance(contact, BallContact) else _STRIP
     return float(np.vdot(weights, law(contact.conditions.max_pressure * ratio)))
-
-
-def hertz_area(contact: Contact) -> float:
-    """Area of the dry contact [m^2]."""
-    along, across = _axes(contact)
-    return float(np.pi * along * across if isinstance(contact, BallContact) else 4.0 * along * across)
-
-
-def _axes(contact: Contact) -> tuple[float, float]:
-    """Semi-axes of the dry contact along and across entrainment [m]; half of a roller's length across."""
-    if isinstance(contact, BallContact):
-        return contact.dry.semi_axis_x, contact.dry.semi_axis_y
-    return contact.conditions.half_width, 0.5 * contact.length
 
 
 @dataclass(frozen=True)
@@ -244,28 +231,25 @@ def quick_contact(
 
 
 def quick_solutions(contacts: Sequence[QuickContact]) -> list[ContactSolution]:
-    """Numbers of contacts with one ring without solved films. Returns their largest field strength is the
-    voltage over the minimum film thickness.
-    """
+    """Solutions of quick contacts with one ring; the largest field is the voltage over the minimum film."""
     around = _around(contacts)
     return [_solution(contact, *found) for contact, found in zip(contacts, around, strict=True)]
 
 
 def _solution(quick: QuickContact, outside: float, mismatch: float) -> ContactSolution:
-    """Numbers of a contact with the capacitance in vacuum around its domain [F]."""
+    """Solution of a quick contact with the capacitance around its domain in vacuum [F]."""
     contact, (least, central) = quick.contact, quick.films
     groups, ring, oil = contact.conditions.contact, contact.ring, contact.ring.oil
-    axes = _axes(contact)
     values = ContactValues(
         max_pressure=contact.conditions.max_pressure,
-        semi_axis_x=axes[0],
-        semi_axis_y=axes[1],
+        semi_axis_x=contact.axes[0],
+        semi_axis_y=contact.axes[1],
         minimum_thickness=least,
         central_thickness=central,
         inside=epsilon_0 * quick.inside,
         outside_oil=outside * ring.conditions.oil.relative_permittivity,
         outside_air=outside,
-        plate=epsilon_0 * oil.relative_permittivity * hertz_area(contact) / central,
+        plate=epsilon_0 * oil.relative_permittivity * contact.area / central,
         strength_per_volt=1.0 / least,
         breakdown_voltage=gap_breakdown(ring.discharge, least),
         hertz=epsilon_0 * quick.hertz,
@@ -411,19 +395,12 @@ def ball_by_formula(
     minimum film thickness.
     """
     check_contact(contact)
-    dry, oil = contact.dry, contact.ring.oil
-    b, a = dry.semi_axis_x, dry.semi_axis_y
-    least, central = films or _films(chittenden(contact.conditions.contact))
-    (x, y), gap = ball_gap(contact, central)
-    pressure = dry.max_pressure * point_pressure(x[:, np.newaxis] / b, y / b, a / b)
-    mean = hertz_mean(contact, lambda p: permittivity(oil, p))
-    return quick_contact(
-        contact,
-        (least, central),
-        inside=float(np.vdot(areas((x, y)), permittivity(oil, pressure) / gap)),
-        hertz=mean * hertz_area(contact) / central,
-        wide=wide,
-    )
+    b, a = contact.axes
+    films = films or _films(chittenden(contact.conditions.contact))
+    (x, y), gap = ball_gap(contact, films[1])
+    pressure = contact.dry.max_pressure * point_pressure(x[:, np.newaxis] / b, y / b, a / b)
+    inside = np.vdot(areas((x, y)), permittivity(contact.ring.oil, pressure) / gap)
+    return _with_films(contact, films, float(inside), wide=wide)
 
 
 def roller_by_formula(
@@ -438,18 +415,19 @@ def roller_by_formula(
     pressure; the largest field strength is the voltage over the minimum film thickness.
     """
     check_contact(contact)
-    conditions, length, oil = contact.conditions, contact.length, contact.ring.oil
-    least, central = films or _films(pan_hamrock(conditions.contact))
-    x, gap = roller_gap(contact, central)
+    conditions = contact.conditions
+    films = films or _films(pan_hamrock(conditions.contact))
+    x, gap = roller_gap(contact, films[1])
     pressure = conditions.max_pressure * line_pressure(x / conditions.half_width)
-    mean = hertz_mean(contact, lambda p: permittivity(oil, p))
-    return quick_contact(
-        contact,
-        (least, central),
-        inside=length * float(np.vdot(areas((x,)), permittivity(oil, pressure) / gap)),
-        hertz=mean * hertz_area(contact) / central,
-        wide=wide,
-    )
+    inside = np.vdot(areas((x,)), permittivity(contact.ring.oil, pressure) / gap)
+    return _with_films(contact, films, contact.length * float(inside), wide=wide)
+
+
+def _with_films(contact: Contact, films: tuple[float, float], inside: float, *, wide: bool) -> QuickContact:
+    """Contact with films [m], whose Hertz area is a plate with the permittivity under the Hertz pressure."""
+    mean = hertz_mean(contact, partial(permittivity, contact.ring.oil))
+    hertz = mean * contact.area / films[1]
+    return quick_contact(contact, films, inside=inside, hertz=hertz, wide=wide)
 
 
 def _films(film: BothThicknesses) -> tuple[float, float]:
@@ -471,8 +449,8 @@ _ATLAS_NODES = _ATLAS_NODES + 0.5
 
 # Kind of a contact, and functions that compute one: from the atlas, and by formula with further options.
 C = TypeVar("C", BallContact, RollerContact)
-Way: TypeAlias = Callable[[C], QuickContact]
-FormulaWay: TypeAlias = Callable[..., QuickContact]
+Method: TypeAlias = Callable[[C], QuickContact]
+FormulaMethod: TypeAlias = Callable[..., QuickContact]
 
 # Integral over a part of the dry gap outside the Hertz area: weights and gaps, both dimensionless.
 _Part = tuple[Array, Array]
@@ -501,10 +479,8 @@ def ball_by_atlas(contact: BallContact) -> QuickContact:
 
 
 def roller_by_atlas(contact: RollerContact) -> QuickContact:
-    """Film, capacitances and voltages of a roller's contact from the atlas of films.
-
-    Parameters, returned values, errors and notes are those of ``ball_by_atlas``, with the formula of
-    ``roller_by_formula`` outside the atlas.
+    """Film, capacitances and voltages of a roller's contact from the atlas of films, as those of
+    ``ball_by_atlas``.
     """
     check_contact(contact)
     film = _film(contact)
@@ -527,9 +503,9 @@ def _film(contact: Contact) -> ContactFilm | None:
         return None
 
 
-def _left(contact: C, ways: tuple[Way[C], FormulaWay], error: float) -> QuickContact:
+def _left(contact: C, methods: tuple[Method[C], FormulaMethod], error: float) -> QuickContact:
     """Contact outside the atlas: by formula, joined to the atlas at the nearest load that it has."""
-    by_atlas, by_formula = ways[0], partial(ways[1], wide=True)
+    by_atlas, by_formula = methods[0], partial(methods[1], wide=True)
     text = f"outside the atlas of films: the film is by formula, and may be {100.0 * error:.0f} % off"
     edge = _edge(contact)
     if edge is None:
@@ -573,9 +549,8 @@ def _atlas_solution(contact: Contact, film: ContactFilm, around: list[float]) ->
     # In a light contact the pressure reaches far ahead of the zone, and is lower in it. Where a spike passes
     # the middle, its pressure is not that of the zone.
     share = min(1.0, numbers.central_pressure)
-    law = _permittivity_of_mass(oil)
-    mean = hertz_mean(contact, lambda pressure: law(share * pressure))
-    hertz = numbers.zone * mean * hertz_area(contact) / mass
+    mean = hertz_mean(contact, lambda pressure: _permittivity_of_mass(oil, share * pressure))
+    hertz = numbers.zone * mean * contact.area / mass
     outside = oil.relative_permittivity * (numbers.inlet * around[0] + numbers.outlet * around[1])
     return quick_contact(
         contact,
@@ -587,9 +562,9 @@ def _atlas_solution(contact: Contact, film: ContactFilm, around: list[float]) ->
     )
 
 
-def _permittivity_of_mass(oil: Oil) -> Callable[[Array], Array]:
-    """Relative permittivity times density ratio of an oil over the pressure [Pa]."""
-    return lambda pressure: permittivity(oil, pressure) * oil.density_ratio(pressure)[0]
+def _permittivity_of_mass(oil: Oil, pressure: Array) -> Array:
+    """Relative permittivity times density ratio of an oil under pressure [Pa]."""
+    return permittivity(oil, pressure) * oil.density_ratio(pressure)[0]
 
 
 def _integral(part: _Part, middle: float) -> float:

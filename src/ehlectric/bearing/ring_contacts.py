@@ -1,6 +1,4 @@
-"""Contacts of a bearing's elements with one ring: operating conditions, grids, and solved contacts over
-their load.
-"""
+"""Contacts of all elements with one ring: conditions, grids, and solved contacts over their load."""
 
 from __future__ import annotations
 
@@ -63,9 +61,7 @@ _LINE_FAR, _LINE_SHORTER, _LINE_MOST = 100.0, 8.0, FARTHEST["line"][0]
 
 
 def roller_grid(contact: RollerContact) -> Grid:
-    """Grid of a roller's contact, on a domain long enough for the thick film of a light load. Returns lengths
-    in half-widths of the dry contact.
-    """
+    """Grid of a roller's contact in half-widths, long enough for the thick film of a light load."""
     length, most = _line_length(contact), _line_most(contact)
     inlet = max(4.0, min(_line_inlet(length), most))
     outlet = max(2.0, min(_LINE_OUTLET * length, most))
@@ -104,8 +100,9 @@ def roller_fits(contact: RollerContact) -> bool:
 
 
 def ball_grid(contact: BallContact) -> Grid:
-    """Grid of a ball's contact, on a domain wide enough for the thick film of a light load. Returns lengths
-    in semi-axes of the dry contact; heavy loads have the default domain of point contacts.
+    """Grid of a ball's contact in semi-axes, on a domain wide enough for the thick film of a light load.
+
+    Heavy loads have the default domain of point contacts.
     """
     along, across = _point_lengths(contact)
     inlet, outlet = max(4.5, min(_ALONG * along, _MOST[0])), max(1.5, min(_BEHIND * along, 0.1 * _MOST[0]))
@@ -221,12 +218,22 @@ class BallContact:
         )
 
     @property
+    def axes(self) -> tuple[float, float]:
+        """Semi-axes of the dry contact along and across entrainment [m]."""
+        return self.dry.semi_axis_x, self.dry.semi_axis_y
+
+    @property
+    def area(self) -> float:
+        """Area of the dry contact [m^2]."""
+        return float(np.pi * self.axes[0] * self.axes[1])
+
+    @property
     def widths(self) -> tuple[tuple[float, float], ...]:
         """Semi-axes of the dry contact along and across, each with the smallest radius in its plane [m]."""
-        radii, dry = self.ring.radii, self.dry
+        radii = self.ring.radii
         along = min(radii.radius_x, abs(radii.ring_x), abs(radii.element_x))
         across = min(radii.radius_y, abs(radii.ring_y), abs(radii.element_y))
-        return (dry.semi_axis_x, along), (dry.semi_axis_y, across)
+        return (self.axes[0], along), (self.axes[1], across)
 
     @cached_property
     def film(self) -> float:
@@ -275,6 +282,16 @@ class RollerContact:
         )
 
     @property
+    def axes(self) -> tuple[float, float]:
+        """Half-width of the dry contact along entrainment, and half of its length across [m]."""
+        return self.conditions.half_width, 0.5 * self.length
+
+    @property
+    def area(self) -> float:
+        """Area of the dry contact [m^2]."""
+        return 4.0 * self.axes[0] * self.axes[1]
+
+    @property
     def widths(self) -> tuple[tuple[float, float], ...]:
         """Half-width of the dry contact, with the smallest radius in its plane [m]."""
         radii = self.ring.radii
@@ -305,7 +322,14 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
     """
     conditions = contact.conditions
     try:
-        _check_speed(conditions.contact.entrainment_speed)
+        # Entrainment speed of isothermal oil with this film.
+        speed = conditions.contact.entrainment_speed
+        if speed < _LEAST_SPEED:
+            raise InputError(
+                "contact",
+                f"the film would be that of an entrainment speed of {speed:.3g} m/s",
+                takes=f"an inner_speed and a film_factor that give at least {_LEAST_SPEED:g} m/s",
+            )
         for half_width, radius in contact.widths:
             check_width(half_width, radius)
         check_pressure(conditions.max_pressure, contact.ring.oil)
@@ -313,16 +337,6 @@ def check_contact(contact: Contact, grid: Grid | None = None) -> None:
             check_grid(conditions.geometry, grid, rough=False)
     except InputError as error:
         raise error_of_contact(contact, error) from None
-
-
-def _check_speed(speed: float) -> None:
-    """Refuse a contact without a film, by the entrainment speed [m/s] of isothermal oil with its film."""
-    if speed < _LEAST_SPEED:
-        raise InputError(
-            "contact",
-            f"the film would be that of an entrainment speed of {speed:.3g} m/s",
-            takes=f"an inner_speed and a film_factor that give at least {_LEAST_SPEED:g} m/s",
-        )
 
 
 def error_of_contact(contact: Contact, error: InputError) -> InputError:
@@ -395,9 +409,9 @@ def around_balls(
 
 
 def around_roller(ring: RingContacts[RollerBearing], half_width: float, x: Array, thickness: Array) -> float:
-    """Capacitance between roller and raceway outside the domain of the film, in vacuum. ``half_width``,
-    half-width of the dry contact [m]; ``x`` and ``thickness``, nodes of the film and its thickness [m],
-    shape (nx,). Returns capacitance in vacuum over the length of the roller [F].
+    """Capacitance in vacuum [F] between a roller and its raceway outside the domain of the film.
+
+    ``x`` and ``thickness`` are the nodes of the film and its thickness [m], shape (nx,).
     """
     ends = (float(x[0]), float(x[-1])), (float(thickness[0]), float(thickness[-1]))
     tails = roller_tails(_roller_raceway(ring), half_width, *ends)
@@ -471,9 +485,7 @@ class ContactSolution(Values):
 
 
 def solve_ball(contact: BallContact, solver: Solver) -> ContactSolution:
-    """Film and field of a ball's contact, and the capacitance outside its film. Returns numbers of the solved
-    contact. Raises InputError as ``check_contact`` does.
-    """
+    """Solve the film and the field of a ball's contact; errors are those of ``check_contact``."""
     grid, ring = ball_grid(contact), contact.ring
     check_contact(contact, grid)
     assert grid.side is not None
@@ -482,14 +494,11 @@ def solve_ball(contact: BallContact, solver: Solver) -> ContactSolution:
     assert isinstance(result, PointResult)
     film = result.film
     outside, mismatch = around_ball(contact, (film.x, film.y), film.thickness)
-    axes = conditions.semi_axis_x, conditions.semi_axis_y
-    return _solution(contact, result, axes=axes, outside=outside, mismatch=mismatch)
+    return _solution(contact, result, outside=outside, mismatch=mismatch)
 
 
 def solve_roller(contact: RollerContact, solver: Solver) -> ContactSolution:
-    """Film and field of a roller's contact, and the capacitance outside its film. Returns numbers of the
-    solved contact. Raises InputError as ``check_contact`` does.
-    """
+    """Solve the film and the field of a roller's contact; errors are those of ``check_contact``."""
     grid, ring, length = roller_grid(contact), contact.ring, contact.length
     check_contact(contact, grid)
     conditions = contact.conditions
@@ -498,15 +507,13 @@ def solve_roller(contact: RollerContact, solver: Solver) -> ContactSolution:
     assert isinstance(result, Result)
     film = result.film
     outside = around_roller(contact.ring, conditions.half_width, film.x, film.thickness)
-    axes = conditions.half_width, 0.5 * length
-    return _solution(contact, result, axes=axes, outside=outside, mismatch=0.0, length=length)
+    return _solution(contact, result, outside=outside, mismatch=0.0, length=length)
 
 
 def _solution(
     contact: Contact,
     result: Result | PointResult,
     *,
-    axes: tuple[float, float],
     outside: float,
     mismatch: float,
     length: float = 1.0,
@@ -517,8 +524,8 @@ def _solution(
     breakdown = discharge.breakdown_voltage
     values = ContactValues(
         max_pressure=result.conditions.max_pressure,
-        semi_axis_x=axes[0],
-        semi_axis_y=axes[1],
+        semi_axis_x=contact.axes[0],
+        semi_axis_y=contact.axes[1],
         minimum_thickness=result.film.minimum_thickness,
         central_thickness=result.film.central_thickness,
         inside=length * discharge.capacitance,

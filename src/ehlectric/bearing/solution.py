@@ -67,9 +67,10 @@ def oil_part(fill: float | str) -> float:
 
 
 def ring_state(ring: RingContacts[Any], curve: ContactCurve, *, load: Array, gap: Array) -> RingState:
-    """State of the contacts of all elements with one ring, from their loads and gaps. ``load`` and ``gap``,
-    load of each contact [N], and distance of elements that do not touch the ring [m], shape (n,). Returns
-    unloaded contacts are gaps between rigid bodies.
+    """State of the contacts of all elements with one ring, from the load [N] and the gap [m] of each, shape
+    (n,).
+
+    Elements that are not loaded are rigid bodies at a gap.
     """
     solved = load > 0.0
     pairs = zip(
@@ -208,16 +209,14 @@ def lambda_text(solution: BearingSolution) -> str:
 def lubrication(solution: BearingSolution, *, film_scale: float = 1.0) -> str:
     """State of lubrication: "conducting", "touching", "partial film" or "full film".
 
-    ``film_scale`` is a factor on all films, for those of a quick way that are scaled to solved ones.
+    ``film_scale`` is a factor on all films, for those of quick contacts that are scaled to solved ones.
 
     Below a lambda ratio of 1 contacts close and open all the time: the bearing is called "conducting", as no
     voltage is computed for it, or "touching" with ceramic elements, which insulate. Below 3 it has a "partial
     film", whose asperities touch at times, and otherwise a "full film".
     """
-    ratio = film_scale * lambda_ratio(solution)
-    if ratio < CONDUCTING:
-        return "touching" if solution.conditions.ceramic else "conducting"
-    return "partial film" if ratio < PARTIAL else "full film"
+    state = regime(film_scale * lambda_ratio(solution))
+    return "conducting" if state == "touching" and not solution.conditions.ceramic else state
 
 
 def regime(ratio: float, *, loaded: bool = True) -> str:
@@ -278,9 +277,9 @@ def plate_capacitance(solution: BearingSolution) -> float | None:
 def film_error(solution: BearingSolution) -> float:
     """Estimated error of the films of a bearing, relative, at most 1.
 
-    Returns for solved contacts, the largest estimated error of the films and of their interpolation over the
-    load; for contacts from the atlas, the same with the errors that the atlas states, of contacts with at
-    least 2 % of the largest load. For contacts by formula, the error of the formula.
+    For solved contacts it is the largest estimated error of the films and of their interpolation over the
+    load. Contacts from the atlas have the errors that the atlas states, from 2 % of the largest load on;
+    contacts by formula have that of the formula.
     """
     if solution.case.contacts == "formula":
         return formula_factor(solution.case.bearing.kind) - 1.0

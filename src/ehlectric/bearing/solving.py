@@ -1,6 +1,4 @@
-"""Solution of a prepared bearing: its contacts over their load, all elements, and quick solutions that are
-kept.
-"""
+"""Solution of a prepared bearing: its contacts over their load, all elements, and kept quick solutions."""
 
 from __future__ import annotations
 
@@ -35,10 +33,9 @@ def solution_of(
 ) -> BearingSolution:
     """Solve a whole rolling bearing: loads, films, fields and the electrical circuit.
 
-    ``workers``, number of processes; the number of cores if not given. Returns solution from which results,
-    warnings and summaries are made. Raises InputError where the bearing cannot carry its load, or a contact
-    cannot be solved; LostError where the process of a contact was killed four times, as by a system out of
-    memory.
+    ``workers`` is the number of processes, by default the number of cores. Raises InputError where the
+    bearing cannot carry its load, or a contact cannot be solved; LostError where the process of a contact was
+    killed four times, as by a system out of memory.
     """
     started = time.perf_counter()
     prepared = prepare_bearing(case, positions)
@@ -54,8 +51,8 @@ def solution_of_prepared(
     progress: Progress | None = None,
     workers: int | None = None,
 ) -> BearingSolution:
-    """Solve the contacts of a prepared bearing, and join them to its circuit. Returns solution at the
-    positions of the prepared bearing. Raises InputError, LostError as ``solution_of`` raises them.
+    """Solve the contacts of a prepared bearing, and join them to its circuit; errors are those of
+    ``solution_of``.
     """
     started = time.perf_counter()
     tasks = [_tasks(case, prepared, ring) for ring in prepared.rings]
@@ -132,12 +129,14 @@ class _Key:
     case: BearingCase = field(compare=False)
 
 
-def quick_solution(case: BearingCase, *, beside: tuple[str, ...] = ()) -> BearingSolution:
-    """Solution of a bearing with contacts that are not solved, at two positions of the cage. Returns solution
-    of the case, whose contacts are computed once for equal cases. Raises InputError as ``solution_of`` does.
+def quick_solution(case: BearingCase, *, without_effect: tuple[str, ...] = ()) -> BearingSolution:
+    """Solution of a bearing with quick contacts, at two positions of the cage, computed once for equal cases.
+
+    Keys that begin with one of ``without_effect`` do not matter. Errors are those of
+    ``solution_of``.
     """
     inputs = flattened(case.to_dict())
-    text = repr({key: value for key, value in inputs.items() if not key.startswith(beside)})
+    text = repr({key: value for key, value in inputs.items() if not key.startswith(without_effect)})
     return replace(_once(_Key(text, case)), case=case)
 
 

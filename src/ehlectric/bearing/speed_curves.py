@@ -1,6 +1,4 @@
-"""Bearing at several shaft speeds, and curves over the speed: interpolated, scaled to the bearing itself,
-crossing.
-"""
+"""Bearing at several shaft speeds, and curves of its quantities over the speed."""
 
 from __future__ import annotations
 

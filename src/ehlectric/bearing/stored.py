@@ -97,7 +97,7 @@ def _solved_heat(solution: BearingSolution) -> dict[str, Any]:
     """Attributes with the solved heat and friction of both rings; none of any other case."""
     if solution.case.bearing.film_factor != "solved":
         return {}
-    rings = (solution.conditions.inner, solution.conditions.outer)
+    rings = solution.conditions.rings
     frictions = [own.friction for own in rings if own.friction is not None]
     pairs: dict[str, Any] = {_HEAT: [own.heat_factor for own in rings]}
     if len(frictions) == len(rings):
@@ -192,12 +192,8 @@ def _heated(
         entries = _FRICTIONS.fields.values()
         pairs = {entry.name: np.array(_pair(attributes, entry.name, entry.rule)) for entry in entries}
         frictions = [ContactFriction(**_FRICTIONS.read(pairs, k)) for k in range(len(RINGS))]
-    inner, outer = (
-        own.heated(factor, friction)
-        for own, factor, friction in zip(
-            (conditions.inner, conditions.outer), factors, frictions, strict=True
-        )
-    )
+    solved = zip(conditions.rings, factors, frictions, strict=True)
+    inner, outer = (own.heated(factor, friction) for own, factor, friction in solved)
     return replace(conditions, inner=inner, outer=outer)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from operator import mul, truediv
 from typing import Any
 
 from ehlectric.bearing.bearing_discharges import (
@@ -12,6 +13,7 @@ from ehlectric.bearing.bearing_discharges import (
     bearing_voltage_ratio,
     breakdown_of,
     film_voltage,
+    known,
     margin,
     shaft_leakage,
     shaft_voltage,
@@ -82,9 +84,8 @@ def summary_of(solution: BearingSolution) -> dict[str, Any]:
 
 def _of_rings(conditions: BearingConditions[Any]) -> dict[str, float]:
     """Temperatures [K], viscosities [Pa s] and film factors of the oil in the contacts with both rings."""
-    rings = (("inner", conditions.inner), ("outer", conditions.outer))
     values = {}
-    for name, own in rings:
+    for name, own in zip(("inner", "outer"), conditions.rings, strict=True):
         values[f"{name}_temperature"] = own.temperature
         values[f"{name}_viscosity"] = own.oil.viscosity
         values[f"{name}_film_factor"] = own.film_factor
@@ -93,16 +94,15 @@ def _of_rings(conditions: BearingConditions[Any]) -> dict[str, float]:
 
 def clearances_of(conditions: BearingConditions[Any]) -> dict[str, float | None]:
     """Clearances, interferences [m] and pressures of the fits [Pa] as in summary.json; None without fits."""
+    fits = ("shaft_interference", "housing_interference", "shaft_pressure", "housing_pressure")
     clearance = conditions.clearance
     running = None if clearance is None else clearance.running
+    found = {name: getattr(running, name, None) for name in fits}
     return {
         "unmounted_clearance": None if clearance is None else clearance.unmounted,
         "mounted_clearance": None if clearance is None else clearance.mounted.clearance,
         "running_clearance": conditions.geometry.clearance,
-        "running_shaft_interference": None if running is None else running.shaft_interference,
-        "running_housing_interference": None if running is None else running.housing_interference,
-        "shaft_pressure": None if running is None else running.shaft_pressure,
-        "housing_pressure": None if running is None else running.housing_pressure,
+        **{f"running_{name}" if name.endswith("interference") else name: found[name] for name in fits},
     }
 
 
@@ -113,7 +113,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
     leaks, rough = shaft_leakage(solution), rough_capacitance(solution)
     errors = [contact.error for curve in solution.curves for contact in curve.solutions]
     estimated = solution.case.contacts != "atlas"
-    known = [error for error in errors if error is not None]
+    stated = [error for error in errors if error is not None]
     return {
         "contacts": solution.case.contacts,
         "capacitance": own,
@@ -136,7 +136,7 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         **(broken := breaks(solution)),
         "breakdown_probability": _breakdown_probability(solution, broken["margin"]),
         "strength_per_volt": strength,
-        "max_strength": None if strength is None or across is None else strength * across,
+        "max_strength": known(mul, strength, across),
         "bearing_voltage_ratio": bearing_voltage_ratio(solution),
         "shaft_voltage": shaft,
         "film_voltage": across,
@@ -144,11 +144,11 @@ def _totals(solution: BearingSolution, duty: BearingDuty) -> dict[str, Any]:
         "shaft_time_constant": None if leaks is None else leaks.time_constant,
         "film_time_constant": None if leaks is None else leaks.film_time_constant,
         "switching_period": _period(solution),
-        "shaft_voltage_after_period": _part(shaft, None if leaks is None else leaks.after_period),
-        "film_voltage_after_period": _part(across, None if leaks is None else leaks.film_after_period),
-        "shaft_voltage_after_rise": _part(shaft, None if leaks is None else leaks.after_rise),
+        "shaft_voltage_after_period": known(mul, shaft, getattr(leaks, "after_period", None)),
+        "film_voltage_after_period": known(mul, across, getattr(leaks, "film_after_period", None)),
+        "shaft_voltage_after_rise": known(mul, shaft, getattr(leaks, "after_rise", None)),
         **dataclasses.asdict(bearing_costs(solution)),
-        "discretisation_error": max(known) if estimated and len(known) == len(errors) else None,
+        "discretisation_error": max(stated) if estimated and len(stated) == len(errors) else None,
         "film_error": film_error(solution),
         "interpolation_error": max(curve.interpolation_error for curve in solution.curves),
     }
@@ -173,10 +173,6 @@ def _period(solution: BearingSolution) -> float | None:
     """Period of the inverter [s]; None without a switching frequency."""
     motor = solution.case.motor
     return None if motor is None or motor.switching_frequency is None else 1.0 / motor.switching_frequency
-
-
-def _part(value: float | None, part: float | None) -> float | None:
-    return None if value is None or part is None else part * value
 
 
 def breaks(solution: BearingSolution) -> dict[str, Any]:
@@ -243,9 +239,9 @@ def contact_rows(solution: BearingSolution, duty: BearingDuty | None = None) -> 
                     "capacitance": None if ceramic else ring.capacitance(fill)[k],
                     "voltage_share": share[k] if insulates else None,
                     "strength_per_volt": strength,
-                    "max_strength": None if strength is None or across is None else strength * across,
+                    "max_strength": known(mul, strength, across),
                     "breakdown_voltage": own,
-                    "bearing_breakdown_voltage": None if own is None else own / share[k],
+                    "bearing_breakdown_voltage": known(truediv, own, share[k]),
                     "solved": bool(ring.solved[k]),
                 }
             )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from operator import mul
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ehlectric.bearing.bearing_discharges import (
     breakdown_of,
     current_warnings,
     film_voltage,
+    known,
     leakage_warnings,
     shaft_voltage,
     strength_per_volt,
@@ -20,6 +22,7 @@ from ehlectric.bearing.film_factor import film_note, supply_warnings
 from ehlectric.bearing.impedance import shaft_path
 from ehlectric.bearing.mounted_clearance import class_warnings, fit_warnings
 from ehlectric.bearing.preparation import TAKEN, groove_ratio, shoulder_angle
+from ehlectric.bearing.quick_contacts import is_quick
 from ehlectric.bearing.ring_contacts import ContactSolution
 from ehlectric.bearing.solution import (
     BearingSolution,
@@ -67,25 +70,23 @@ def bearing_warnings(solution: BearingSolution) -> list[ResultWarning]:
         *inputs,
         *film_warnings(solution),
         *voltage_warnings(solution),
-        *_warnings_of_contacts(solution),
+        *edge_warnings(solution.case.bearing, solution.positions),
+        *contact_warnings(
+            {"inner": with_light(solution.inner_curve), "outer": with_light(solution.outer_curve)}
+        ),
     ]
     return list(dict.fromkeys(warnings))
 
 
 def film_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
     """Warnings of the films of a whole bearing: how they are computed, oil, temperature and clearance."""
-    if solution.case.contacts == "formula":
-        text = (
-            f"contacts by formula: film thicknesses may be wrong by {error_text(solution)}, "
-            'and fields are V/h_min; use contacts = "solved" for design'
-        )
-        yield ResultWarning("formula-contacts", text)
-    elif solution.case.contacts == "atlas":
-        text = (
-            f"contacts from the atlas of films: film thicknesses may be wrong by {error_text(solution)}, "
-            "and fields are V/h_min"
-        )
-        yield ResultWarning("atlas-contacts", text)
+    contacts = solution.case.contacts
+    if is_quick(solution.case):
+        how, more = "from the atlas of films", ""
+        if contacts == "formula":
+            how, more = "by formula", '; use contacts = "solved" for design'
+        text = f"contacts {how}: film thicknesses may be wrong by {error_text(solution)}"
+        yield ResultWarning(f"{contacts}-contacts", f"{text}, and fields are V/h_min{more}")
     yield film_note(solution)
     yield from supply_warnings(solution)
     of_base = library_viscosity(solution.case.lubricant)
@@ -206,8 +207,7 @@ def voltage_warnings(solution: BearingSolution) -> Iterator[ResultWarning]:
             "elements, and no shaft voltage follows from it; give bearing.element_capacitance",
         )
     breakdown, shaft, per_volt = breakdown_of(solution), shaft_voltage(solution), strength_per_volt(solution)
-    across = film_voltage(solution)
-    field = None if across is None or per_volt is None else across * per_volt
+    field = known(mul, film_voltage(solution), per_volt)
     first = None if breakdown is None else breakdown.shaft_first_break
     if first is not None and shaft is not None and first < shaft and solution.converged:
         at = f"first breakdown at {first:.3g} V"
@@ -273,14 +273,6 @@ def _contact_of_asperities(solution: BearingSolution) -> Iterator[ResultWarning]
                 "breakdown voltages are upper bounds"
             )
             yield ResultWarning("partial-film", text)
-
-
-def _warnings_of_contacts(solution: BearingSolution) -> Iterator[ResultWarning]:
-    """Warnings of single contacts, and of contacts that reach over the shoulder of a groove."""
-    yield from edge_warnings(solution.case.bearing, solution.positions)
-    yield from contact_warnings(
-        {"inner": with_light(solution.inner_curve), "outer": with_light(solution.outer_curve)}
-    )
 
 
 def edge_warnings(bearing: Bearing, positions: Sequence[Position]) -> Iterator[ResultWarning]:

@@ -1,6 +1,4 @@
-"""Record of a simulated time: events, histograms and spectrum, rates and distributions with their
-uncertainty.
-"""
+"""Record of a simulated time: events, histograms and spectrum, and rates and spreads of the events."""
 
 from __future__ import annotations
 

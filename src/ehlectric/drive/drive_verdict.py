@@ -27,42 +27,52 @@ _DOUBTS = (*DOUBTS, "partial-film")
 _UNSOLVED = "No verdict: a film is not converged, and the numbers must not be used."
 _HARM = "How much currents damage raceways and oil is not computed."
 _OPENING = "contacts discharge as they open, which is not computed"
-_LEADS = {
+
+# First words of a verdict by its level, in the order of their severity.
+LEADS: Mapping[Level, str] = {
+    "grey": "No verdict",
     "green": "No discharge expected",
     "yellow": "Discharges possible",
     "red": "Discharges expected",
 }
-_ORDER: tuple[Level, ...] = ("green", "yellow", "red")
+_ORDER = tuple(LEADS)
 
 
 def drive_verdict(case: DriveCase, summary: Mapping[str, Any], warnings: Iterable[ResultWarning]) -> Verdict:
-    """Verdict on a solved drive. Returns red where a bearing discharges at least twenty times in the
-    simulated time, or its films conduct for a fifth of that time after breakdowns.
+    """Verdict on a solved drive.
+
+    It is red where a bearing discharges at least twenty times in the simulated time, or its films conduct for
+    a fifth of that time after breakdowns, and would at a 20 % higher strength.
     """
     warnings = tuple(warnings)
     codes = {warning.code for warning in warnings}
     refused = unusable(warnings) or ("" if summary["converged"] else _UNSOLVED)
     if refused:
         return Verdict("grey", refused)
-    part = 1.0 - STRENGTH_UNKNOWN
-    if "formula-contacts" in codes:
-        # Films of the atlas and solved ones are far more exact than the strength is known.
-        part /= max(formula_factor(one.bearing.kind) for one in case.bearings)
+    part = weakest_part(case, formula="formula-contacts" in codes)
     ends = [summary[end] for end in ENDS]
     levels = [_level(end, summary["source"]["peak"], part) for end in ends]
     events, arcs = sum(end["events"] for end in ends), any(end["burning_time_share"] for end in ends)
     doubts = [] if events else [CODES[code].meaning for code in _DOUBTS if code in codes]
     level: Level = max(["yellow", *levels] if doubts else levels, key=_ORDER.index)
     if events or arcs:
-        lead = "Discharges likely" if level == "yellow" and events >= FEW else _LEADS[level]
+        lead = "Discharges likely" if level == "yellow" and events >= FEW else LEADS[level]
         sentences = [f"{lead}: {_rates(summary)}.", *_doubts_of_rates(ends, level)]
-        sentences += [*_touching(ends), *_harm(case, ends)]
     else:
-        sentences = [f"{_LEADS[level]}: {_none(summary, part)}.", *_touching(ends), *_harm(case, ends)]
-        sentences += doubts
+        sentences = [f"{LEADS[level]}: {_none(summary, part)}."]
+    sentences += [*_touching(ends), *_harm(case, ends), *([] if arcs else doubts)]
     if any(end["breakdown_voltage"] is not None for end in ends):
         sentences += [*([] if events or arcs else [_bound(codes)]), _assumption(case)]
     return Verdict(level, " ".join(filter(None, sentences)))
+
+
+def weakest_part(case: DriveCase, *, formula: bool) -> float:
+    """Lowest strength of the films of a drive that is possible, over that of its case, dimensionless."""
+    part = 1.0 - STRENGTH_UNKNOWN
+    if not formula:
+        # Films of the atlas and solved ones are far more exact than the strength is known.
+        return part
+    return part / max(formula_factor(one.bearing.kind) for one in case.bearings)
 
 
 def _level(end: Mapping[str, Any], source: float, part: float) -> Level:

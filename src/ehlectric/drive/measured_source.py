@@ -1,6 +1,4 @@
-"""Measured source of a drive: the waveform of an oscilloscope, its quality, its resampling, and its
-warnings.
-"""
+"""Measured source of a drive: waveform of an oscilloscope, its resampling, and its warnings."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""Circuit of a motor around its bearings: capacitive divider, state equations, and modes in each state. SI
-units.
+"""Circuit of a motor around its bearings: capacitive divider, state equations, and modes in each state.
+
+All quantities are in SI units.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from ehlectric.arrays import Array
 from ehlectric.cases.drive_inputs import Breakdown, Circuit
@@ -28,11 +30,8 @@ def capacitive_divider(circuit: Circuit, bearings: Sequence[BearingElement]) -> 
     Returns share of each bearing, dimensionless, from 0 to 1.
     """
     plain = circuit.model_copy(update={"common_mode_inductance": None, "ground_inductance": None})
-    nodes = film_nodes(bearings)
-    elements = list(motor_elements(plain))
-    for one, ends in zip(bearings, nodes, strict=True):
-        elements += bearing_elements(one, ends, 0, 0.0)
-    first, second = modes_of([state_space(elements, source_nodes(plain))], nodes, None).films_source[0]
+    modes = modes_of([_system(plain, bearings)], film_nodes(bearings))
+    first, second = modes.films_source[0]
     return abs(float(first)), abs(float(second))
 
 
@@ -119,18 +118,12 @@ def state_space(elements: Sequence[Element], source: tuple[str, str]) -> StateSp
             (n.T @ drive - through.T @ k) / inductance,
         ]
     )
-    capacitance = np.block(
-        [
-            [own, np.zeros((len(free), len(inductors)))],
-            [np.zeros((len(inductors), len(free))), np.diag(inductance)],
-        ]
-    )
     return StateSpace(
         nodes=free,
         rates=rates,
         force=force,
         jump=np.concatenate([k, np.zeros(len(inductors))]),
-        capacitance=capacitance,
+        capacitance=block_diag(own, np.diag(inductance)),
     )
 
 
@@ -230,6 +223,19 @@ def motor_elements(circuit: Circuit) -> Iterator[Element]:
         yield Element("capacitor", WINDING, FRAME, circuit.cable_capacitance)
 
 
+def _system(
+    circuit: Circuit,
+    bearings: Sequence[BearingElement],
+    places: Sequence[int] = (0, 0),
+    conductances: Sequence[float] = (0.0, 0.0),
+) -> StateSpace:
+    """State equations with the elements of each bearing at a place, and a conductance of its films [S]."""
+    elements = list(motor_elements(circuit))
+    for b, nodes in enumerate(film_nodes(bearings)):
+        elements += bearing_elements(bearings[b], nodes, places[b], conductances[b])
+    return state_space(elements, source_nodes(circuit))
+
+
 def bearing_elements(
     one: BearingElement, nodes: tuple[str, str], place: int, conductance: float
 ) -> Iterator[Element]:
@@ -253,10 +259,7 @@ def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[t
     """
     if circuit.common_mode_inductance is None and circuit.ground_inductance is None:
         return []
-    elements = list(motor_elements(circuit))
-    for one, nodes in zip(bearings, film_nodes(bearings), strict=True):
-        elements += bearing_elements(one, nodes, 0, 0.0)
-    rates = np.linalg.eigvals(state_space(elements, source_nodes(circuit)).rates)
+    rates = np.linalg.eigvals(_system(circuit, bearings).rates)
     found = [
         (float(rate.imag) / (2.0 * math.pi), abs(rate) / max(-2.0 * float(rate.real), 1e-300))
         for rate in rates
@@ -268,24 +271,14 @@ def oscillations(circuit: Circuit, bearings: Sequence[BearingElement]) -> list[t
 def states_of(
     circuit: Circuit, bearings: Sequence[BearingElement], breakdown: Breakdown, *, touches: bool
 ) -> list[StateSpace]:
-    """State equations of the circuit in all of its states, in the order in which a march numbers them.
-    Returns for each state of the first and the second film, and each position of the first and the second
-    bearing's elements.
+    """State equations of the circuit in all of its states, in the order in which a march numbers them: each
+    state of the first and the second film, and each position of the elements of both bearings.
     """
     arc = 1.0 / breakdown.arc_resistance
     doing = [[0.0, arc, 1.0 / one.touch_resistance][: 3 if touches else 2] for one in bearings]
     places = [range(one.capacitance.size) for one in bearings]
-    motor, nodes = list(motor_elements(circuit)), film_nodes(bearings)
     return [
-        state_space(
-            [
-                *motor,
-                *bearing_elements(bearings[0], nodes[0], first, one),
-                *bearing_elements(bearings[1], nodes[1], second, other),
-            ],
-            source_nodes(circuit),
-        )
-        for one, other, first, second in product(doing[0], doing[1], places[0], places[1])
+        _system(circuit, bearings, at, beside) for beside, at in product(product(*doing), product(*places))
     ]
 
 
@@ -323,8 +316,9 @@ class Modes:
 def modes_of(
     systems: Sequence[StateSpace], films: Sequence[tuple[str, str]], ring: complex | None = None
 ) -> Modes:
-    """Diagonal form of a circuit in all of its states. ``ring``, rate mu of the source's ringing [1/s];
-    without it the source does not ring. Returns rates, shapes and what follows from them.
+    """Diagonal form of a circuit in all of its states.
+
+    ``ring`` is the rate mu of the source's ringing [1/s]; without it the source does not ring.
     """
     first = systems[0]
     rates = np.array([one.rates for one in systems])

@@ -1,6 +1,4 @@
-"""Netlist of a bearing for circuit simulators: its equivalent circuit over the speed, its subcircuit, and
-a test bench.
-"""
+"""Netlist of a bearing for circuit simulators: equivalent circuit over the speed, subcircuit, test bench."""
 
 from __future__ import annotations
 
@@ -138,11 +136,11 @@ class Equivalent:
 
 
 def equivalent_of(solution: BearingSolution) -> Equivalent:
-    """Equivalent circuit of what lies between the rings of a solved bearing. Returns values in SI units.
-    Raises InputError where the surfaces touch, and the case has no ``bearing.contact_resistance``.
+    """Equivalent circuit of what lies between the rings of a solved bearing.
 
     Where the surfaces touch, an element conducts while both of its contacts are closed, by two contact
-    resistances in series. The conductance is the mean over time of that of all elements.
+    resistances in series. The conductance is the mean over time of that of all elements. Raises InputError
+    where the surfaces touch, and the case has no ``bearing.contact_resistance``.
     """
     speed, own = solution.case.bearing.inner_speed, capacitance(solution)
     if solution.conditions.ceramic:
@@ -188,9 +186,7 @@ _FACTORS = 4
 
 
 def speeds_of(case: BearingCase, text: str) -> tuple[float, ...]:
-    """Speeds of the inner ring from the text of an option. Returns speeds [rad/s]. Raises InputError if a
-    part is no speed that the case takes, or the range is none.
-    """
+    """Speeds of the inner ring [rad/s] from the text of an option; an InputError where a part is no speed."""
     found = _RANGE.fullmatch(text)
     if found is None:
         return tuple(_speed(case, part) for part in text.split(","))
@@ -216,12 +212,12 @@ def _speed(case: BearingCase, text: str) -> float:
 def solve_at_speeds(
     case: BearingCase, speeds: Sequence[float], progress: Progress = silent, *, workers: int | None = None
 ) -> list[BearingResult]:
-    """Solve a bearing at its own speed and at others, all at the same temperature. ``speeds``, other speeds
-    of the inner ring [rad/s]. Returns results at different speeds; the first one is at the speed of the case.
-    Raises InputError, LostError, ConvergenceError as ``solve_bearing`` raises them.
+    """Solve a bearing at its speed and at others [rad/s], all at the same temperature.
+
+    The first result is at the speed of the case. Errors are those of ``solve_bearing``.
     """
     own = case.bearing.inner_speed
-    others = [speed for speed in dict.fromkeys(speeds) if not _same(speed, own)]
+    others = [speed for speed in dict.fromkeys(speeds) if not np.isclose(speed, own, rtol=1e-9, atol=0.0)]
     results = []
     for speed in (own, *others):
 
@@ -231,10 +227,6 @@ def solve_at_speeds(
         changed = case if speed == own else case.replace({"bearing.inner_speed": speed})
         results.append(solve_bearing(changed, progress=tell, workers=workers))
     return results
-
-
-def _same(first: float, second: float) -> bool:
-    return bool(np.isclose(first, second, rtol=1e-9, atol=0.0))
 
 
 def check_table(results: Sequence[BearingResult]) -> None:
@@ -582,9 +574,9 @@ _ABOUT = (
 
 
 def drive_of(case: BearingCase) -> Motor:
-    """Table ``[motor]`` of a bearing with all that a test bench needs. Returns table with a switching
-    frequency and a rise time. Raises InputError if the case has no motor, a key is missing, or an edge lasts
-    half a period.
+    """Table ``[motor]`` of a bearing with all that a test bench needs.
+
+    Raises InputError if the case has no motor, a key is missing, or an edge lasts half a period.
     """
     motor = case.motor
     if motor is None:
@@ -604,8 +596,8 @@ def drive_of(case: BearingCase) -> Motor:
 
 
 def bench_lines(subcircuit: Subcircuit, library: str) -> Iterator[str]:
-    """Lines of a test bench that simulates some periods of the inverter. Yields lines of the file; the first
-    one is its title. Raises InputError as ``drive_of`` raises it.
+    """Lines of a test bench that simulates some periods of the inverter, its title first; errors are those of
+    ``drive_of``.
     """
     motor, name = drive_of(subcircuit.case), subcircuit.name
     yield f"{SIGNATURE}test bench of {name}; ehlectric {__version__}"

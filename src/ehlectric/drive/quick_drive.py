@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
-from ehlectric.bearing.quick_contacts import formula_factor, quick_case
+from ehlectric.bearing.quick_contacts import quick_case
 from ehlectric.cases.drive_case import DriveCase
 from ehlectric.discharge.film_verdict import STRENGTH_UNKNOWN, Level, Verdict, ratio_text
-from ehlectric.drive.drive_verdict import SELDOM, most_by_law
+from ehlectric.drive.drive_verdict import LEADS, SELDOM, most_by_law, weakest_part
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.quantities.results import NAMES_OF_ENDS
 
@@ -25,10 +25,7 @@ _RINGING = "The ringing of the source lifts the voltage above the divider's."
 
 
 def quick_drive(case: DriveCase) -> tuple[DriveCase | None, str]:
-    """Drive with contacts from the atlas of films or by formula. Returns ``case``, drive with quick bearings,
-    each with its own speed, temperature and contacts; None where a bearing needs solved contacts; ``key``,
-    key that needs them; empty otherwise.
-    """
+    """Drive with quick contacts, and an empty text; or None and the key that needs solved contacts."""
     films = {}
     for end, bearing in zip(ENDS, case.bearings, strict=True):
         judged, refused = quick_case(bearing)
@@ -42,8 +39,9 @@ def quick_drive(case: DriveCase) -> tuple[DriveCase | None, str]:
 
 def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     """Verdict on a drive that is not simulated: the capacitive divider against the breakdown voltages.
-    Returns of the bearing that breaks down first; its margin is breakdown voltage over bearing voltage at the
-    peak of the source; grey with a grounding ring or an inductance, which the divider leaves out.
+
+    It is about the bearing that breaks down first; its margin is breakdown voltage over bearing voltage at
+    the peak of the source. It is grey with a grounding ring or an inductance, which the divider leaves out.
     """
     margins = {
         end: summary[end]["breakdown_voltage"] / max(summary[end]["voltage_at_peak"], 1e-30)
@@ -66,7 +64,7 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
     )
     if circuit.grounding_ring_resistance is not None:
         return Verdict("grey", f"No verdict without a simulation: {numbers} {_RING}", margin)
-    level = _level(about, (one.bearing.kind for one in case.bearings))
+    level = _level(about, case)
     doubts = [_SCATTER] if level == "yellow" and margin >= 1.0 and about["weibull_shape"] else []
     if case.source.overshoot:
         doubts.append(_RINGING)
@@ -74,23 +72,12 @@ def expected(case: DriveCase, summary: Mapping[str, Any]) -> Verdict:
         doubts.append(f"Asperities close the films for {100.0 * touching:.3g} % of the time.")
     if doubts and level == "green":
         level = "yellow"
-    return Verdict(level, " ".join([f"{_LEADS[level]}: {numbers}", *doubts]), margin)
+    return Verdict(level, " ".join([f"{LEADS[level]}: {numbers}", *doubts]), margin)
 
 
-_LEADS: Mapping[Level, str] = {
-    "green": "No discharge expected",
-    "yellow": "Discharges possible",
-    "red": "Discharges expected",
-    "grey": "No verdict",
-}
-
-
-def _level(about: Mapping[str, Any], kinds: Iterable[str]) -> Level:
+def _level(about: Mapping[str, Any], case: DriveCase) -> Level:
     """Level of a bearing from its voltage at the peak, within what is uncertain of its breakdown voltage."""
-    part = 1.0 - STRENGTH_UNKNOWN
-    if about["films"] == "formula":
-        # Films of the atlas are far more exact than the strength is known.
-        part /= max(map(formula_factor, kinds))
+    part = weakest_part(case, formula=about["films"] == "formula")
     voltage, at = about["voltage_at_peak"], about["breakdown_voltage"]
     if voltage >= (1.0 + STRENGTH_UNKNOWN) * at:
         return "red"

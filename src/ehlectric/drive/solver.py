@@ -67,8 +67,9 @@ class PreparedDrive:
 
 
 def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
-    """Solve the bearings of a drive, and set up its circuit. Returns all that the simulation needs. Raises
-    InputError where a bearing cannot be solved, or lacks a value that discharges need.
+    """Solve the bearings of a drive, and set up its circuit.
+
+    Raises InputError where a bearing cannot be solved, or lacks a value that discharges need.
     """
     first, second = case.bearings
     drive_end = solve_bearing(first, workers=workers)
@@ -88,9 +89,7 @@ def prepare(case: DriveCase, *, workers: int | None = None) -> PreparedDrive:
 
 
 def solve(case: DriveCase, progress: Progress = silent, *, workers: int | None = None) -> DriveSolution:
-    """Solve the bearings of a drive, and simulate it over time. Returns bearings, and the record of what
-    happened. Raises InputError where a bearing cannot be solved, or lacks a value that discharges need.
-    """
+    """Solve the bearings of a drive, and simulate it over time; errors are those of ``prepare``."""
     ready = prepare(case, workers=workers)
     whole = ready.settling + ready.duration
     reach = _highest(ready)

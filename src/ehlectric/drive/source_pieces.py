@@ -82,8 +82,8 @@ def _knots(interval: Steps, rise: float, ringing: Ringing | None) -> Array:
 
 def sampled(waveform: Waveform, duration: float, rest: float = 0.0) -> Iterator[Segments]:
     """Pieces of a measured voltage, straight from sample to sample; the record is repeated where it is short.
-    ``duration``, time that the pieces of samples cover [s]; ``rest``, time before them, for which the voltage
-    is that of the first sample [s]. Yields the rest, and pieces of one chunk of samples.
+
+    The pieces cover the ``duration`` [s], after a ``rest`` [s] at the voltage of the first sample.
     """
     if rest:
         none = np.zeros(1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +27,7 @@ from ehlectric.drive.drive_record import (
 )
 from ehlectric.drive.drive_verdict import drive_verdict
 from ehlectric.drive.inverter import edge_rate
-from ehlectric.errors import ResultWarning
+from ehlectric.errors import ResultWarning, texts_and_codes
 from ehlectric.quantities.inputs import ENDS
 from ehlectric.runtime.files import plain
 
@@ -44,37 +44,35 @@ def drive_summary(solution: DriveSolution) -> dict[str, Any]:
     """Summary of a drive without its head and its remedies: its source, its circuit and both bearings."""
     case, record = solution.case, solution.record
     ends = {end: end_summary(solution, b) for b, end in enumerate(ENDS)}
-    fundamental, bearing = case.running_source.fundamental_frequency, case.bearings[0].bearing
-    summary: dict[str, Any] = plain(
+    fundamental = case.running_source.fundamental_frequency
+    drive = {
+        "duration": record.duration,
+        "periods": None if fundamental is None else record.duration * fundamental,
+        "seed": case.drive.seed,
+        **{key: sum(one[key] for one in ends.values()) for key in ("events", "events_per_second", "power")},
+    }
+    return _tables(case, solution.highest_source, drive, ends)
+
+
+def _tables(
+    case: DriveCase, highest: float, drive: Mapping[str, Any], ends: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Tables of a drive: its source with the highest voltage [V], circuit, operation, and both bearings."""
+    running, bearing = case.running_source, case.bearings[0].bearing
+    tables: dict[str, Any] = plain(
         {
-            "source": _source(case, solution.highest_source),
-            "circuit": case.circuit.capacitances,
-            "drive": {
-                "speed": bearing.inner_speed,
-                "temperature": bearing.oil_temperature,
-                "duration": record.duration,
-                "periods": None if fundamental is None else record.duration * fundamental,
-                "seed": case.drive.seed,
-                **{
-                    key: sum(one[key] for one in ends.values())
-                    for key in ("events", "events_per_second", "power")
-                },
+            "source": {
+                "peak": highest,
+                "edges_per_second": edges_per_second(case),
+                "fundamental_frequency": running.fundamental_frequency,
+                "modulation_index": running.modulation_index,
             },
+            "circuit": case.circuit.capacitances,
+            "drive": {"speed": bearing.inner_speed, "temperature": bearing.oil_temperature, **drive},
             **ends,
         }
     )
-    return summary
-
-
-def _source(case: DriveCase, highest: float) -> dict[str, Any]:
-    """Source at the speed of the rotor."""
-    running = case.running_source
-    return {
-        "peak": highest,
-        "edges_per_second": edges_per_second(case),
-        "fundamental_frequency": running.fundamental_frequency,
-        "modulation_index": running.modulation_index,
-    }
+    return tables
 
 
 def edges_per_second(case: DriveCase) -> float | None:
@@ -103,33 +101,6 @@ def end_summary(solution: DriveSolution, b: int) -> dict[str, Any]:
     }
 
 
-def prepared_summary(ready: PreparedDrive) -> dict[str, Any]:
-    """Summary of a drive that is not simulated: its source, its circuit and both bearings."""
-    case = ready.case
-    bearing = ready.bearings[0].case.bearing
-    summary: dict[str, Any] = plain(
-        {
-            "source": _source(case, ready.highest_source),
-            "circuit": case.circuit.capacitances,
-            "drive": {
-                "speed": bearing.inner_speed,
-                "temperature": bearing.oil_temperature,
-                "duration": ready.duration,
-                "remedies": len(case.remedies),
-            },
-            **{
-                end: {
-                    **_film(case, one),
-                    "voltage_ratio": ratio,
-                    "voltage_at_peak": ratio * ready.highest_source,
-                }
-                for end, one, ratio in zip(ENDS, ready.elements, ready.divider, strict=True)
-            },
-        }
-    )
-    return summary
-
-
 def _film(case: DriveCase, one: BearingElement) -> dict[str, Any]:
     """Films of a bearing as an element of the circuit."""
     breakdown = float(np.min(one.breakdown))
@@ -145,11 +116,20 @@ def _film(case: DriveCase, one: BearingElement) -> dict[str, Any]:
 
 
 def checked_summary(ready: PreparedDrive) -> dict[str, Any]:
-    """Summary of a drive that is not simulated, with the way to the films of each end and their error."""
-    summary = prepared_summary(ready)
-    for end, result in zip(ENDS, ready.bearings, strict=True):
-        summary[end] |= {"films": result.case.contacts, "films_error": film_error(result.solution)}
-    return summary
+    """Summary of a drive that is not simulated, with the kind of its contacts and the error of its films."""
+    case, highest = ready.case, ready.highest_source
+    ends = {
+        end: {
+            **_film(case, one),
+            "voltage_ratio": ratio,
+            "voltage_at_peak": ratio * highest,
+            "films": result.case.contacts,
+            "films_error": film_error(result.solution),
+        }
+        for end, one, ratio, result in zip(ENDS, ready.elements, ready.divider, ready.bearings, strict=True)
+    }
+    drive = {"duration": ready.duration, "remedies": len(case.remedies)}
+    return _tables(case, highest, drive, ends)
 
 
 def _events(record: Record, b: int, edges: float | None) -> dict[str, Any]:
@@ -200,8 +180,8 @@ def whole_summary(
     seconds: float,
     version: str,
 ) -> dict[str, Any]:
-    """Whole summary: what is said of the result, its tables, and those of its remedies. ``seconds``,
-    computing time [s].
+    """Whole summary of a drive: head, tables and those of its remedies. ``seconds`` is the computing time
+    [s].
     """
     tables = drive_summary(solution)
     verdict = drive_verdict(solution.case, {"converged": solution.converged, **tables}, warnings)
@@ -210,8 +190,7 @@ def whole_summary(
         "version": version,
         "title": solution.case.title,
         "converged": solution.converged,
-        "warnings": [str(warning) for warning in warnings],
-        "warning_codes": [warning.code for warning in warnings],
+        **texts_and_codes(warnings),
         "verdict": verdict.text,
         "level": verdict.level,
         "inputs": solution.case.to_dict(),

@@ -76,9 +76,7 @@ _SEAM, _BEYOND = 0.05, 1e-3
 
 
 def quality_warnings(source: str, waveform: Waveform) -> Iterator[ResultWarning]:
-    """Warnings about clipped, coarse and badly resolved waveforms. Yields "waveform-clipped",
-    "waveform-coarse" and "edges-unresolved", each at most once.
-    """
+    """Warnings about clipped, coarse and badly resolved waveforms, each at most once."""
     values = waveform.values
     clipped = [f"{count} samples at exactly {level:.6g} V" for level, count in clipped_levels(values).items()]
     if clipped:
@@ -270,25 +268,20 @@ _WORDS = {
     "V": ("v", "volt", "volts"),
     "A": ("a", "amp", "amps", "ampere", "amperes"),
 }
-_PREFIXES = {
-    "": 1.0,
-    "m": 1e-3,
-    "milli": 1e-3,
-    "u": 1e-6,
-    "µ": 1e-6,
-    "micro": 1e-6,
-    "n": 1e-9,
-    "nano": 1e-9,
-    "p": 1e-12,
-    "pico": 1e-12,
-    "k": 1e3,
-    "kilo": 1e3,
-}
+_PREFIXES = (
+    (1.0, ("",)),
+    (1e-3, ("m", "milli")),
+    (1e-6, ("u", "µ", "micro")),
+    (1e-9, ("n", "nano")),
+    (1e-12, ("p", "pico")),
+    (1e3, ("k", "kilo")),
+)
 _UNITS = {
     prefix + word: (base, factor)
     for base, words in _WORDS.items()
     for word in words
-    for prefix, factor in _PREFIXES.items()
+    for factor, prefixes in _PREFIXES
+    for prefix in prefixes
 }
 _USUAL = {"s": "'s', 'ms' or 'us'", "V": "'V', 'mV' or 'kV'"}
 
@@ -443,10 +436,7 @@ class _Dialect:
 
 
 # In the order of preference: a comma separates columns only where neither semicolon nor tab does.
-_DIALECTS = (
-    *(_Dialect(separator, decimal) for separator in (";", "\t") for decimal in ".,"),
-    *(_Dialect(separator, decimal) for separator in (",", None) for decimal in ".,"),
-)
+_DIALECTS = tuple(_Dialect(separator, decimal) for separator in (";", "\t", ",", None) for decimal in ".,")
 
 
 @dataclass(frozen=True)

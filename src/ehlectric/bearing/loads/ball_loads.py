@@ -1,7 +1,5 @@
-"""Loads of ball bearings: position, contact forces and stiffness of each ball, and their equilibrium. SI
-units.
+"""Loads of ball bearings: position and forces of each ball, and equilibrium of the inner ring; SI units.
 
-Balls between two grooves: position, contact forces and stiffness of each ball. SI units.
 In the plane through the bearing axis and the ball's centre, a groove is a circle about the groove's centre.
 The ball is smaller than both circles and lies inside them. Vectors in this plane are (axial, radial) from the
 centre of the outer groove: the ball's centre is at p, and the centre of the inner groove at g. The elastic
@@ -10,16 +8,16 @@ approach in the contacts is
     delta_o = abs(p) - (f_o - 1/2) D,    delta_i = abs(g - p) - (f_i - 1/2) D
 
 and their load is Q = K delta^(3/2) where delta is positive. A groove does not enclose the ball. Beyond 90 deg
-it continues as a plane wall: of a vector that points inward only the axial component counts. Both lengths
-are convex functions of p and g. The energy, (2/5) K delta^(5/2) of both contacts less the work of the
-centrifugal force, is then convex as well. Each ball therefore has a single position of equilibrium, which
-Newton's method computes.
+it continues as a plane wall: of a vector that points inward only the axial component counts. Both lengths are
+convex functions of p and g. The energy, (2/5) K delta^(5/2) of both contacts less the work of the centrifugal
+force, is then convex as well. Each ball therefore has a single position of equilibrium, which Newton's method
+computes.
 
-Equilibrium of a ball bearing: loads and contact angles of the balls, displacement of the ring. SI units.
-Harris' model of a bearing at speed. The inner ring is displaced, but not tilted. Contact forces and
-centrifugal force balance on each ball, so its inner and outer contact angles differ. The rings are rigid
-except in the contacts. The effects of the gyroscopic moment and of friction are neglected. The grooves have
-no shoulders in this model, so compare the contact angles with the angle at which the shoulder begins.
+The equilibrium of the ring is Harris' model of a bearing at speed. The inner ring is displaced, but not
+tilted. Contact forces and centrifugal force balance on each ball, so its inner and outer contact angles
+differ. The rings are rigid except in the contacts. The effects of the gyroscopic moment and of friction are
+neglected. The grooves have no shoulders in this model, so compare the contact angles with the angle at which
+the shoulder begins.
 
 A. B. Jones, J. Basic Eng. 82 (1960) 309-320, doi:10.1115/1.3662587; T. A. Harris and M. N. Kotzalas, Advanced
 Concepts of Bearing Technology, 5th ed., 2006, chapters 1 and 3, doi:10.1201/9781420006582.
@@ -42,8 +40,8 @@ from ehlectric.bearing.loads.geometry import (
     gyroscopic_moment,
     rolling_speeds,
 )
-from ehlectric.bearing.loads.ring import AIM, GOOD, UNLOADED, Operation, RingLoads, balance
-from ehlectric.errors import ConvergenceError, InputError, shown
+from ehlectric.bearing.loads.ring import AIM, GOOD, OnBothRings, Operation, balance
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.formulas.hertz import dry_contact
 
 # Degree of the polynomial of log K. K changes smoothly, by a few percent over all angles: the relative error
@@ -71,9 +69,9 @@ def contact_stiffness(bearing: BallBearing, modulus: float, angle: float, *, inn
 
 @lru_cache(maxsize=32)
 def stiffness_laws(bearing: BallBearing, modulus: float) -> tuple[Chebyshev, Chebyshev]:
-    """Polynomials of log K in the cosine of the contact angle, for the inner and the outer contact.
-    ``modulus``, reduced modulus E' of ball and ring [Pa]. Returns natural logarithm of K [N/m^(3/2)] over the
-    cosine, from 0 to 1.
+    """Polynomials of ln K of the inner and the outer contact over the cosine of the contact angle, 0 to 1.
+
+    ``modulus`` is the reduced modulus E' of ball and ring [Pa]; K has the unit N/m^(3/2).
     """
 
     def law(*, inner: bool) -> Chebyshev:
@@ -304,31 +302,6 @@ def seat(grooves: Grooves, g: Array, guess: Seats | None = None) -> Seats:
     return Seats(place, held, *grooves.contacts(place, g))
 
 
-def lean_outward(grooves: Grooves, g: Array) -> Array:
-    """Positions of unloaded balls at rest that lie in the outer groove: the limit of slow rotation.
-
-    A ball lies at the bottom of the outer groove. Where the inner groove is in the way, the ball lies in the
-    corner where it touches both grooves.
-
-    ``g``, centre of the inner groove at each ball, axial and radial [m], shape (n, 2). Returns position p of
-    each ball [m], shape (n, 2).
-
-    Examples
-    --------
-    >>> both = np.full(1, 1e10)
-    >>> grooves = Grooves(0.2e-3, 0.2e-3, both, both, 0.0)
-    >>> [round(float(x) * 1e3, 4) for x in lean_outward(grooves, np.array([[0.0, 0.39e-3]]))[0]]
-    [0.0, 0.2]
-    >>> [round(float(x) * 1e3, 4) for x in lean_outward(grooves, np.array([[0.3e-3, 0.0]]))[0]]
-    [0.1, 0.1732]
-    """
-    bottom = np.broadcast_to(grooves.outer_offset * _RADIAL, g.shape)
-    inner, _ = grooves.contacts(bottom, g)
-    ones = np.ones(len(g))
-    corner = _corner(g, grooves.inner_offset * ones, grooves.outer_offset * ones)
-    return np.where((inner.depth > 0.0)[:, None], corner, bottom)
-
-
 # Change of the cosines of the contact angles at convergence; each round reduces it by two or three digits.
 _SETTLED = 1e-12
 _MOST_ROUNDS = 30
@@ -341,7 +314,7 @@ _REACH = 0.1
 
 
 @dataclass(frozen=True)
-class BallEquilibrium:
+class BallEquilibrium(OnBothRings):
     """Ball bearing in equilibrium. Arrays have one value per ball, shape (n,)."""
 
     position: Array  # angle of the ball from the direction of the radial load [rad]
@@ -376,14 +349,6 @@ class BallEquilibrium:
     # Largest unbalanced force on ring or ball over the sum of load and centrifugal force, dimensionless.
     residual: float
     iterations: int  # number of Newton steps for the ring
-
-    def ring(self, *, inner: bool) -> RingLoads:
-        """Contacts of all balls with the inner or the outer ring in equilibrium."""
-        if inner:
-            speed = np.asarray(self.speeds.inner_entrainment)
-            return RingLoads(self.inner_load, self.inner_angle, self.inner_approach, self.inner_gap, speed)
-        speed = np.asarray(self.speeds.outer_entrainment)
-        return RingLoads(self.outer_load, self.outer_angle, self.outer_approach, self.outer_gap, speed)
 
 
 @dataclass(frozen=True)
@@ -554,30 +519,8 @@ def _solve(model: _Model) -> tuple[_State, int]:
     return state, iterations
 
 
-def _refuse(bearing: BallBearing, operation: Operation, unloaded: str) -> None:
-    """Raise InputError for loads that the bearing cannot carry, and for unknown options."""
-    if unloaded not in UNLOADED:
-        raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
-    if bearing.contact_angle is not None and operation.axial_load <= 0.0:
-        raise InputError(
-            "axial_load",
-            got=f"{operation.axial_load:g} N",
-            takes="one above 0: an angular-contact bearing carries it one way, and a radial load only "
-            "with it",
-        )
-
-
-def _placed(state: _State, g: Array, unloaded: str) -> Seats:
-    """Seats in which the unloaded balls of a bearing at rest lie where ``unloaded`` says."""
-    seats, grooves = state.seats, state.grooves
-    if unloaded == "centred" or grooves.outward > 0.0:
-        return seats
-    place = np.where(seats.held[:, None], seats.place, lean_outward(grooves, g))
-    return Seats(place, seats.held, *grooves.contacts(place, g))
-
-
 def ball_equilibrium(
-    bearing: BallBearing, operation: Operation, modulus: float, density: float, *, unloaded: str = "centred"
+    bearing: BallBearing, operation: Operation, modulus: float, density: float
 ) -> BallEquilibrium:
     """Equilibrium of the inner ring and of all balls.
 
@@ -589,8 +532,8 @@ def ball_equilibrium(
 
     ``modulus``, reduced modulus E' of ball and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2;
     ``density`` [kg/m^3]. Returns forces that balance to 1e-9 of the load plus the centrifugal force. Raises
-    InputError where the bearing cannot carry the load, or ``unloaded`` has another value; ConvergenceError
-    where the iteration does not converge.
+    InputError where the bearing cannot carry the load; ConvergenceError where the iteration does not
+    converge.
 
     Examples
     --------
@@ -602,11 +545,16 @@ def ball_equilibrium(
     >>> bool(np.allclose(state.inner_load * np.sin(angle), 100.0, rtol=1e-9))
     True
     """
-    _refuse(bearing, operation, unloaded)
+    if bearing.contact_angle is not None and operation.axial_load <= 0.0:
+        raise InputError(
+            "axial_load",
+            got=f"{operation.axial_load:g} N",
+            takes="one above 0: an angular-contact bearing carries it one way, and a radial load only "
+            "with it",
+        )
     model = _Model(bearing, operation, modulus, density)
     state, iterations = _solve(model)
-    seats = _placed(state, model.centres(state.ring), unloaded)
-    angles = _Angles.of(seats)
+    seats, angles = state.seats, state.angles
     mass, speeds = bearing.element_mass(density), model.speeds(angles)
     # The moments are about the centre of the circle of groove centres, which the contact forces pass through.
     levers = bearing.inner_centre_radius * seats.inner.force[:, 0]

@@ -1,11 +1,10 @@
-"""Internal geometry of ball and roller bearings, radii of their contacts, and speeds. SI units.
+"""Geometry of ball and roller bearings, radii of their contacts, speeds and inertial forces; SI units.
 
 A groove is a circular arc with a radius somewhat larger than that of the ball. The centre of the inner groove
 lies radially outside the ball's centre, and that of the outer groove radially inside. The contacts follow
 from the positions of these three centres. Angles are measured from the radial plane, and are positive where
 the inner ring is pushed towards positive axial positions. Raceways of roller bearings are cylinders.
 
-Speeds in a rolling bearing, and the inertial forces on its elements. SI units.
 The elements roll without sliding on both rings, and the cage turns with them. Both rings may turn; all speeds
 are positive in the same sense of rotation. The formulas have one contact angle for both contacts of an
 element. For a ball at speed, whose contact angles differ, it is their mean.

@@ -18,9 +18,6 @@ import numpy as np
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
 
-# Positions of unloaded elements in a bearing at rest.
-UNLOADED = ("centred", "outer")
-
 # Force of the elements against a displacement of the ring, and its derivative by the displacement.
 Reaction: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
@@ -47,6 +44,18 @@ class RingLoads:
     approach: Array
     gap: Array  # distance between element and ring [m]; 0 where they touch, shape (n,)
     entrainment_speed: Array  # entrainment speed in pure rolling [m/s], shape (n,)
+
+
+class OnBothRings:
+    """Equilibrium of elements with quantities for both rings, such as ``inner_load`` and ``outer_load``."""
+
+    def ring(self, *, inner: bool) -> RingLoads:
+        """Contacts of all elements with the inner or the outer ring; contact angles of rollers are 0."""
+        side, values = "inner" if inner else "outer", vars(self)
+        load = values[f"{side}_load"]
+        angle = values.get(f"{side}_angle", np.zeros_like(load))
+        speed = np.broadcast_to(getattr(values["speeds"], f"{side}_entrainment"), load.shape)
+        return RingLoads(load, angle, values[f"{side}_approach"], values[f"{side}_gap"], speed)
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ from scipy.optimize import brentq
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.bearing.loads.geometry import RollerBearing, Speeds, centrifugal_force, rolling_speeds
-from ehlectric.bearing.loads.ring import GOOD, UNLOADED, Operation, Reaction, RingLoads, balance
-from ehlectric.errors import ConvergenceError, InputError, shown
+from ehlectric.bearing.loads.ring import GOOD, OnBothRings, Operation, Reaction, balance
+from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.formulas.hertz import body_compliance, reduced_modulus
 
 # q = c delta^(10/9). For both contacts of a steel roller together, c_L = 35 948 L^(8/9) N/mm^(10/9), L in mm.
@@ -38,7 +38,7 @@ _MOST_STEPS = 100
 
 
 @dataclass(frozen=True)
-class RollerEquilibrium:
+class RollerEquilibrium(OnBothRings):
     """Roller bearing in equilibrium. Arrays have one value per roller, shape (n,), unless stated."""
 
     position: Array  # angle of the roller from the direction of the radial load [rad]
@@ -77,15 +77,6 @@ class RollerEquilibrium:
     def cage_speed(self) -> float:
         """Angular speed of the cage about the axis of the bearing [rad/s]."""
         return float(self.speeds.cage)
-
-    def ring(self, *, inner: bool) -> RingLoads:
-        """Contacts of all rollers with the inner or the outer ring in equilibrium; contact angles are 0."""
-        angle = np.zeros_like(self.inner_load)
-        if inner:
-            speed = np.broadcast_to(self.speeds.inner_entrainment, angle.shape)
-            return RingLoads(self.inner_load, angle, self.inner_approach, self.inner_gap, speed)
-        speed = np.broadcast_to(self.speeds.outer_entrainment, angle.shape)
-        return RingLoads(self.outer_load, angle, self.outer_approach, self.outer_gap, speed)
 
 
 def line_stiffness(length: float, modulus: float) -> float:
@@ -195,10 +186,8 @@ class _Rollers:
         return reaction
 
 
-def _refuse(operation: Operation, unloaded: str, slices: int) -> None:
-    """Raise InputError for loads that the bearing cannot carry, and for options out of range."""
-    if unloaded not in UNLOADED:
-        raise InputError("unloaded", got=shown(unloaded), takes=f"one of {', '.join(UNLOADED)}")
+def _refuse(operation: Operation, slices: int) -> None:
+    """Raise InputError for loads that the bearing cannot carry, and for a wrong number of slices."""
     if operation.axial_load != 0.0:
         raise InputError(
             "axial_load",
@@ -215,7 +204,6 @@ def roller_equilibrium(
     modulus: float,
     density: float,
     *,
-    unloaded: str = "centred",
     slices: int = SLICES,
 ) -> RollerEquilibrium:
     """Equilibrium of the inner ring and of all rollers.
@@ -229,7 +217,7 @@ def roller_equilibrium(
     ``modulus``, reduced modulus E' of roller and ring [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2;
     ``density`` [kg/m^3]; ``slices``, number of slices of a roller, odd and at least 31. Returns forces that
     balance to 1e-9 of the load plus the centrifugal force. Raises InputError where the bearing cannot carry
-    the load, or an option is out of range; ConvergenceError where the iteration does not converge.
+    the load, or the number of slices is out of range; ConvergenceError where the iteration does not converge.
 
     Examples
     --------
@@ -240,7 +228,7 @@ def roller_equilibrium(
     >>> round(float(state.inner_load[0]) * 14 / 5000.0, 2)
     4.09
     """
-    _refuse(operation, unloaded, slices)
+    _refuse(operation, slices)
     length = bearing.roller_length
     x = ((np.arange(slices) + 0.5) / slices - 0.5) * length
     stiffness = line_stiffness(length, modulus)
@@ -259,9 +247,7 @@ def roller_equilibrium(
     ring, residual, iterations = balance(reaction, load, np.zeros(2), reach, scale)
 
     interference = basis @ ring - 0.5 * bearing.radial_clearance
-    outer, loaded = rollers.seat(interference)
-    if unloaded == "outer" and outward == 0.0:
-        outer = np.where(loaded, outer, 0.0)
+    outer, _ = rollers.seat(interference)
     inner = interference - outer
     inner_slices, outer_slices = rollers.slices(inner), rollers.slices(outer)
     inner_load, outer_load = inner_slices.sum(axis=1), outer_slices.sum(axis=1)

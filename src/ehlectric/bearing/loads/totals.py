@@ -25,15 +25,15 @@ _OF_ELEMENTS = frozenset(
 
 def mirrored(at: Equilibrium, position: Array) -> Equilibrium:
     """Equilibrium with the cage at the opposite angle, mirrored about the plane through axis and radial load.
-    ``position``, angles of the elements with the cage at the pitch less that angle [rad], shape (n,).
+
+    ``position`` are the angles of the elements, with the cage at the pitch less its angle [rad], shape (n,).
     """
-    values = {field.name: getattr(at, field.name) for field in dataclasses.fields(at)}
+    values = vars(at)
     turned = {name: values[name][::-1] for name in _OF_ELEMENTS & values.keys()}
     lateral = {name: -values[name] for name in values if name.startswith("lateral_")}
     # The speeds of balls are arrays; all rollers have the same ones.
-    speeds = (getattr(at.speeds, field.name) for field in dataclasses.fields(Speeds))
-    mirrored_speeds = Speeds(*(speed[::-1] if np.ndim(speed) else speed for speed in speeds))
-    return dataclasses.replace(at, position=position, speeds=mirrored_speeds, **turned, **lateral)
+    speeds = Speeds(*(speed[::-1] if np.ndim(speed) else speed for speed in vars(at.speeds).values()))
+    return dataclasses.replace(at, position=position, speeds=speeds, **turned, **lateral)
 
 
 def mechanics_of(at: Equilibrium) -> dict[str, Any]:

@@ -1,5 +1,4 @@
-"""Discharges over time: films that break down, conduct and insulate again, and what is measured meanwhile;
-compiled.
+"""March through the discharges of a drive over time, and measurement of its voltages; compiled.
 
 Between two changes, of the source or of a film, the circuit is linear and its solution exact. The march goes
 from change to change: edges of the source, elements that pass, films that are renewed or touch, voltages that

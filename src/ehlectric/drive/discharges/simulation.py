@@ -142,9 +142,7 @@ class _Log:
             own = events[:, FILM] == b
             self.counts[b] += np.bincount(block[own], minlength=BLOCKS)
             self.sums[b] += np.sum(np.abs(events[own]), axis=0)
-            self.largest[b] = np.max(np.abs(events[own]), axis=0, initial=0.0, keepdims=False).clip(
-                self.largest[b]
-            )
+            self.largest[b] = np.max(np.abs(events[own]), axis=0, initial=0.0).clip(self.largest[b])
         if self.number < KEPT:
             self.kept.append(events[: KEPT - self.number])
             self.number += self.kept[-1].shape[0]
@@ -166,9 +164,10 @@ def simulate(
     progress: Callable[[float], None] = lambda _: None,
     compiling: Callable[[str], None] = lambda _: None,
 ) -> Record:
-    """March through a source, and record what happens. ``chunks``, source; a chunk ends where measuring
-    begins; ``progress``, called with the simulated time [s]; ``compiling``, called with a text where the
-    march has to be compiled. Returns events, histograms, a spectrum and a trace.
+    """March through a source, and record what happens.
+
+    A chunk of the source ends where measuring begins. ``progress`` is called with the simulated time [s], and
+    ``compiling`` with a text where the march has to be compiled.
     """
     state = _state(circuits.jump.shape[1])
     random = _Random(seed)
@@ -218,16 +217,11 @@ def _around(
     begin = max(begin, start)
     last = int(np.searchsorted(ends, begin + measuring.trace)) + 1
     meters = _meters(measuring)._replace(until=np.array([begin, begin + measuring.trace]))
-    work, part = work_of(state.x.size, _EVENTS), _until(chunk, last)
+    work, part = work_of(state.x.size, _EVENTS), Segments._make(values[:last] for values in chunk)
     while state.cursor[0] >= 0.0:
         advance(circuits, films, part, state, meters, work)
         random.fill(state)
     return _traced(measuring, meters)
-
-
-def _until(chunk: Segments, last: int) -> Segments:
-    """Segments of a chunk before a number of them."""
-    return Segments(chunk.duration[:last], chunk.level[:last], chunk.slope[:last], chunk.ring[:last])
 
 
 def _state(size: int) -> State:

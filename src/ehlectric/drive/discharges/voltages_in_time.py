@@ -1,9 +1,8 @@
 """Voltage across the films of a circuit while nothing switches, exact in time and as a power series;
 compiled.
 
-Voltage across the films of a circuit while nothing switches, exact in time; compiled. SI units.
-The source is u0 + s t + Re(r exp(mu t)). Each mode has the amplitude
-exp(z) y0 + t phi1(z) f0 + t^2 phi2(z) f1 with z = lambda t, and the rates f0 = b u0 and f1 = b s.
+The source is u0 + s t + Re(r exp(mu t)). Each mode has the amplitude exp(z) y0 + t phi1(z) f0 + t^2 phi2(z)
+f1 with z = lambda t, and the rates f0 = b u0 and f1 = b s. SI units.
 """
 
 from __future__ import annotations

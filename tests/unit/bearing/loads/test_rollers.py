@@ -140,7 +140,7 @@ def test_slices_converge():
 
 
 def test_unloaded_rollers():
-    """At speed at the outer ring, pressed in by F_c; at rest in the middle or at the outer ring."""
+    """At speed at the outer ring, pressed in by F_c; at rest in the middle."""
     fast = solve(NU208, 3000.0, 0.0, 9000 * RPM)
     free = fast.inner_load == 0.0
     np.testing.assert_allclose(fast.outer_load[free], fast.centrifugal_force, rtol=1e-9)
@@ -150,11 +150,9 @@ def test_unloaded_rollers():
     # Mass rho pi D^2 L/4 on d_m/2 at the cage's speed, half of (1 - D/d_m) of the ring's.
     force = DENSITY * np.pi / 4 * 11e-3**3 * 30e-3 * (0.5 * (1 - 11 / 60) * 9000 * RPM) ** 2
     assert fast.centrifugal_force == pytest.approx(force, rel=1e-12, abs=0.0)
-    middle, outside = (solve(NU208, 3000.0, unloaded=where) for where in ("centred", "outer"))
+    middle = solve(NU208, 3000.0)
     free = middle.inner_load == 0.0
     np.testing.assert_array_equal(middle.inner_gap[free], middle.outer_gap[free])
-    np.testing.assert_allclose(outside.inner_gap[free], 2.0 * middle.inner_gap[free], rtol=1e-12)
-    assert not outside.outer_gap.any()
 
 
 @each(
@@ -162,7 +160,6 @@ def test_unloaded_rollers():
     [
         ((500.0, 10.0), {}, "^axial_load: .* 10 N.* 0"),
         ((0.0, 10.0), {}, "^axial_load: .* 10 N.* 0"),
-        ((500.0,), {"unloaded": "inner"}, "^unloaded: .*'inner'"),
         ((500.0,), {"slices": 40}, "^slices: .* 40.* 31"),
         ((500.0,), {"slices": 29}, "^slices: .* 29.* 31"),
     ],
