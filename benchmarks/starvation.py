@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ehlectric import Case
 from ehlectric.contact.conditions import PointConditions, resolve_point
 from ehlectric.contact.problems import point_film_problem
-from ehlectric.film.film_solver import StarvedSolution, supplied_solution
+from ehlectric.film.film_solver import starved_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
@@ -79,8 +79,7 @@ def compute() -> list[dict[str, float]]:
             for part in PARTS:
                 layer = part * mass / float(density[0, 0])
                 supply = OilSupply(layer=lambda y, layer=layer: np.full(y.shape, layer))  # type: ignore[misc]
-                found = supplied_solution(replace(problem, supply=supply), None)
-                assert isinstance(found, StarvedSolution)
+                found = starved_solution(replace(problem, supply=supply), None)
                 assert found.last.status == "converged"
                 starved = found.starvation
                 assert starved.film_ratio is not None

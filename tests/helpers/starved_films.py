@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ehlectric.contact.contact_kinds import KINDS
-from ehlectric.film.film_solver import supplied_solution
+from ehlectric.film.film_solver import starved_solution
 from ehlectric.film.mesh import at_centre
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.problem import OilSupply
@@ -34,4 +34,4 @@ def supplied(problem, mass):
     of = mass if callable(mass) else lambda y: np.full(y.shape, mass)
     supply = OilSupply(layer=lambda y: of(y) / ambient)
     with quiet_solution():
-        return supplied_solution(replace(problem, supply=supply), None)
+        return starved_solution(replace(problem, supply=supply), None)

@@ -1,6 +1,4 @@
-"""Capacitance that a meter at the two bodies of a contact reads: film, outer gap, coating and parallel
-parts.
-"""
+"""Capacitance that a meter reads between the two bodies of a contact, with its parts."""
 
 from __future__ import annotations
 
@@ -22,7 +20,7 @@ from ehlectric.errors import ResultWarning
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.poisson import ATOM
-from ehlectric.field.zones import line_zone_areas, point_zone_areas
+from ehlectric.field.zones import areas_by_zone
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.formulas.hertz import dry_contact
 
@@ -45,11 +43,8 @@ def body_text(contact: Contact) -> str:
     >>> body_text(Contact.from_dict(given | {"entrainment_speed": 1.0}))
     'cylinder of 10 mm on a plane'
     """
-    return " on a ".join(_words(*radii) for radii in _smaller_first(contact))
-
-
-def _smaller_first(contact: Contact) -> Iterator[tuple[float, float]]:
-    yield from sorted(body_radii(contact), key=lambda radii: -1.0 / radii[0])
+    smaller_first = sorted(body_radii(contact), key=lambda radii: -1.0 / radii[0])
+    return " on a ".join(_words(*radii) for radii in smaller_first)
 
 
 def _words(along: float, across: float) -> str:
@@ -73,10 +68,9 @@ def gap_around(
 ) -> tuple[Outside, float]:
     """Gap between the bodies outside the domain of a film.
 
-    ``length``, length across entrainment of a line contact [m]; ``ring``, smallest and largest distance from
-    the contact of the part that is wanted [m]. Returns ``outside``, gap at nodes outside the domain;
-    ``mismatch``, largest relative difference between gap and film at the edge of the domain; zero for a line
-    contact.
+    ``length`` is that of a line contact across entrainment, and ``ring`` the smallest and the largest
+    distance from the contact [m]. The second result is the largest relative difference between gap and film
+    at the edge of the domain, zero for a line contact.
     """
     bodies = bodies_of(contact)
     if isinstance(film, PointFilm):
@@ -105,8 +99,9 @@ class MeterProfile:
 
 
 def meter_profile(contact: Metered, distances: int = 80) -> MeterProfile:
-    """Capacitance between the bodies of a solved contact up to a distance from it. Returns capacitance [F]
-    over distance [m]; the last values are those of the whole gap.
+    """Capacitance between the bodies of a solved contact up to a number of distances from it.
+
+    The last distance encloses the whole gap.
     """
     coating = contact.layers.coating
     near, within = contact.nodes()
@@ -134,7 +129,7 @@ def _up_to(radius: Array, at: Array, values: Array) -> Array:
     return np.where(radius >= at[order][-1], sums[-1], total)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class MeterReading:
     """Capacitance that a meter reads at the two bodies of a contact, and its parts, SI units.
 
@@ -165,16 +160,16 @@ class MeterReading:
     share_of_outside: float
     roughness_factor: float | None  # capacitance of the domain over that with smooth surfaces, dimensionless
     film_ratio: float | None  # minimum film thickness over Rq, dimensionless
-    capacitance_uncoated: float | None  # capacitance between the bodies without the coating [F]
+    capacitance_uncoated: float | None = None  # capacitance between the bodies without the coating [F]
     # Single capacitor in series with ``capacitance_uncoated`` that has the effect of the coating [F].
-    coating_capacitance: float | None
+    coating_capacitance: float | None = None
     # coating_voltage_share and film_voltage_share: parts of the voltage on the coating and on the film at the
     # minimum film, dimensionless.
-    coating_voltage_share: float | None
-    film_voltage_share: float | None
+    coating_voltage_share: float | None = None
+    film_voltage_share: float | None = None
     # Voltage between the bodies at which the film breaks down under its share [V].
     film_breakdown_voltage: float | None
-    coating_breakdown_voltage: float | None  # voltage at which the coating alone breaks down [V]
+    coating_breakdown_voltage: float | None = None  # voltage at which the coating alone breaks down [V]
     breakdown_voltage: float | None  # voltage between the bodies at which both have broken down [V]
     length: float | None  # length of a line contact, or given width of a point contact [m]
     bodies: str  # words for the bodies that face each other outside the domain
@@ -183,17 +178,6 @@ class MeterReading:
     def summary(self) -> dict[str, Any]:
         """All values, as in ``meter`` of summary.json."""
         return asdict(self)
-
-
-@dataclass(frozen=True)
-class _Parts:
-    """Capacitances of one contact with its coating, or without it [F]."""
-
-    domain: float
-    hertz: float
-    air: float
-    oil: float
-    outside: float
 
 
 @dataclass(frozen=True)
@@ -225,9 +209,7 @@ class Metered:
 
     def zones(self, part: Film | PointFilm | Field | PointField) -> dict[str, Array]:
         """Width [m] or area [m^2] of each zone at the nodes of the film, or at the columns of the field."""
-        semi_axes = self.conditions.semi_axes
-        areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
-        return dict(areas(part.axes, *semi_axes))
+        return areas_by_zone(part.axes, self.conditions.semi_axes)
 
     def domain(self, layers: Layers) -> dict[str, float]:
         """Capacitance of each zone of the film's domain [F]."""
@@ -250,7 +232,7 @@ class Metered:
         # The solved field, and gas in the outlet, change the sum by little; the places keep their shares.
         return at.ravel(), thin.ravel() * (sum(self.domain(self.layers).values()) / float(np.sum(thin)))
 
-    def outside(self, permittivity: float, coating: float, ring: Ring = (0.0, np.inf)) -> tuple[Array, Array]:
+    def outside(self, permittivity: float, coating: float, ring: Ring = _EVERYWHERE) -> tuple[Array, Array]:
         """Distance from the contact [m] and capacitance [F] of nodes outside the domain, in one medium."""
         gap, _ = gap_around(self.case.contact, self.conditions, self.film, self.meter, self.length, ring)
         return gap.radius, gap.capacitances(permittivity, coating)
@@ -265,16 +247,16 @@ class Metered:
         at, wet = self.outside(oil, coating)
         return at, fill * wet + (1.0 - fill) * self.outside(1.0, coating)[1]
 
-    def parts(self, layers: Layers) -> _Parts:
-        """Capacitances with the given coating and roughness [F]."""
+    def parts(self, layers: Layers) -> dict[str, float]:
+        """Capacitances of domain, Hertz zone and outer gap with the given coating and roughness [F]."""
         zones, oil = self.domain(layers), self.case.oil.relative_permittivity
-        return _Parts(
-            domain=sum(zones.values()),
-            hertz=zones["hertz"],
-            air=float(np.sum(self.outside(1.0, layers.coating)[1])),
-            oil=float(np.sum(self.outside(oil, layers.coating)[1])),
-            outside=float(np.sum(self.filled(layers.coating)[1])),
-        )
+        return {
+            "capacitance_domain": sum(zones.values()),
+            "capacitance_hertz": zones["hertz"],
+            "capacitance_outside": float(np.sum(self.filled(layers.coating)[1])),
+            "capacitance_outside_air": float(np.sum(self.outside(1.0, layers.coating)[1])),
+            "capacitance_outside_oil": float(np.sum(self.outside(oil, layers.coating)[1])),
+        }
 
     @property
     def film_share(self) -> float:
@@ -286,44 +268,44 @@ class Metered:
 
 
 def meter_reading(contact: Metered, film_breakdown: float | None) -> MeterReading:
-    """Capacitance that a meter at the two bodies of a solved contact reads. ``film_breakdown``, breakdown
-    voltage of the film alone [V]. Returns capacitance and its parts, SI units.
+    """Capacitance that a meter reads between the bodies of a contact, with its parts and breakdown voltages.
+
+    ``film_breakdown`` is the breakdown voltage of the film alone [V], None if it is not known.
     """
     meter, layers = contact.meter, contact.layers
-    parts, beside = contact.parts(layers), meter.parallel_capacitance or 0.0
-    whole = parts.domain + parts.outside + beside
+    parts: dict[str, Any] = contact.parts(layers)
+    parallel, domain = meter.parallel_capacitance or 0.0, parts["capacitance_domain"]
+    whole = domain + parts["capacitance_outside"] + parallel
     smooth = sum(contact.domain(Layers(coating=layers.coating)).values())
     _, mismatch = gap_around(contact.case.contact, contact.conditions, contact.film, meter, contact.length)
     return MeterReading(
         capacitance=whole,
-        capacitance_air=parts.domain + parts.air + beside,
-        capacitance_oil=parts.domain + parts.oil + beside,
-        capacitance_domain=parts.domain,
-        capacitance_hertz=parts.hertz,
-        capacitance_outside=parts.outside,
-        capacitance_outside_air=parts.air,
-        capacitance_outside_oil=parts.oil,
+        capacitance_air=domain + parts["capacitance_outside_air"] + parallel,
+        capacitance_oil=domain + parts["capacitance_outside_oil"] + parallel,
+        **parts,
         parallel_capacitance=meter.parallel_capacitance,
-        share_of_hertz=parts.hertz / whole,
-        share_of_domain=parts.domain / whole,
-        share_of_outside=parts.outside / whole,
-        roughness_factor=None if meter.rq is None else parts.domain / smooth,
+        share_of_hertz=parts["capacitance_hertz"] / whole,
+        share_of_domain=domain / whole,
+        share_of_outside=parts["capacitance_outside"] / whole,
+        roughness_factor=None if meter.rq is None else domain / smooth,
         film_ratio=contact.film.minimum_thickness / meter.rq if meter.rq else None,
-        **_coating(contact, parts, film_breakdown),
+        **_coating(contact, domain + parts["capacitance_outside"], film_breakdown),
         length=contact.length,
         bodies=body_text(contact.case.contact),
         mismatch=mismatch,
     )
 
 
-def _coating(contact: Metered, parts: _Parts, film_breakdown: float | None) -> dict[str, float | None]:
-    """Values of a coating; None without one."""
-    coating, found = contact.meter.coating, dict.fromkeys(_OF_COATING)
-    values: dict[str, float | None] = dict(found)
+def _coating(contact: Metered, coated: float, film_breakdown: float | None) -> dict[str, Any]:
+    """Breakdown voltages, and the values of a coating, if there is one.
+
+    ``coated`` is the capacitance between the bodies with their coating [F].
+    """
+    coating = contact.meter.coating
     if coating is None:
-        return values | {"film_breakdown_voltage": film_breakdown, "breakdown_voltage": film_breakdown}
+        return {"film_breakdown_voltage": film_breakdown, "breakdown_voltage": film_breakdown}
     bare = contact.parts(Layers(rq=contact.layers.rq))
-    with_coating, without = parts.domain + parts.outside, bare.domain + bare.outside
+    uncoated = bare["capacitance_domain"] + bare["capacitance_outside"]
     share = contact.film_share
     own = None if coating.strength is None else coating.strength * coating.thickness
     film = None if film_breakdown is None else film_breakdown / share
@@ -331,26 +313,15 @@ def _coating(contact: Metered, parts: _Parts, film_breakdown: float | None) -> d
     if own is not None and film is not None and film_breakdown is not None:
         # Either part breaks down first, and the whole voltage then lies on the other one.
         both = min(max(film, own), max(own / (1.0 - share), film_breakdown))
-    return values | {
-        "capacitance_uncoated": without,
-        "coating_capacitance": 1.0 / (1.0 / with_coating - 1.0 / without),
+    return {
+        "capacitance_uncoated": uncoated,
+        "coating_capacitance": 1.0 / (1.0 / coated - 1.0 / uncoated),
         "coating_voltage_share": 1.0 - share,
         "film_voltage_share": share,
         "film_breakdown_voltage": film,
         "coating_breakdown_voltage": own,
         "breakdown_voltage": both,
     }
-
-
-_OF_COATING = (
-    "capacitance_uncoated",
-    "coating_capacitance",
-    "coating_voltage_share",
-    "film_voltage_share",
-    "film_breakdown_voltage",
-    "coating_breakdown_voltage",
-    "breakdown_voltage",
-)
 
 
 def meter_warnings(case: Any, film: Film | PointFilm) -> Iterator[ResultWarning]:
@@ -364,13 +335,7 @@ def meter_warnings(case: Any, film: Film | PointFilm) -> Iterator[ResultWarning]
             "field and discharge are those of the film alone, under the potentials of [electric]; the "
             "voltage between the coated bodies is higher, by 1/meter.film_voltage_share",
         )
-    elif meter.rq:
-        yield from _thin_for(meter.rq, film)
-
-
-def _thin_for(rq: float, film: Film | PointFilm) -> Iterator[ResultWarning]:
-    ratio = film.minimum_thickness / rq
-    if ratio < LEAST_RATIO:
+    elif meter.rq and (ratio := film.minimum_thickness / meter.rq) < LEAST_RATIO:
         yield ResultWarning(
             "roughness-factor-rough",
             f"the minimum film is {ratio:.2g} times meter.rq: below {LEAST_RATIO:g} the surfaces touch, and "

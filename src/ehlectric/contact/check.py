@@ -1,9 +1,8 @@
 """Preparation of a case: operating conditions, rough surfaces, checks, and the domain that the film needs.
 
-Domain of a contact's film, made larger until what it cuts off is below the error that is asked for.
-Pressure that would build up upstream of the domain, or beside it, is missing in the film. Its share falls
-with about the cube of the distance. A light contact has a thick film whose pressure builds up over many
-half-widths.
+Pressure that would build up upstream of the domain, or at its sides, is missing in the film. Its share falls
+with about the cube of the distance. The pressure of a light contact with its thick film builds up over many
+half-widths, so that its domain is enlarged until the missing share is below the target error.
 """
 
 from __future__ import annotations
@@ -93,10 +92,10 @@ class PreparedContact:
 
 
 def check_case(case: Case) -> PreparedContact:
-    """Check a case and prepare its contact, before any folder is made for its results. Returns contact to
-    pass to ``solve``, which then does not read the surfaces again. Raises InputError if the values contradict
-    each other, the tolerance is too large, a surface cannot be used, or the case needs more than the
-    available memory.
+    """Check a case and prepare its contact, before any folder is made for its results.
+
+    Raises an InputError if values contradict each other, the tolerance is too large, a surface cannot be
+    used, or the case needs more than the available memory.
     """
     kind = KINDS[case.contact.geometry]
     conditions = kind.resolve(case)
@@ -109,12 +108,10 @@ def check_case(case: Case) -> PreparedContact:
 
 
 def with_laws(case: Case, laws: Laws) -> Case:
-    """Case of a contact with laws of the user's own in place of those of its tables.
+    """Case of a contact whose oil has user-defined laws at the temperature of the contact.
 
-    A dielectric strength becomes the strength table of the case.
-
-    Returns case whose ``oil`` has these laws at the temperature of the contact. Raises InputError if the
-    contact has no temperature, or a law has no valid values at its pressures.
+    A dielectric strength becomes the strength table of the case. Raises an InputError if the contact has no
+    temperature, or a law has no valid values at its pressures.
     """
     if case.film is not None and case.film.thermal:
         raise InputError.worded(
@@ -134,12 +131,12 @@ def with_laws(case: Case, laws: Laws) -> Case:
 # Part of the error asked for at which a longer domain aims, and bounds of the factor of one step.
 _AIM, _LEAST, _MOST = 0.3, 1.25, 4.0
 
-# Least domain that is taken ahead, behind and beside once the first one is too small, in lengths sqrt(2 R h)
-# over which the pressure builds up.
-_AHEAD, _BEHIND, _BESIDE = 6.0, 2.0, 3.0
+# Least domain upstream, downstream and sideways once the first one is too small, in lengths sqrt(2 R h) over
+# which the pressure builds up.
+_UPSTREAM, _DOWNSTREAM, _SIDEWAYS = 6.0, 2.0, 3.0
 
-# Largest domain ahead and beside, in half-widths or semi-axes, and largest number of larger domains. Films of
-# hardly loaded contacts often do not converge on longer ones.
+# Largest domain upstream and sideways, in half-widths or semi-axes, and largest number of larger domains.
+# Films of hardly loaded contacts often do not converge on longer ones.
 FARTHEST = {"line": (300.0, 0.0), "point": (48.0, 24.0)}
 MOST_STEPS = 3
 
@@ -151,9 +148,10 @@ _DENSITY = {"line": (16, 0, 401), "point": (8, 16, 129)}
 
 
 def widened(contact: PreparedContact, film: Film | PointFilm) -> PreparedContact | None:
-    """Contact on a larger domain, where that of its film cuts off more than the error that is asked for.
-    Returns None where the domain is large enough or cannot be larger, where the grid has nodes and no error
-    to reach, where surfaces are rough, and where oil is supplied at the inlet.
+    """Contact on a larger domain, where the domain of its film cuts off more than the target error.
+
+    None where the domain is large enough or cannot be larger, where the grid has no target error, where
+    surfaces are rough, and where oil is supplied at the inlet.
     """
     case, grid, loss = contact.case, contact.case.grid, film.domain_loss
     if not film.converged or loss is None or grid.target is None or loss <= grid.target:
@@ -177,17 +175,17 @@ def _larger(
     """Grid and side of a larger domain; None where the film has the largest one."""
     grid, conditions = contact.case.grid, contact.conditions
     geometry = conditions.geometry
-    ahead, beside = FARTHEST[geometry]
+    upstream, sideways = FARTHEST[geometry]
     factor = min(_MOST, max(_LEAST, math.cbrt(loss / (_AIM * target))))
     length = math.sqrt(2.0 * film.central_thickness / film.scales.thickness)
     start, end = grid.ends
-    inlet = min(ahead, max(factor * -start, _AHEAD * length))
-    outlet = max(end, min(_BEHIND * length, 0.5 * ahead))
+    inlet = min(upstream, max(factor * -start, _UPSTREAM * length))
+    outlet = max(end, min(_DOWNSTREAM * length, 0.5 * upstream))
     side = 0.0
     table = grid.model_dump(mode="json", exclude_none=True) | {"inlet": -_rounded(inlet)}
     if isinstance(conditions, PointConditions):
         across = length * math.sqrt(conditions.radius_y / conditions.radius_x) / conditions.ratio
-        side = _rounded(min(beside, max(factor * conditions.side, 1.0 + _BESIDE * across)))
+        side = _rounded(min(sideways, max(factor * conditions.side, 1.0 + _SIDEWAYS * across)))
         table["side"] = side
     if inlet <= -start and side <= getattr(conditions, "side", 0.0):
         return None

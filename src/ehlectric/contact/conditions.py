@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ehlectric.cases.case import Case
-from ehlectric.cases.contact_inputs import Body, Contact
+from ehlectric.cases.contact_inputs import Contact
 from ehlectric.errors import InputError
 from ehlectric.film.problem import velocity_parameter
 from ehlectric.formulas import hertz
@@ -22,14 +22,13 @@ def modulus_of(contact: Contact) -> tuple[float, float]:
     """Reduced modulus E' [Pa], and surface 1's share of 2/E': 0.5 if only E' is known."""
     if contact.reduced_modulus is not None:
         return contact.reduced_modulus, 0.5
-    assert contact.body_1 is not None and contact.body_2 is not None
-    first, second = (_compliance(body) for body in (contact.body_1, contact.body_2))
+    first, second = (
+        hertz.body_compliance(
+            contact.value(f"{body}.youngs_modulus"), contact.value(f"{body}.poissons_ratio")
+        )
+        for body in ("body_1", "body_2")
+    )
     return hertz.reduced_modulus(first, second), first / (first + second)
-
-
-def _compliance(body: Body) -> float:
-    assert body.youngs_modulus is not None and body.poissons_ratio is not None
-    return hertz.body_compliance(body.youngs_modulus, body.poissons_ratio)
 
 
 def speeds_of(contact: Contact) -> tuple[float, float]:
@@ -94,7 +93,7 @@ _LEAST_SIDE, _CIRCLE_SIDE, _MOST_SIDE = 1.6, 3.0, 4.5
 LINE_FILM_EXPONENT, POINT_FILM_EXPONENT = 0.69, 0.67
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Conditions:
     """Operating conditions of a line contact, SI units."""
 
@@ -106,7 +105,7 @@ class Conditions:
     reduced_modulus: float
     load_per_length: float
     entrainment_speed: float  # (u1 + u2)/2 [m/s]
-    slide_to_roll_ratio: float  # (u1 - u2)/entrainment_speed, dimensionless
+    slide_to_roll_ratio: float = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
     # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
     # asymptotic coefficient alpha* [1/Pa].
     viscosity: float
@@ -168,32 +167,12 @@ class Conditions:
         return self.half_width**2 / self.reduced_radius
 
 
-def line_conditions(
-    oil: Oil,
-    *,
-    reduced_radius: float,
-    reduced_modulus: float,
-    load_per_length: float,
-    entrainment_speed: float,
-    slide_to_roll_ratio: float = 0.0,
-    bodies: Sequence[float] = (),
-    curvature_share: float = 0.5,
-    compliance_share: float = 0.5,
-    film_factor: float = 1.0,
-    boundary_film: float = 0.0,
-    hardness: float | None = None,
-) -> Conditions:
-    """Compute the operating conditions of a line contact from numbers in SI units, without a case.
+def line_conditions(oil: Oil, *, bodies: Sequence[float] = (), **inputs: Any) -> Conditions:
+    """Operating conditions of a line contact from numbers in SI units, without a case.
 
-    ``reduced_radius``, ``reduced_modulus`` and ``load_per_length``, R [m], E' [Pa] and w [N/m];
-    ``entrainment_speed`` and ``slide_to_roll_ratio``, (u1 + u2)/2 [m/s], and (u1 - u2)/entrainment_speed,
-    dimensionless; ``bodies``, radii of both bodies [m], if they are known; the dry contact must be small
-    compared to them; ``curvature_share``, ``compliance_share`` and ``film_factor``, surface 1's shares of 1/R
-    and of 2/E', and the film factor, dimensionless; see ``Conditions``; ``boundary_film`` and ``hardness``,
-    gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure there [Pa].
-    Returns operating conditions, including half-width [m] and Hertz pressure [Pa] of the dry contact. Raises
-    InputError if the dry contact is too wide for its bodies, or the Hertz pressure is near the ambient
-    pressure.
+    ``inputs`` are attributes of ``Conditions``; the oil and the dry contact decide the others. ``bodies`` are
+    the radii of both bodies [m], if they are known, compared with which the dry contact must be small. Raises
+    an InputError if it is not, or if the Hertz pressure is near the ambient pressure.
 
     Examples
     --------
@@ -204,29 +183,20 @@ def line_conditions(
     >>> round(conditions.max_pressure / 1e9, 3)
     1.039
     """
-    half_width = hertz.line_half_width(load_per_length, reduced_radius, reduced_modulus)
-    max_pressure = hertz.line_max_pressure(load_per_length, reduced_radius, reduced_modulus)
-    check_width(half_width, min([reduced_radius, *bodies]))
+    dry = inputs["load_per_length"], inputs["reduced_radius"], inputs["reduced_modulus"]
+    half_width, max_pressure = hertz.line_half_width(*dry), hertz.line_max_pressure(*dry)
+    check_width(half_width, min([inputs["reduced_radius"], *bodies]))
     check_pressure(max_pressure, oil)
     return Conditions(
-        reduced_radius=reduced_radius,
-        reduced_modulus=reduced_modulus,
-        load_per_length=load_per_length,
-        entrainment_speed=entrainment_speed,
-        slide_to_roll_ratio=slide_to_roll_ratio,
+        **inputs,
         viscosity=oil.viscosity,
         pressure_viscosity_coefficient=oil.alpha_star,
         half_width=half_width,
         max_pressure=max_pressure,
-        curvature_share=curvature_share,
-        compliance_share=compliance_share,
-        boundary_film=boundary_film,
-        hardness=hardness,
-        film_factor=film_factor,
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PointConditions:
     """Operating conditions of a point contact, SI units; x runs along entrainment, y across it."""
 
@@ -238,7 +208,7 @@ class PointConditions:
     reduced_modulus: float  # E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
     load: float  # F [N]
     entrainment_speed: float  # (u1 + u2)/2 [m/s]
-    slide_to_roll_ratio: float  # (u1 - u2)/entrainment_speed, dimensionless
+    slide_to_roll_ratio: float = 0.0  # (u1 - u2)/entrainment_speed, dimensionless
     # viscosity and pressure_viscosity_coefficient: viscosity eta0 at ambient pressure [Pa s], and reciprocal
     # asymptotic coefficient alpha* [1/Pa].
     viscosity: float
@@ -316,29 +286,17 @@ def point_conditions(
     oil: Oil,
     *,
     radii: tuple[float, float],
-    reduced_modulus: float,
-    load: float,
-    entrainment_speed: float,
-    slide_to_roll_ratio: float = 0.0,
     bodies: tuple[Sequence[float], Sequence[float]] = ((), ()),
     side: float | None = None,
-    compliance_share: float = 0.5,
-    film_factor: float = 1.0,
-    boundary_film: float = 0.0,
-    hardness: float | None = None,
+    **inputs: Any,
 ) -> PointConditions:
-    """Compute the operating conditions of a point contact from numbers in SI units, without a case.
+    """Operating conditions of a point contact from numbers in SI units, without a case.
 
-    ``radii``, reduced radii along and across entrainment [m]; ``reduced_modulus`` and ``load``, E' [Pa] and F
-    [N]; ``entrainment_speed`` and ``slide_to_roll_ratio``, (u1 + u2)/2 [m/s], and (u1 -
-    u2)/entrainment_speed, dimensionless; ``bodies``, radii of both bodies along and across entrainment [m],
-    if they are known; the dry contact must be small compared to them; ``side``, half of the domain's width,
-    in semi-axes across; ``default_side`` if not given; ``compliance_share`` and ``film_factor``, surface 1's
-    share of 2/E', and the film factor, dimensionless; see ``PointConditions``; ``boundary_film`` and
-    ``hardness``, gap at which the surfaces touch [m], zero where they are taken not to, and largest pressure
-    there [Pa]. Returns operating conditions, including semi-axes [m] and Hertz pressure [Pa] of the dry
-    contact. Raises InputError if the dry contact is too wide for its bodies, or the Hertz pressure is near
-    the ambient pressure.
+    ``radii`` are the reduced radii along and across entrainment [m], and ``inputs`` are attributes of
+    ``PointConditions``; the oil and the dry contact decide the others. ``bodies`` are the radii of both
+    bodies along and across [m], if known, compared with which the dry contact must be small. ``side`` is
+    half of the domain's width in semi-axes across, by default ``default_side``. Raises an InputError if the
+    dry contact is too wide for its bodies, or if the Hertz pressure is near the ambient pressure.
 
     Examples
     --------
@@ -349,27 +307,20 @@ def point_conditions(
     >>> round(conditions.max_pressure / 1e9, 3)
     0.791
     """
-    dry = hertz.dry_contact(load, *radii, reduced_modulus)
+    dry = hertz.dry_contact(inputs["load"], *radii, inputs["reduced_modulus"])
     check_width(dry.semi_axis_x, min([radii[0], *bodies[0]]))
     check_width(dry.semi_axis_y, min([radii[1], *bodies[1]]))
     check_pressure(dry.max_pressure, oil)
     return PointConditions(
+        **inputs,
         radius_x=radii[0],
         radius_y=radii[1],
-        reduced_modulus=reduced_modulus,
-        load=load,
-        entrainment_speed=entrainment_speed,
-        slide_to_roll_ratio=slide_to_roll_ratio,
         viscosity=oil.viscosity,
         pressure_viscosity_coefficient=oil.alpha_star,
         semi_axis_x=dry.semi_axis_x,
         semi_axis_y=dry.semi_axis_y,
         max_pressure=dry.max_pressure,
         side=default_side(dry.semi_axis_y / dry.semi_axis_x) if side is None else side,
-        compliance_share=compliance_share,
-        boundary_film=boundary_film,
-        hardness=hardness,
-        film_factor=film_factor,
     )
 
 
@@ -404,31 +355,41 @@ def resolve(case: Case) -> Conditions:
     >>> conditions.reduced_radius, conditions.entrainment_speed, conditions.slide_to_roll_ratio
     (0.01, 2.0, 1.0)
     """
-    contact = case.contact
-    if contact.geometry != "line":
-        raise InputError(
-            "contact.geometry", got=f"{contact.geometry!r}", takes="'line' for a line contact's conditions"
-        )
+    contact, shared = case.contact, _shared(case, "line")
     radius, curvature_share = _line_radius(contact)
-    modulus, compliance_share = modulus_of(contact)
-    speed, ratio = speeds_of(contact)
     load = contact.load_per_length
     if load is None:
         assert contact.max_hertz_pressure is not None
-        load = hertz.line_load(contact.max_hertz_pressure, radius, modulus)
+        load = hertz.line_load(contact.max_hertz_pressure, radius, shared["reduced_modulus"])
     return line_conditions(
         case.oil,
         reduced_radius=radius,
-        reduced_modulus=modulus,
         load_per_length=load,
-        entrainment_speed=speed,
-        slide_to_roll_ratio=ratio,
         bodies=[abs(r) for r in (contact.radius_1, contact.radius_2) if r is not None],
         curvature_share=curvature_share,
-        compliance_share=compliance_share,
-        boundary_film=contact.touching_gap,
-        hardness=contact.hardness,
+        **shared,
     )
+
+
+def _shared(case: Case, geometry: str) -> dict[str, Any]:
+    """Operating conditions of a case that do not depend on the geometry, which is checked."""
+    contact = case.contact
+    if contact.geometry != geometry:
+        raise InputError(
+            "contact.geometry",
+            got=f"{contact.geometry!r}",
+            takes=f"{geometry!r} for a {geometry} contact's conditions",
+        )
+    modulus, compliance_share = modulus_of(contact)
+    speed, slide_to_roll_ratio = speeds_of(contact)
+    return {
+        "reduced_modulus": modulus,
+        "compliance_share": compliance_share,
+        "entrainment_speed": speed,
+        "slide_to_roll_ratio": slide_to_roll_ratio,
+        "boundary_film": contact.touching_gap,
+        "hardness": contact.hardness,
+    }
 
 
 def _line_radius(contact: Contact) -> tuple[float, float]:
@@ -468,30 +429,19 @@ def resolve_point(case: Case) -> PointConditions:
     >>> round(conditions.radius_x, 6), round(conditions.radius_y, 6), round(conditions.ratio, 2)
     (0.0048, 0.156, 9.32)
     """
-    contact = case.contact
-    if contact.geometry != "point":
-        raise InputError(
-            "contact.geometry", got=f"{contact.geometry!r}", takes="'point' for a point contact's conditions"
-        )
-    radius_x, radius_y = _point_radius(contact, "radius_x"), _point_radius(contact, "radius_y")
-    modulus, compliance_share = modulus_of(contact)
-    speed, slide_to_roll = speeds_of(contact)
+    contact, shared = case.contact, _shared(case, "point")
+    radii = _point_radius(contact, "radius_x"), _point_radius(contact, "radius_y")
     load = contact.load
     if load is None:
         assert contact.max_hertz_pressure is not None
-        load = hertz.point_load(contact.max_hertz_pressure, radius_x, radius_y, modulus)
+        load = hertz.point_load(contact.max_hertz_pressure, *radii, shared["reduced_modulus"])
     conditions = point_conditions(
         case.oil,
-        radii=(radius_x, radius_y),
-        reduced_modulus=modulus,
+        radii=radii,
         load=load,
-        entrainment_speed=speed,
-        slide_to_roll_ratio=slide_to_roll,
         bodies=(_bodies(contact, "radius_x"), _bodies(contact, "radius_y")),
         side=case.grid.side,
-        compliance_share=compliance_share,
-        boundary_film=contact.touching_gap,
-        hardness=contact.hardness,
+        **shared,
     )
     try:
         case.grid.check_across(conditions.side)

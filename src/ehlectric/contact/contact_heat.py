@@ -23,9 +23,10 @@ _TEMPERATURES = ("contact.temperature", "contact.temperature_1", "contact.temper
 
 
 def physics_of(case: Case | Setup, conditions: Conditions | PointConditions) -> Physics | None:
-    """Heat and shear of the film of a contact; None for an isothermal Newtonian one. Returns rheology,
-    speeds, bodies and oil over temperature, SI units. Raises InputError if a surface moves against
-    entrainment in a thermal film, or the oil has no values at its temperatures.
+    """Rheology, speeds, bodies and hot oil of the film of a contact; None for an isothermal Newtonian film.
+
+    Raises an InputError if a surface moves against entrainment in a thermal film, or if the oil has no values
+    at the temperatures of the film.
 
     Examples
     --------
@@ -75,9 +76,7 @@ def _thermal(case: Case, conditions: Conditions | PointConditions, speeds: tuple
 
 
 def heat_summary(heated: HeatedFilm | None) -> dict[str, Any]:
-    """Numbers within the table ``film`` of summary.json; none of an isothermal Newtonian film. Returns values
-    in SI units, with the keys of ``contact.heat.keys``.
-    """
+    """Numbers of heat and shear for the table ``film`` of summary.json; empty for a film without them."""
     if heated is None:
         return {}
     return {
@@ -129,8 +128,6 @@ _TOUCHING = 1.01
 # Temperatures at which the slope of the viscosity is looked at.
 _SAMPLES = 50
 
-_CELSIUS = 273.15
-
 
 def heat_warnings(
     case: Case | Setup,
@@ -175,8 +172,8 @@ def heat_warnings(
 def unconverged_heat(heated: HeatedFilm, max_pressure: float) -> str:
     """Advice about a film with heat that did not converge at a Hertz pressure [Pa].
 
-    Its turns of film and temperature have a limit of their own, so that more Newton steps do not help. What a
-    finer grid does is not known before it is tried.
+    The iteration between film and temperature has its own limit, so that more Newton steps do not help. The
+    effect of a finer grid is not known before it is solved.
     """
     stress = float(np.max(np.abs(heated.shear_stress)))
     if heated.rheology == "newtonian" and not stress < _CARRIED * max_pressure:
@@ -224,7 +221,7 @@ def _thicker_from(oil: HotOil, pressure: float) -> float | None:
 def _thicker(temperature: float, pressure: float) -> str:
     return (
         f"at {pressure / 1e9:.3g} GPa the laws of the oil make it thicker with temperature above "
-        f"{temperature - _CELSIUS:.3g} °C, which no oil does"
+        f"{temperature - CELSIUS:.3g} °C, which no oil does"
     )
 
 
@@ -262,7 +259,7 @@ def _temperatures(
 
 
 def _celsius(low: float, high: float) -> str:
-    return f"{low - _CELSIUS:.4g} to {high - _CELSIUS:.4g} °C"
+    return f"{low - CELSIUS:.4g} to {high - CELSIUS:.4g} °C"
 
 
 def _accuracy(film: Film | PointFilm, heated: HeatedFilm) -> Iterator[ResultWarning]:
@@ -347,10 +344,9 @@ def hot_oil(
 ) -> HotOil:
     """Oil over pressure and temperature for the energy equation of a film.
 
-    ``temperatures``, temperatures of the oil in the inlet and of both bodies [K]; ``max_pressure``, Hertz
-    pressure [Pa], at which the laws must have values. Returns oil from 20 K below the lowest of the
-    temperatures to 250 K above the highest, or to where its laws have values. Raises InputError if the laws
-    of the oil have no values in this neighbourhood.
+    The oil reaches from 20 K below the lowest of the ``temperatures``, those of the inlet and of both bodies
+    [K], to 250 K above the highest, or as far as its laws have values up to the Hertz pressure [Pa]. Raises
+    an InputError, which names one of the ``keys``, if they have none near these temperatures.
     """
     oil_at = oil_over_temperature(lubricant)
     ends = []

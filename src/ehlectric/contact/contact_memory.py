@@ -38,8 +38,8 @@ RECORD_BYTES = 64
 
 
 def check_memory(case: Case) -> None:
-    """Raise a MemoryLimitError if a case does not fit into the available memory. Raises MemoryLimitError if
-    film and field, or the recorded instants of a motion, need more than the available memory.
+    """Raise a MemoryLimitError if film and field of a case, or the recorded instants of its motion, do not
+    fit into the available memory.
     """
     if case.motion is not None:
         _check_record(case.motion, case.first_grid, _NODES[case.contact.geometry](case.first_grid))
@@ -48,9 +48,7 @@ def check_memory(case: Case) -> None:
 
 
 def check_grid(geometry: str, grid: Grid, *, rough: bool, heat: str | None = None) -> None:
-    """Raise a MemoryLimitError if film and field on a grid do not fit into memory. Raises MemoryLimitError if
-    film and field need more than the available memory.
-    """
+    """Raise a MemoryLimitError if film and field on a grid do not fit into the available memory."""
     sizes = _SIZES[geometry](grid)
     film, field = _NEEDED[geometry](grid, rough=rough)
     if heat is not None:
@@ -59,7 +57,7 @@ def check_grid(geometry: str, grid: Grid, *, rough: bool, heat: str | None = Non
 
 
 def heated_memory(geometry: str, grid: Grid, heat: str, *, rough: bool) -> float:
-    """Memory that the shear or the heat of a film needs beside that of the film [bytes].
+    """Memory that the shear or the heat of a film needs in addition to the film [bytes].
 
     Examples
     --------
@@ -70,9 +68,13 @@ def heated_memory(geometry: str, grid: Grid, heat: str, *, rough: bool) -> float
     if geometry == "line":
         each, squared = _HEATED_LINE[heat]
         return each * nodes + squared * nodes**2
-    whole = rough or grid.nodes_across % 2 == 0
-    lines = grid.nodes_across if whole else grid.nodes_across // 2 + 1
-    return _HEATED_POINT[heat] * nodes * lines
+    return _HEATED_POINT[heat] * nodes * _solved_lines(grid, rough=rough)
+
+
+def _solved_lines(grid: Grid, *, rough: bool) -> int:
+    """Number of lines along entrainment on which a point contact is solved; half of them if it is smooth."""
+    across = grid.nodes_across
+    return across if rough or across % 2 == 0 else across // 2 + 1
 
 
 def _check_record(motion: Motion, grid: Grid, nodes: int) -> None:
@@ -118,8 +120,7 @@ def line_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
 
 
 def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
-    """Largest memory of the film and of the field of a point contact. Returns memory of the film and of the
-    field [bytes].
+    """Largest memory of the film and of the field of a point contact [bytes], rough or smooth.
 
     Examples
     --------
@@ -130,11 +131,10 @@ def point_memory(grid: Grid, *, rough: bool) -> tuple[float, float]:
     >>> round(film / 1e9, 1)
     0.4
     """
-    nodes_y, columns, columns_y = _point_sizes(grid)
-    whole = rough or nodes_y % 2 == 0
-    lines = nodes_y if whole else nodes_y // 2 + 1
+    _, columns, columns_y = _point_sizes(grid)
+    lines = _solved_lines(grid, rough=rough)
     film = (POINT_FILM_BYTES + 8 * KRYLOV_VECTORS) * grid.nodes_along * lines
-    if not whole and (grid.field_nodes_y is None or grid.field_nodes_y % 2 == 1):
+    if lines < grid.nodes_across and (grid.field_nodes_y is None or grid.field_nodes_y % 2 == 1):
         columns_y = columns_y // 2 + 1
     return film, POINT_FIELD_BYTES * columns * columns_y * (grid.field_degree + 1)
 
@@ -149,10 +149,6 @@ def _point_sizes(grid: Grid) -> tuple[int, int, int]:
     return nodes_y, _columns_along(grid), columns_y
 
 
-def _line_size(grid: Grid) -> tuple[str, str]:
-    return f"{grid.nodes_along}", f"{_columns_along(grid)}"
-
-
 def _point_size(grid: Grid) -> tuple[str, str]:
     nodes_y, columns, columns_y = _point_sizes(grid)
     return f"{grid.nodes_along} x {nodes_y}", f"{columns} x {columns_y}"
@@ -161,7 +157,10 @@ def _point_size(grid: Grid) -> tuple[str, str]:
 # Functions of a grid by the geometry of the contact: memory of film and field, their grids as text, and
 # number of film nodes.
 _NEEDED = {"line": line_memory, "point": point_memory}
-_SIZES = {"line": _line_size, "point": _point_size}
+_SIZES: dict[str, Callable[[Grid], tuple[str, str]]] = {
+    "line": lambda grid: (f"{grid.nodes_along}", f"{_columns_along(grid)}"),
+    "point": _point_size,
+}
 _NODES: dict[str, Callable[[Grid], int]] = {
     "line": lambda grid: grid.nodes_along,
     "point": lambda grid: grid.nodes_along * grid.nodes_across,

@@ -68,7 +68,8 @@ def refined(
     if film.discretisation_error is None or film.discretisation_error > target:
         unknown = f"the error is unknown on {UNKNOWN} grids in succession"
         why = refusal if grid is grids[-1] else unknown
-        warnings = (_not_reached("refine" if setup.grid.refine else "error", target, grid, why),)
+        reached = f"an error of {100 * target:g} % was not reached with {grid.nodes_along} nodes"
+        warnings = (ResultWarning("refine-not-reached", f"grid.{_target_key(setup)}: {reached}; {why}"),)
     return Refined(film, first, replace(first, grid=grid), time.perf_counter() - started, warnings)
 
 
@@ -99,9 +100,9 @@ def _fixed(grid: Grid) -> Grid:
     return grid.model_copy(update={"refine": None, "error": None, "most_nodes": None})
 
 
-def _not_reached(key: str, target: float, grid: Grid, reason: str) -> ResultWarning:
-    reached = f"an error of {100 * target:g} % was not reached with {grid.nodes_along} nodes"
-    return ResultWarning("refine-not-reached", f"grid.{key}: {reached}; {reason}")
+def _target_key(setup: Setup) -> str:
+    """Key of the grid that asks for the error of a refinement."""
+    return "refine" if setup.grid.refine else "error"
 
 
 def _doubled(grid: Grid) -> Grid:
@@ -201,7 +202,7 @@ def reach_of(setup: Setup, geometry: str, problem: FilmProblem) -> Reach:
     assert setup.grid.target is not None
     grids, _ = finer_grids(setup, geometry, problem.physics)
     return Reach(
-        "refine" if setup.grid.refine else "error",
+        _target_key(setup),
         setup.grid.target,
         tuple(
             ExpectedGrid(grid.nodes_along, expected_nodes(problem, 2**k), expected_error(problem, 2**k))

@@ -226,7 +226,7 @@ def line_roughness(solution: LineSolution) -> RoughnessStatistics:
     # The film depends on the sum of the heights. The surfaces may be correlated, so rq_combined does not
     # follow from rq_1 and rq_2.
     combined = of_profile(Profile(float(x[1] - x[0]), heights.sum(axis=0)))
-    return _beside_film(solution, (rq_1, rq_2, combined.rq), vars(combined))
+    return _statistics(solution, (rq_1, rq_2, combined.rq), vars(combined))
 
 
 def point_roughness(solution: PointSolution) -> RoughnessStatistics:
@@ -239,10 +239,10 @@ def point_roughness(solution: PointSolution) -> RoughnessStatistics:
     across = np.abs(film.y) <= conditions.semi_axis_y
     spacing = float(film.x[1] - film.x[0]), float(film.y[1] - film.y[0])
     combined = of_map(Map(*spacing, together[along][:, across]))
-    return _beside_film(solution, (rq_1, rq_2, rq), vars(combined))
+    return _statistics(solution, (rq_1, rq_2, rq), vars(combined))
 
 
-def _beside_film(
+def _statistics(
     solution: LineSolution | PointSolution, rq: tuple[float, float, float], combined: Mapping[str, float]
 ) -> RoughnessStatistics:
     smooth = None if solution.smooth is None else solution.smooth.minimum_thickness

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -27,6 +27,8 @@ from ehlectric.contact.solver import solve
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.film.atlas.atlas_films import contact_film
 from ehlectric.runtime.progress import Progress, silent
+
+T = TypeVar("T")
 
 # Formula of the central film by the geometry of the contact: those that hold in all regimes.
 FORMULA = {"line": "moes", "point": "nijenbanning_venner_moes"}
@@ -126,37 +128,46 @@ def _formula_films(case: Case, rows: Sequence[Mapping[str, Any]], measured: Meas
     """Central film by formula of each row [m], shape (n,). Raises InputError where a row is no case, for
     example at a temperature for which the oil has no data; with its line.
     """
-    kind, known = KINDS[case.contact.geometry], dict[tuple[Any, ...], float]()
+    kind = KINDS[case.contact.geometry]
     formula = kind.formulas[FORMULA[case.contact.geometry]]
-    for row, line in zip(rows, measured.lines, strict=True):
+
+    def film(number: int) -> float:
+        try:
+            thickness = formula(kind.resolve(case.replace(rows[number])).contact).central_thickness
+        except InputError as error:
+            raise error.retold(f"{measured.source}, line {measured.lines[number]}", str(error)) from None
+        assert thickness is not None
+        return thickness
+
+    return np.array(_once_each(rows, film))
+
+
+def _once_each(rows: Sequence[Mapping[str, Any]], compute: Callable[[int], T]) -> list[T]:
+    """Result for each row by its number, computed once for rows that are alike."""
+    known: dict[tuple[Any, ...], T] = {}
+    for number, row in enumerate(rows):
         key = tuple(row.values())
         if key not in known:
-            try:
-                film = formula(kind.resolve(case.replace(row)).contact).central_thickness
-            except InputError as error:
-                raise error.retold(f"{measured.source}, line {line}", str(error)) from None
-            assert film is not None
-            known[key] = film
-    return np.array([known[tuple(row.values())] for row in rows])
+            known[key] = compute(number)
+    return [known[tuple(row.values())] for row in rows]
 
 
 def _atlas_films(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array) -> tuple[Array, float]:
     """Central film of each row from the atlas [m], shape (n,), or by formula, and the largest error."""
-    kind, known, worst = KINDS[case.contact.geometry], dict[tuple[Any, ...], float](), 0.0
-    for row, estimate in zip(rows, formula.tolist(), strict=True):
-        key = tuple(row.values())
-        if key in known:
-            continue
-        changed = case.replace(row)
+    kind = KINDS[case.contact.geometry]
+
+    def film(number: int) -> tuple[float, float]:
+        changed = case.replace(rows[number])
         oil = changed.lubricant.at(changed.contact.temperature)
         contact = kind.resolve(changed).contact
         try:
-            film = contact_film(contact, oil)
+            found = contact_film(contact, oil)
         except InputError:
-            known[key], worst = estimate, max(worst, _FORMULA_ERROR)
-            continue
-        known[key], worst = film.central_thickness, max(worst, film.errors["central"])
-    return np.array([known[tuple(row.values())] for row in rows]), worst
+            return float(formula[number]), _FORMULA_ERROR
+        return found.central_thickness, found.errors["central"]
+
+    films, errors = zip(*_once_each(rows, film), strict=True)
+    return np.array(films), max(errors)
 
 
 def _solved(case: Case, rows: Sequence[Mapping[str, Any]], formula: Array, progress: Progress) -> _Table:
@@ -201,14 +212,19 @@ def _result(
     factors, stated = film / computed, None if uncertainty is None else uncertainty / film
     speeds = np.array([row["contact.entrainment_speed"] for row in rows])
     mean, trend = mean_factor(factors, stated), slope_of(speeds, factors, stated)
-    columns = {"line": np.array(measured.lines, dtype=float)}
-    columns |= {"time": measured.values["time"]} if measured.has("time") else {}
-    columns |= {"entrainment_speed": speeds}
-    columns |= {"temperature": measured.values["temperature"]} if measured.has("temperature") else {}
-    columns |= {"film": film}
-    columns |= {} if uncertainty is None else {"film_uncertainty": uncertainty}
-    columns |= {"computed": computed, "formula": formula, "film_factor": factors}
-    columns |= {} if stated is None else {"factor_uncertainty": stated * factors}
+    given = {
+        "line": np.array(measured.lines, dtype=float),
+        "time": measured.values.get("time"),
+        "entrainment_speed": speeds,
+        "temperature": measured.values.get("temperature"),
+        "film": film,
+        "film_uncertainty": uncertainty,
+        "computed": computed,
+        "formula": formula,
+        "film_factor": factors,
+        "factor_uncertainty": None if stated is None else stated * factors,
+    }
+    columns = {name: values for name, values in given.items() if values is not None}
     columns |= fitted_columns(film, factors, np.ones(len(factors)), mean)
     reasons = ("",) * measured.size
     return FilmFactors(

@@ -5,7 +5,7 @@ conditions.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -62,26 +62,15 @@ class Setup:
     @classmethod
     def of(cls, case: Case | Setup) -> Setup:
         """Make the setup of a case, or a copy of a setup."""
-        return cls(
-            oil=case.oil,
-            grid=case.grid,
-            electric=case.electric,
-            solver=case.solver,
-            discharge=case.discharge,
-            roughness=case.roughness,
-            title=case.title,
-            inlet=case.inlet,
-        )
+        return cls(**{each.name: getattr(case, each.name) for each in fields(cls)})
 
     def to_dict(self) -> dict[str, Any]:
         """Return all values that are set as nested tables, in SI units, with the keys of a case."""
         tables = {
-            name: getattr(self, name).model_dump(mode="json", exclude_none=True)
-            for name in ("electric", "grid", "solver")
+            name: table.model_dump(mode="json", exclude_none=True)
+            for name in ("electric", "grid", "solver", "discharge", "inlet")
+            if (table := getattr(self, name)) is not None
         }
-        for name, table in (("discharge", self.discharge), ("inlet", self.inlet)):
-            if table is not None:
-                tables[name] = table.model_dump(mode="json", exclude_none=True)
         rough = [table.model_dump(mode="json", exclude_none=True) for table in self.roughness]
         return {"title": self.title, "roughness": rough, "lubricant": dict(self.oil.inputs)} | tables
 

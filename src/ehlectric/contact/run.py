@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
@@ -15,7 +16,7 @@ from ehlectric.contact.contact_kinds import KINDS
 from ehlectric.contact.contact_refinement import FilmProgress
 from ehlectric.contact.problems import scales_of
 from ehlectric.contact.result import RESULTS, PointResult, Result, film_columns
-from ehlectric.contact.solver import OWN, Solvers, solve
+from ehlectric.contact.solver import OWN, Solvers, solve_prepared
 from ehlectric.contact.stored import SCHEMA, parts_of, stored_case
 from ehlectric.errors import InputError
 from ehlectric.runtime.file_rules import check_format, refusing
@@ -94,9 +95,9 @@ def run(
 ) -> RunOutcome[Result | PointResult]:
     """Solve a contact, and write summary.json, result.nc and film.csv.
 
-    ``folder``, folder of the files; it is made if it does not exist. Returns with a ``failure`` where the
-    film is not converged; its files are written all the same. Raises InputError where the case or the folder
-    cannot be used, or another command writes into the folder.
+    The folder is made if it does not exist. A film that did not converge is written too, and is the
+    ``failure`` of the outcome. Raises an InputError where the case or the folder cannot be used, or another
+    command writes into the folder.
 
     Examples
     --------
@@ -111,15 +112,13 @@ def run(
     """
     load_library()
     prepared = check_case(case)
-    case = solvers.accept(case)
     names = (*FILES, *(further or ()), *others)
     with alone_in(folder, names) as folder:
         told = FilmProgress(prepared.reach)
-        result = solve(
-            case,
+        result = solve_prepared(
+            replace(prepared, case=solvers.accept(case)),
             progress=lambda nodes, step, residual: progress(0, 0, told.text(nodes, step, residual)),
             solvers=solvers,
-            prepared=prepared,
             on_grid=told.on_grid,
         )
         progress(0, 0, "writing results")

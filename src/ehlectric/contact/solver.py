@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.grid_inputs import Electric, Grid, Solver
 from ehlectric.cases.roughness_inputs import Roughness
 from ehlectric.contact.capacitance_meter import meter_warnings
-from ehlectric.contact.check import MOST_STEPS, PreparedContact, check_case, widened, with_laws
+from ehlectric.contact.check import MOST_STEPS, PreparedContact, check_case, widened
 from ehlectric.contact.conditions import Conditions, PointConditions
 from ehlectric.contact.contact_heat import heat_warnings
 from ehlectric.contact.contact_kinds import KINDS
@@ -33,11 +34,9 @@ from ehlectric.discharge.film_breakdown import field_warnings
 from ehlectric.errors import ConvergenceError, InputError, ResultWarning
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
-from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.newton import Progress
 from ehlectric.film.problem import FilmProblem, OnGrid
 from ehlectric.lubricant.oil import Oil
-from ehlectric.lubricant.python_laws import Laws
 from ehlectric.runtime.files import now
 from ehlectric.runtime.progress import LOGGER
 from ehlectric.surfaces.rough_surfaces import RoughMap, RoughSurface
@@ -78,7 +77,6 @@ def solve(
     solvers: Solvers = OWN,
     beside_smooth: bool = True,
     prepared: PreparedContact | None = None,
-    laws: Laws | None = None,
     on_grid: OnGrid | None = None,
 ) -> Result | PointResult:
     """Solve the film and the electric field of a case.
@@ -105,9 +103,7 @@ def solve(
             got="[motion] where a stationary film is solved",
             takes="run_motion, or a case without it",
         )
-    if laws is not None:
-        case, prepared = with_laws(case, laws), None
-    return _solved(
+    return solve_prepared(
         check_case(case) if prepared is None else replace(prepared, case=case),
         progress=progress,
         require_convergence=require_convergence,
@@ -164,7 +160,7 @@ def solve_contact(
     )
     check_grid(conditions.geometry, setup.first_grid, rough=bool(setup.roughness))
     domain = kind.domain(setup, conditions)
-    return _solved(
+    return solve_prepared(
         PreparedContact(
             setup, conditions, domain, kind.rough(setup.roughness, domain) if rough is None else rough
         ),
@@ -174,7 +170,7 @@ def solve_contact(
     )
 
 
-def _solved(
+def solve_prepared(
     contact: PreparedContact,
     *,
     progress: Progress | None = None,
@@ -220,16 +216,17 @@ def _solved(
             *kind.case_warnings(case, conditions),
             *contact.surface_warnings(films.setup),
             *films.warnings,
-            *_of_film(contact, films),
+            *film_warnings(contact.case, film),
+            *starvation_warnings(films.setup, contact.conditions, film),
+            *heat_warnings(contact.case, contact.conditions, film, contact.physics),
             *spot_warnings(case, conditions, film, coarser),
             *kind.result_warnings(contact.case, film, field),
             *meter_warnings(case, film),
             # Where surfaces touch, the largest field is that of the boundary film.
-            *(() if film.contact_pressure is not None else _of_field(contact, film, field)),
             *(
-                accuracy_warnings(films.setup.grid, field, estimated=own)
-                if film.converged and film.contact_pressure is None
-                else ()
+                ()
+                if film.contact_pressure is not None
+                else _field_warnings(contact, films, field, estimated=own)
             ),
         ),
         film_solver=solvers.name,
@@ -245,16 +242,18 @@ def _on_large_domain(
     contact: PreparedContact, solvers: Solvers, progress: Progress | None, on_grid: OnGrid | None
 ) -> tuple[PreparedContact, Refined]:
     """Contact on the domain that its film needs, and its films on all grids."""
-    films = _films(contact, solvers, progress, on_grid)
+    geometry = contact.conditions.geometry
+    solved = partial(solvers.film[geometry], progress=_logged(progress))
+    films = refined(Setup.of(contact.case), geometry, contact.film_problem, solved, on_grid)
     if solvers.name != OWN.name or not contact.case.grid.default_domain:
         return contact, films
-    area, seconds = None, films.seconds
+    seconds = films.seconds
+    default = contact
     for _ in range(MOST_STEPS):
         wider = widened(contact, films.film)
         if wider is None:
             break
-        area = contact.film_problem(Setup.of(contact.case)).area if area is None else area
-        larger = _films(wider, solvers, progress, on_grid, area)
+        larger = refined(Setup.of(wider.case), geometry, partial(_posed, wider, default), solved, on_grid)
         seconds += larger.seconds
         if not larger.film.converged:
             break
@@ -262,42 +261,25 @@ def _on_large_domain(
     return contact, replace(films, seconds=seconds)
 
 
-def _films(
-    contact: PreparedContact,
-    solvers: Solvers,
-    progress: Progress | None,
-    on_grid: OnGrid | None,
-    area: float | None = None,
-) -> Refined:
-    """Films of a contact on all grids; of a larger domain with the ``area`` of the default one.
+def _posed(contact: PreparedContact, default: PreparedContact, setup: Setup) -> FilmProblem:
+    """Film problem of a contact on a domain that is larger than the ``default`` one.
 
     What the ambient pressure carries on the default domain is part of the load, as in the paper.
     """
-    geometry = contact.conditions.geometry
-
-    def solved(problem: FilmProblem) -> Film | PointFilm:
-        posed = problem if area is None else problem.bearing_ambient_pressure_on(area)
-        film: Film | PointFilm = solvers.film[geometry](posed, progress=_logged(progress))
-        return film
-
-    return refined(Setup.of(contact.case), geometry, contact.film_problem, solved, on_grid)
+    area = default.film_problem(Setup.of(default.case)).area
+    return contact.film_problem(setup).bearing_ambient_pressure_on(area)
 
 
-def _of_film(contact: PreparedContact, films: Refined) -> Iterator[ResultWarning]:
-    """Warnings about a film, its supply of oil, its heat and its shear."""
-    yield from film_warnings(contact.case, films.film)
-    yield from starvation_warnings(films.setup, contact.conditions, films.film)
-    yield from heat_warnings(contact.case, contact.conditions, films.film, contact.physics)
-
-
-def _of_field(
-    contact: PreparedContact, film: Film | PointFilm, field: Field | PointField
+def _field_warnings(
+    contact: PreparedContact, films: Refined, field: Field | PointField, *, estimated: bool
 ) -> Iterator[ResultWarning]:
-    """Warnings about the largest field of a film and its breakdown."""
-    discharge = contact.case.discharge
+    """Warnings about the largest field of a film, its breakdown, and its error, if it was ``estimated``."""
+    discharge, film = contact.case.discharge, films.film
     yield from discharge_warnings(discharge, film)
     yield from margin_warnings(discharge, contact.conditions.semi_axes, film, field)
     yield from field_warnings(field.max_strength, "the potentials")
+    if film.converged:
+        yield from accuracy_warnings(films.setup.grid, field, estimated=estimated)
 
 
 def _logged(progress: Progress | None) -> Progress:

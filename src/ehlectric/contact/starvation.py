@@ -16,12 +16,12 @@ from ehlectric.film.isothermal_film import Film, PointFilm, lost_film
 # ratio of films from the one asked for above which there is a warning.
 _FLOODED, _MISSED = 0.999, 0.01
 
-# Share by which a domain that is too small makes the flooded film beside too thin, above which there is a
+# Share by which a domain that is too small makes the flooded film too thin, above which there is a
 # warning: the film itself does not depend on it.
 _LOST = 0.05
 
-# Distance of the meniscus from the Hertz zone in half-widths, beside a grid spacing, up to which it is at the
-# edge of the zone.
+# Distance of the meniscus from the Hertz zone in half-widths, in addition to a grid spacing, up to which it
+# is at the edge of the zone.
 _AT_HERTZ = 0.01
 
 # Distance of the meniscus from the inlet edge, as a part of the length of the inlet, below which the domain

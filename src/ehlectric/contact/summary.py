@@ -32,7 +32,7 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
         "converged": solution.converged,
         "status": film.status,
         **texts_and_codes(solution.warnings),
-        **_verdict(solution),
+        **({} if solution.verdict is None else {"verdict": solution.verdict.text}),
         "inputs": inputs_of(solution.case, conditions),
         "lubricant": oil_of(solution.case),
         "groups": groups_of(conditions),
@@ -51,12 +51,6 @@ def summary_of(solution: Solution[Any, Any, Any]) -> dict[str, Any]:
     if solution.rough:
         summary["roughness"] = {"surfaces": list(solution.rough)} | vars(kind.roughness(solution))
     return {key: plain(value) for key, value in summary.items()}
-
-
-def _verdict(solution: Solution[Any, Any, Any]) -> dict[str, str]:
-    """Verdict of a contact with a discharge as text."""
-    verdict = solution.verdict
-    return {} if verdict is None else {"verdict": verdict.text}
 
 
 def _film(solution: Solution[Any, Any, Any]) -> dict[str, Any]:

@@ -1,18 +1,15 @@
-"""Spots in which the surfaces of a solved contact touch: load, area, oil, film around them, and electrical
-answer.
+"""Spots in which the surfaces of a solved contact touch: load, area, oil balance, resistance and breakdown.
 
-Balance of the oil of a solved stationary contact: what its spots swallow, and what its valleys make.
-A film that forms again behind a cavity carries the content of oil through the cavity
-(``ehlectric.film.starved_solver``), and its residual is what is left over. Where no such film was found, a
-cavitated gap counts as full in the wedge term (``ehlectric.film.cavitation``). Where it ends at a node that
-oil fills, the oil that would fill the gap goes on, although less of it has come. The residual of the Reynolds
-equation of these nodes is the oil that appears.
+A film that forms again behind a cavity carries its content of oil through the cavity
+(``ehlectric.film.starved_solver``). Where no such film converged, a cavitated gap counts as full in the wedge
+term (``ehlectric.film.cavitation``), so that oil appears where the gap fills again. The residual of the
+Reynolds equation at these nodes is that oil.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -31,8 +28,8 @@ from ehlectric.discharge.discharge_laws import WeakestLink
 from ehlectric.discharge.film_breakdown import dielectric_strength
 from ehlectric.discharge.film_verdict import Verdict, unusable
 from ehlectric.errors import ResultWarning
-from ehlectric.field.zones import areas, line_zone_areas, point_zone_areas
-from ehlectric.film.flow import Fluid, flow
+from ehlectric.field.zones import areas, areas_by_zone
+from ehlectric.film.flow import flow
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.reynolds import residual, wedge_stencil
@@ -61,8 +58,8 @@ class Spots:
 
     @classmethod
     def of(cls, axes: tuple[Array, ...], contact: Mask, pressure: Array) -> Spots:
-        """Find the spots of a contact. ``axes``, nodes along each axis [m]; ``contact``, nodes where the
-        surfaces touch, shape (nx,) or (nx, ny); ``pressure`` [Pa].
+        """Spots of a contact from its nodes along each axis [m], the mask of the nodes where the surfaces
+        touch, and their contact pressure [Pa], both of shape (nx,) or (nx, ny).
 
         Examples
         --------
@@ -126,9 +123,9 @@ def _edge(axes: tuple[Array, ...], contact: Mask) -> float:
 
 
 def weighted_percentiles(values: Array, weights: Array, shares: ArrayLike) -> Array:
-    """Values below which given shares of the weight lie. ``values`` and ``weights``, values in any unit, and
-    their weights, >= 0, shape (...); ``shares``, shares from 0 to 1, shape (n,). Returns smallest value up to
-    which at least each share of the weight lies, shape (n,).
+    """Smallest values up to which at least the given shares of the weight lie, shape (n,).
+
+    ``values`` and their ``weights``, not negative, have one shape; ``shares`` (n,) are from 0 to 1.
 
     Examples
     --------
@@ -142,8 +139,15 @@ def weighted_percentiles(values: Array, weights: Array, shares: ArrayLike) -> Ar
     return found
 
 
-# Shares of the area around the spots up to which the film is as thin as its percentiles.
+# Shares of the area around the spots at which film thicknesses and breakdown voltages are given.
 THIN_SHARES = (0.01, 0.05, 0.5)
+
+
+def _percentiles(values: Array, weights: Array) -> tuple[float, ...] | tuple[None, ...]:
+    """Values at the ``THIN_SHARES`` of the weight; None without values."""
+    if not values.size:
+        return (None,) * len(THIN_SHARES)
+    return tuple(float(value) for value in weighted_percentiles(values, weights, THIN_SHARES))
 
 
 @dataclass(frozen=True)
@@ -207,8 +211,7 @@ def spots_of(film: Film | PointFilm) -> Spots:
 
 def hertz_weights(film: Film | PointFilm, semi_axes: tuple[float, ...]) -> Array:
     """Area [m^2] of each node's part of the Hertz ellipse, or width [m] of its part of the Hertz zone."""
-    zones = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
-    return zones(film.axes, *semi_axes)["hertz"]
+    return areas_by_zone(film.axes, semi_axes)["hertz"]
 
 
 def load_of(conditions: Conditions | PointConditions) -> float:
@@ -230,15 +233,15 @@ def touching(
 ) -> Touching:
     """Load, area and film of a contact whose surfaces touch in spots.
 
-    ``rq``, combined Rq of the surfaces over the Hertz zone before they are deformed [m]; ``smooth``, film
-    thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved. Returns load
-    share, areas, film around the spots, roughness and friction.
+    ``rq`` is the combined Rq of the undeformed surfaces over the Hertz zone [m]. ``smooth`` is the film
+    thickness with smooth surfaces at the nodes of the film [m], or None if it was not solved. ``friction`` is
+    the friction coefficient of asperities.
     """
     zone = hertz_weights(film, conditions.semi_axes)
     touched = film.contact
     around = ~touched & (zone > 0.0)
     thickness, weights = film.thickness[around], zone[around]
-    thin = weighted_percentiles(thickness, weights, THIN_SHARES) if thickness.size else None
+    thin = _percentiles(thickness, weights)
     deformed = None if smooth is None else weighted_rms(film.thickness - smooth, zone)
     mean = float(np.vdot(zone, film.thickness) / np.sum(zone))
     share = float(np.sum(zone[touched]) / np.sum(zone))
@@ -255,9 +258,9 @@ def touching(
         largest_spot=float(np.max(spots.areas)) if spots.number else None,
         mean_film=float(np.average(thickness, weights=weights)) if thickness.size else None,
         least_film=float(np.min(thickness)) if thickness.size else None,
-        film_1=None if thin is None else float(thin[0]),
-        film_5=None if thin is None else float(thin[1]),
-        film_50=None if thin is None else float(thin[2]),
+        film_1=thin[0],
+        film_5=thin[1],
+        film_50=thin[2],
         rq_deformed=deformed,
         lambda_undeformed=mean / rq if rq >= FLAT else None,
         lambda_deformed=mean / deformed if deformed is not None and deformed >= FLAT else None,
@@ -304,8 +307,9 @@ class OilBalance:
 def oil_balance(
     case: Case | Setup, conditions: Conditions | PointConditions, film: Film | PointFilm
 ) -> OilBalance | None:
-    """Balance of the oil of a converged stationary film, from its pressure and thickness. Returns oil lost
-    and made; None where the nodes are not equidistant, as those of a film with a patch.
+    """Balance of the oil of a converged stationary film, from its pressure and thickness.
+
+    None where the nodes are not equidistant, as those of a film with a patch.
     """
     if film.mass_residual is not None:
         return OilBalance(film.mass_residual, oil_lost=0.0, oil_made=film.mass_residual)
@@ -318,10 +322,13 @@ def oil_balance(
     oil = ((film.pressure - touching) / conditions.max_pressure).reshape(mesh.shape)
     gap = np.where(film.contact, np.maximum(film.thickness, conditions.boundary_film), film.thickness)
     thickness = (gap / conditions.thickness_scale).reshape(mesh.shape)
-    r = _residual(fluid, law, order, mesh, oil, thickness)
+    at_faces = flow(replace(fluid, flow=law), oil, thickness, mesh)
+    r = residual(at_faces, wedge_stencil(mesh.shape, mesh.dx, order=order), thickness, mesh)
     zone, contact = _in_zone(conditions, mesh), film.contact.reshape(mesh.shape)
     full = oil - fluid.ambient_pressure > _ROUNDING
-    made = _refilled(full & zone) & (zone | contact) & (r > 0.0)
+    # Nodes on whose line oil fills the gap of a node further downstream, or their own.
+    refilled = np.logical_or.accumulate((full & zone)[::-1], axis=0)[::-1]
+    made = refilled & (zone | contact) & (r > 0.0)
     if film.heated is not None:
         # The viscosity of a hot or sheared film is not that of the oil at rest; a cavity has no such flow.
         made &= ~full
@@ -329,13 +336,6 @@ def oil_balance(
     carried = float(np.mean((film.density.reshape(mesh.shape) * thickness)[zone])) * _width(conditions)
     parts = [abs(float(np.vdot(mesh.weights, np.where(part, r, 0.0)))) / carried for part in (lost, made)]
     return OilBalance(mass_error=sum(parts), oil_lost=parts[0], oil_made=parts[1])
-
-
-def _residual(fluid: Fluid, law: str, order: int, mesh: Mesh, oil: Array, thickness: Array) -> Array:
-    """Residual of the Reynolds equation at the nodes (nx, ny), dimensionless."""
-    named = Fluid(fluid.density, fluid.log_viscosity, fluid.velocity_parameter, fluid.ambient_pressure, law)
-    at_faces = flow(named, oil, thickness, mesh)
-    return residual(at_faces, wedge_stencil(mesh.shape, mesh.dx, order=order), thickness, mesh)
 
 
 def _mesh(conditions: Conditions | PointConditions, film: Film | PointFilm) -> Mesh:
@@ -358,12 +358,6 @@ def _width(conditions: Conditions | PointConditions) -> float:
     return 1.0
 
 
-def _refilled(full: Mask) -> Mask:
-    """Nodes (nx, ny) on whose line oil fills the gap of a node further downstream, or their own."""
-    refilled: Mask = np.logical_or.accumulate(full[::-1], axis=0)[::-1]
-    return refilled
-
-
 # Answer of a contact in one word.
 Behaviour: TypeAlias = Literal["resistive", "mixed", "capacitive"]
 
@@ -377,9 +371,6 @@ SHORTED = 10.0
 # Share of the time with at least one spot from which a contact conducts always. Three small spots at one
 # instant give it, by the Poisson law.
 ALWAYS = 0.95
-
-# Shares of the area around the spots at which breakdown voltages are given.
-BREAKING_SHARES = (0.01, 0.05, 0.5)
 
 # Number of spots above which all have currents in proportion to their radii, an upper bound of the
 # resistance.
@@ -447,9 +438,9 @@ def behaviour_of(
     all between, as a contact that conducts and insulates in turn, and one whose spots a finer grid may not
     have.
 
-    ``always``, share of the time with at least one spot; ``impedance_ratio``, impedance of the film over that
-    of the spots at 10 kHz; None if the resistance of the spots is unknown: they are taken as metal, which
-    shorts any film at this frequency.
+    ``always`` is the share of the time with at least one spot. ``impedance_ratio`` is the impedance of the
+    film over that of the spots at 10 kHz. If it is None, the resistance of the spots is unknown, and they
+    count as metal, which shorts any film at this frequency.
 
     Examples
     --------
@@ -471,8 +462,7 @@ def strip_resistance(width: float, length: float, resistivity: float) -> float:
     R = rho K(1 - b^2/a^2)/(pi a) with the semi-axes a and b and the complete elliptic integral K of a
     parameter; a circle gives rho/(2 a).
 
-    ``width`` and ``length``, axes of the ellipse [m], > 0; ``resistivity``, resistivity rho of the bodies
-    [ohm m]. Returns resistance [ohm].
+    The axes ``width`` and ``length`` are in m, the resistivity rho of the bodies in ohm m, the result in ohm.
 
     R. Holm, Electric Contacts, 4th ed., Springer 1967; it is the capacitance of an elliptical disc.
 
@@ -511,9 +501,9 @@ def electrical(
     semi_axes: tuple[float, ...],
     area_error: float | None = None,
 ) -> Electrical:
-    """Electrical answer of a contact whose surfaces touch in spots. ``semi_axes``, half-width of a line
-    contact, or semi-axes of a point contact [m]. Returns resistance, capacitance, breakdown voltages, and the
-    behaviour in one word.
+    """Resistance, capacitance, breakdown voltages and behaviour of a contact whose surfaces touch in spots.
+
+    ``semi_axes`` are the half-width of a line contact, or the semi-axes of a point contact [m].
     """
     length = 1.0 if len(semi_axes) == 2 else None if discharge is None else discharge.length
     metal = constriction(spots, electric, length)
@@ -553,11 +543,11 @@ def _thin_breakdown(
     film: Film | PointFilm, zone: Array, discharge: Discharge | None
 ) -> tuple[float, ...] | tuple[None, ...]:
     """Voltages at which shares of the Hertz zone outside of the spots reach the dielectric strength [V]."""
+    if discharge is None or not discharge.has_strength:
+        return (None,) * len(THIN_SHARES)
     inside = ~film.contact & (zone > 0.0)
-    if discharge is None or not discharge.has_strength or not np.any(inside):
-        return (None,) * len(BREAKING_SHARES)
-    voltage = (film.thickness * dielectric_strength(discharge, film.pressure))[inside]
-    return tuple(float(each) for each in weighted_percentiles(voltage, zone[inside], BREAKING_SHARES))
+    voltage = film.thickness * dielectric_strength(discharge, film.pressure)
+    return _percentiles(voltage[inside], zone[inside])
 
 
 def _weakest(
@@ -584,7 +574,7 @@ def _weakest(
 UNRESOLVED_SHARE, UNRESOLVED_LOAD = 0.1, 0.005
 
 
-# Load share of asperities above which finer grids leave spots, however much their area changes.
+# Load share of asperities above which spots remain on finer grids, however much their area changes.
 _NEARLY_ALL = 0.9
 
 
@@ -605,16 +595,18 @@ class Asperities:
 
     def summary(self) -> dict[str, Any]:
         """Values of all parts, as in ``asperities`` of summary.json."""
-        coarser, balance = self.coarser, self.balance
+        coarser = _values(self.coarser, Coarser)
         return {
             **asdict(self.touching),
-            "load_share_coarser": None if coarser is None else coarser.load_share,
-            "contact_area_share_coarser": None if coarser is None else coarser.contact_area_share,
-            "mass_error": None if balance is None else balance.mass_error,
-            "oil_lost": None if balance is None else balance.oil_lost,
-            "oil_made": None if balance is None else balance.oil_made,
+            **{f"{name}_coarser": value for name, value in coarser.items()},
+            **_values(self.balance, OilBalance),
             **asdict(self.electrical),
         }
+
+
+def _values(part: Coarser | OilBalance | None, kind: type[Coarser | OilBalance]) -> dict[str, Any]:
+    """Values of a part by name; None without the part."""
+    return dict.fromkeys(each.name for each in fields(kind)) if part is None else asdict(part)
 
 
 def asperities(
@@ -628,10 +620,8 @@ def asperities(
 ) -> Asperities:
     """Asperities of a converged film.
 
-    ``rq``, combined Rq of the surfaces over the Hertz zone before they are deformed [m]; ``smooth``, film
-    thickness with smooth surfaces at the nodes of the film [m]; None if it was not solved; ``coarser``,
-    asperities on a grid with half the nodes; None if it was not solved. Returns spots, what they carry and
-    conduct, and the film around them.
+    ``rq`` is the combined Rq of the undeformed surfaces over the Hertz zone [m], and ``smooth`` the film
+    thickness with smooth surfaces at the nodes of the film [m], or None if it was not solved.
 
     Examples
     --------
@@ -677,9 +667,9 @@ _ANSWERS = {
 
 
 def spots_verdict(found: Asperities, voltage: float, warnings: Iterable[ResultWarning]) -> Verdict:
-    """Verdict on a contact whose surfaces touch under a voltage. ``found``, asperities of the contact, with
-    at least one spot; ``voltage`` [V]. Returns red; yellow where a tribofilm insulates the spots; grey where
-    the film must not be used.
+    """Verdict on a contact that touches in at least one spot under a voltage [V].
+
+    It is red, yellow where a tribofilm insulates the spots, or grey where the film must not be used.
     """
     refused = unusable(warnings)
     if refused:
@@ -741,11 +731,11 @@ def spot_warnings(
     film: Film | PointFilm,
     coarser: Coarser | None,
 ) -> Iterator[ResultWarning]:
-    """Warnings about a converged film that is rough or touches: what it means, and what is not resolved.
+    """Warnings about a converged film that is rough or touches.
 
-    ``film``, there are no warnings where it has not converged; ``coarser``, asperities on a grid with half
-    the nodes; None if it was not solved. Yields that the surfaces touch at the edge of the domain; oil that
-    appears; that they touch in the domain, and where so a load share that depends on the grid.
+    They tell that the surfaces touch, in the domain or at its edge, that oil appears or is lost, and that the
+    load share depends on the grid. ``coarser`` has the asperities on a grid with half the nodes, or is None
+    if it was not solved.
     """
     if not film.converged:
         return

@@ -11,7 +11,7 @@ import numpy as np
 
 from ehlectric.cases import library
 from ehlectric.cases.case import Case
-from ehlectric.cases.case_oil import viscosity_over_temperature
+from ehlectric.cases.case_oil import CELSIUS, viscosity_over_temperature
 from ehlectric.cases.contact_inputs import modulus_doubt, radius_doubt
 from ehlectric.cases.film_inputs import CONSTANTS
 from ehlectric.cases.grid_inputs import MOST_DEGREE, Grid
@@ -55,7 +55,7 @@ def temperature_warnings(setup: Case | Setup) -> Iterator[ResultWarning]:
     if not isinstance(setup, Case) or setup.contact.temperature is None:
         return
     if viscosity_over_temperature(setup.lubricant) is None:
-        celsius = f"{setup.contact.temperature - 273.15:.4g} °C"
+        celsius = f"{setup.contact.temperature - CELSIUS:.4g} °C"
         yield ResultWarning(
             "temperature-unused",
             f"the viscosity of {1e3 * setup.oil.viscosity:.4g} mPa s is a given one, and contact.temperature "
@@ -333,13 +333,7 @@ def line_result_warnings(setup: Case | Setup, film: Film, field: Field) -> Itera
             f"upstream of it; {effect}; lower grid.inlet from {inlet:g} to about "
             f"{_longer_inlet(inlet, deficit):g}",
         )
-    inside = int(np.count_nonzero((film.x >= field.x[0]) & (film.x <= field.x[-1])))
-    if setup.grid.field_nodes is not None and setup.grid.field_nodes < inside:
-        yield ResultWarning(
-            "field-grid-too-coarse",
-            f"grid.field_nodes is {setup.grid.field_nodes}, but the film has {inside} nodes in the field "
-            f"range: high-field zone and capacitance are less accurate; use at least {inside}",
-        )
+    yield from _few_columns(setup.grid, film, field)
     if not np.any(field.inner & (field.x == field.max_strength_position)):
         yield ResultWarning(
             "field-range-too-narrow", "the maximum field is at an end of grid.field_range; widen this range"
@@ -359,32 +353,37 @@ def _longer_inlet(inlet: float, deficit: float) -> float:
 
 def point_result_warnings(setup: Case | Setup, film: PointFilm, field: PointField) -> Iterator[ResultWarning]:
     """Warnings about the domain of a point contact and about the grid and range of its field."""
-    loss, before, beside = film.domain_loss, film.inlet_deficit, film.side_deficit
-    if loss is not None and before is not None and beside is not None and loss > _LOSS:
+    loss, upstream, sides = film.domain_loss, film.inlet_deficit, film.side_deficit
+    if loss is not None and upstream is not None and sides is not None and loss > _LOSS:
         code, effect = "domain-too-small", ""
         if loss > 0.2:
             code, effect = "domain-far-too-small", "do not use this film, "
         yield ResultWarning(
             code,
-            f"the domain is too small: {100 * before:.2g} % of the pressure would build up upstream of it "
-            f"and {100 * beside:.2g} % is cut off at its sides, so the film is too thin by about "
+            f"the domain is too small: {100 * upstream:.2g} % of the pressure would build up upstream of it "
+            f"and {100 * sides:.2g} % is cut off at its sides, so the film is too thin by about "
             f"{100 * loss:.2g} %; {effect}lower grid.inlet and raise grid.side",
         )
-    for key, of_field, of_film in (("field_nodes", field.x, film.x), ("field_nodes_y", field.y, film.y)):
-        inside = int(np.count_nonzero((of_film >= of_field[0]) & (of_film <= of_field[-1])))
-        columns = getattr(setup.grid, key)
-        if columns is not None and columns < inside:
-            yield ResultWarning(
-                "field-grid-too-coarse",
-                f"grid.{key} is {columns}, but the film has {inside} nodes in the field range: high-field "
-                f"zone and capacitance are less accurate; use at least {inside}",
-            )
+    yield from _few_columns(setup.grid, film, field)
     x, y = field.max_strength_position
     if not field.inner[field.x == x][:, field.y == y].any():
         yield ResultWarning(
             "field-range-too-narrow",
             "the maximum field is at an edge of grid.field_range or grid.field_side; widen this range",
         )
+
+
+def _few_columns(grid: Grid, film: Film | PointFilm, field: Field | PointField) -> Iterator[ResultWarning]:
+    """Warning about a given number of field columns below that of the film nodes in the field range."""
+    for key, nodes, of_field in zip(("field_nodes", "field_nodes_y"), film.axes, field.axes, strict=False):
+        inside = int(np.count_nonzero((nodes >= of_field[0]) & (nodes <= of_field[-1])))
+        columns = getattr(grid, key)
+        if columns is not None and columns < inside:
+            yield ResultWarning(
+                "field-grid-too-coarse",
+                f"grid.{key} is {columns}, but the film has {inside} nodes in the field range: high-field "
+                f"zone and capacitance are less accurate; use at least {inside}",
+            )
 
 
 def accuracy_warnings(

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
-from operator import attrgetter
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -50,51 +49,32 @@ class Assessment:
     costs: DischargeCosts  # energy of a discharge, size of the pit that it melts, and current density
     leakage: Leakage  # charge relaxation time of the oil
 
-    strength_law = property(attrgetter("breakdown.strength_law"))
-    dielectric_strength = property(attrgetter("breakdown.dielectric_strength"))
-    breakdown_voltage = property(attrgetter("breakdown.breakdown_voltage"))
-    breakdown_voltage_low = property(attrgetter("breakdown.breakdown_voltage_low"))
-    breakdown_voltage_high = property(attrgetter("breakdown.breakdown_voltage_high"))
-    margin = property(attrgetter("breakdown.margin"))
-    probability = property(attrgetter("breakdown.probability"))
-    breakdown_field_error = property(attrgetter("breakdown.breakdown_field_error"))
-    zone_position = property(attrgetter("zone.zone_position"))
-    zone_size = property(attrgetter("zone.zone_size"))
-    zone_area = property(attrgetter("zone.zone_area"))
-    zone_over_half_width = property(attrgetter("zone.zone_over_half_width"))
-    zone_over_largest_pit = property(attrgetter("zone.zone_over_largest_pit"))
-    zone_over_mean_pit = property(attrgetter("zone.zone_over_mean_pit"))
-    capacitance = property(attrgetter("capacitances.capacitance"))
-    capacitance_beyond = property(attrgetter("capacitances.capacitance_beyond"))
-    capacitance_hertz = property(attrgetter("capacitances.capacitance_hertz"))
-    capacitance_inlet = property(attrgetter("capacitances.capacitance_inlet"))
-    capacitance_outlet = property(attrgetter("capacitances.capacitance_outlet"))
-    capacitance_sides = property(attrgetter("capacitances.capacitance_sides"))
-    capacitance_plate = property(attrgetter("capacitances.capacitance_plate"))
-    capacitance_ratio = property(attrgetter("capacitances.capacitance_ratio"))
-    capacitance_outlet_full = property(attrgetter("capacitances.capacitance_outlet_full"))
-    capacitance_outlet_fingers = property(attrgetter("capacitances.capacitance_outlet_fingers"))
-    capacitance_outlet_layers = property(attrgetter("capacitances.capacitance_outlet_layers"))
-    capacitance_full = property(attrgetter("capacitances.capacitance_full"))
-    capacitance_fingers = property(attrgetter("capacitances.capacitance_fingers"))
-    capacitance_layers = property(attrgetter("capacitances.capacitance_layers"))
-    outlet = property(attrgetter("capacitances.outlet"))
-    contact_energy = property(attrgetter("costs.contact_energy"))
-    discharge_energy = property(attrgetter("costs.discharge_energy"))
-    breakdown_energy = property(attrgetter("costs.breakdown_energy"))
-    pit_volume = property(attrgetter("costs.pit_volume"))
-    pit_diameter = property(attrgetter("costs.pit_diameter"))
-    current_density = property(attrgetter("costs.current_density"))
-    current_density_limits = property(attrgetter("costs.current_density_limits"))
-    relaxation_time = property(attrgetter("leakage.relaxation_time"))
-    corner_frequency = property(attrgetter("leakage.corner_frequency"))
+    def __getattr__(self, name: str) -> Any:
+        if name not in _PART_OF:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        return getattr(getattr(self, _PART_OF[name]), name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *_PART_OF]
 
     def summary(self) -> dict[str, Any]:
         """Values of all parts, with their sources and assumptions, as in ``discharge`` of summary.json."""
         values: dict[str, Any] = {}
-        for part in (self.breakdown, self.zone, self.capacitances, self.costs, self.leakage):
-            values |= asdict(part)
+        for part in _PARTS:
+            values |= asdict(getattr(self, part))
         return values | {"sources": {key: text for key, text in SOURCES.items() if values[key] is not None}}
+
+
+_PARTS = {
+    "breakdown": Breakdown,
+    "zone": BreakdownZone,
+    "capacitances": Capacitances,
+    "costs": DischargeCosts,
+    "leakage": Leakage,
+}
+
+# Part that has a value, by the name of the value.
+_PART_OF = {value.name: part for part, kind in _PARTS.items() for value in fields(kind)}
 
 
 def assess(

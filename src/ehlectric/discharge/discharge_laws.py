@@ -1,7 +1,6 @@
 """Laws of a discharge: breakdown voltage and probability, energy, pit size, current density, and charge
-relaxation.
+relaxation time.
 
-Laws of a discharge: breakdown voltage and probability, energy, pit size, and charge relaxation time.
 All quantities are in SI units. The field is proportional to the voltage, so one solution serves all voltages.
 """
 

@@ -1,6 +1,4 @@
-"""Breakdown of a film: voltage, probability and place, use of the dielectric strength, and fields that no
-film carries.
-"""
+"""Breakdown of a film: voltage, probability, position, and fields that no film of a liquid withstands."""
 
 from __future__ import annotations
 
@@ -157,10 +155,7 @@ class Breakdown:
 
 
 def breakdown(discharge: Discharge, utilisation: FieldUtilisation, voltage: float, size: Size) -> Breakdown:
-    """Breakdown of a film by a Weibull law, a constant dielectric strength, or a table of it. ``voltage``
-    [V]. Returns breakdown voltage and probability; all None if the case gives neither a strength nor a
-    Weibull law.
-    """
+    """Breakdown of a film under a voltage [V] by a Weibull law, a dielectric strength, or a table of it."""
     if discharge.weibull is not None:
         return _weibull_breakdown(discharge, utilisation, voltage, size)
     if not discharge.has_strength:

@@ -1,10 +1,9 @@
-"""Capacitance of a contact by zone and by what fills its outlet, with the factor of roughness and the
-coating.
+"""Capacitance of a contact by zone and by the filling of its outlet, with coating and roughness.
 
-Factor by which roughness raises the capacitance of a film: the mean of 1/gap times the film thickness.
-The combined heights z of both surfaces have a Gaussian distribution with the root-mean-square height Rq.
-The gap at a place is g = h + z, where h is the mean film thickness. The capacitance of a thin film is the
-mean of eps/g. It is larger than eps/h, because a thin place adds more than a thick place takes away.
+Roughness raises the capacitance of a film by a factor, the mean of 1/gap times the film thickness. The
+combined heights z of both surfaces have a Gaussian distribution with the root-mean-square height Rq. The gap
+at a place is g = h + z, where h is the mean film thickness. The capacitance of a thin film is the mean of
+eps/g. It is larger than eps/h, because a thin place adds more than a thick place takes away.
 
 A place with a gap below a small ``touching`` gap belongs to an asperity in contact. It is a conductor, not a
 capacitor, and is left out. Without this limit the mean would be infinite, because the distribution has places
@@ -16,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,7 +30,7 @@ from ehlectric.errors import InputError, shown
 from ehlectric.field.line_field import Field
 from ehlectric.field.point_field import PointField
 from ehlectric.field.poisson import ATOM
-from ehlectric.field.zones import line_zone_areas, point_zone_areas
+from ehlectric.field.zones import areas_by_zone
 from ehlectric.film.isothermal_film import Film, PointFilm
 from ehlectric.lubricant.oil import Oil
 
@@ -67,25 +67,13 @@ def oil_fraction(thickness: Array, density: Array, cavitated: Mask) -> Array:
     return np.divide(carried, mass, out=np.ones_like(mass), where=cavitated & (mass > carried))
 
 
-def _full(permittivity: Array, _fraction: Array) -> Array:
-    return permittivity
-
-
-def _fingers(permittivity: Array, fraction: Array) -> Array:
-    return fraction * permittivity + (1.0 - fraction)
-
-
-def _layers(permittivity: Array, fraction: Array) -> Array:
-    return 1.0 / (fraction / permittivity + (1.0 - fraction))
-
-
 # Functions of the oil's relative permittivity and the oil fraction that give the relative permittivity of the
 # gap, by the name of the filling: oil alone; fingers of oil from wall to wall with gas beside them, in
 # parallel; layers of oil on the walls with gas between them, in series.
 OUTLETS: dict[str, Callable[[Array, Array], Array]] = {
-    "full": _full,
-    "fingers": _fingers,
-    "layers": _layers,
+    "full": lambda permittivity, _fraction: permittivity,
+    "fingers": lambda permittivity, fraction: fraction * permittivity + (1.0 - fraction),
+    "layers": lambda permittivity, fraction: 1.0 / (fraction / permittivity + (1.0 - fraction)),
 }
 
 
@@ -311,31 +299,25 @@ def capacitances(
     film: Film | PointFilm,
     field: Field | PointField,
 ) -> Capacitances:
-    """Capacitances of the zones of a contact, for each filling of the outlet. ``semi_axes``, half-width of a
-    line contact, or semi-axes of a point contact along and across entrainment [m]. Returns capacitances per
-    length [F/m] of a line contact, or [F] of a point contact.
+    """Capacitances of the zones of a contact, for each filling of the outlet.
+
+    ``semi_axes`` are the half-width of a line contact, or the semi-axes of a point contact along and across
+    entrainment [m].
     """
-    areas = line_zone_areas if len(semi_axes) == 1 else point_zone_areas
-    zones = areas(film.axes, *semi_axes), areas(field.axes, *semi_axes)
+    zones = areas_by_zone(film.axes, semi_axes), areas_by_zone(field.axes, semi_axes)
     by_outlet = zone_capacitances(film, field, zones, oil.permittivity(film.pressure, film.density))
-    chosen = by_outlet[discharge.outlet]
+    zones_of: dict[str, Any] = {f"capacitance_{name}": at for name, at in by_outlet[discharge.outlet].items()}
+    of_outlet = {f"capacitance_outlet_{name}": parts["outlet"] for name, parts in by_outlet.items()}
     total = {name: sum(parts.values()) for name, parts in by_outlet.items()}
     hertz = Size.of(semi_axes, discharge).hertz
     plate = epsilon_0 * oil.relative_permittivity * hertz / film.central_thickness
     return Capacitances(
         capacitance=total[discharge.outlet],
         capacitance_beyond=capacitance_beyond(film, oil.relative_permittivity),
-        capacitance_hertz=chosen["hertz"],
-        capacitance_inlet=chosen["inlet"],
-        capacitance_outlet=chosen["outlet"],
-        capacitance_sides=chosen.get("sides"),
+        **{"capacitance_sides": None} | zones_of,
         capacitance_plate=plate,
         capacitance_ratio=total[discharge.outlet] / plate,
-        capacitance_outlet_full=by_outlet["full"]["outlet"],
-        capacitance_outlet_fingers=by_outlet["fingers"]["outlet"],
-        capacitance_outlet_layers=by_outlet["layers"]["outlet"],
-        capacitance_full=total["full"],
-        capacitance_fingers=total["fingers"],
-        capacitance_layers=total["layers"],
+        **of_outlet,
+        **{f"capacitance_{name}": whole for name, whole in total.items()},
         outlet=discharge.outlet,
     )

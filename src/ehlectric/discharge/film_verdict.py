@@ -168,9 +168,9 @@ def contact_verdict(
 ) -> Verdict:
     """Verdict on a solved contact.
 
-    ``voltage`` [V]; ``error``, estimated discretisation error of the film, relative; None where it is not
-    known; ``field_error``, estimated error of the largest field strength by the grid of the field, relative;
-    None where it is not known. Returns grey without a strength, or where the film must not be used.
+    ``error`` and ``field_error`` are the estimated relative errors of the film and of the largest field
+    strength, None where they are not known. The verdict is grey without a dielectric strength, or where the
+    film must not be used.
     """
     warnings = tuple(warnings)
     refused = unusable(warnings)

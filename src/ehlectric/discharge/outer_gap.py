@@ -1,17 +1,16 @@
-"""Capacitance of the gap between two whole bodies, outside the domain of the solved film. SI units.
+"""Capacitance of the gap between two bodies, outside the domain of the solved film. SI units.
 
-Gap between two bodies with circular profiles: ball, roller, disc, plane, groove. SI units.
-The surface of a body is a circular arc across entrainment, with the curvature 1/ry, that turns about an axis
-parallel to y, at the distance rx from the contact. It is a ball for rx = ry, a cylinder for 1/ry = 0, a plane
-for 1/rx = 1/ry = 0, and otherwise part of a torus, such as a crowned roller or the groove of a raceway. A
-curvature is negative for a concave body.
+The bodies have circular profiles: ball, roller, disc, plane, groove. The surface of a body is a circular arc
+across entrainment, with the curvature 1/ry, that turns about an axis parallel to y, at the distance rx from
+the contact. It is a ball for rx = ry, a cylinder for 1/ry = 0, a plane for 1/rx = 1/ry = 0, and otherwise
+part of a torus, such as a crowned roller or the groove of a raceway. A curvature is negative for a concave
+body.
 
 A point Q of the near body is given by its arcs s along and t across entrainment from the contact, and z is
 its height towards the far body, whose nearest point at s = t = 0 is at z = gap. The gap at Q is its distance
 from the far body, along the far body's normal. All formulas are written with curvatures instead of radii, so
 that a plane needs no large number and no difference of large numbers occurs.
 
-Capacitance between two bodies outside the domain of a solved film. SI units.
 The gap is that of the undeflected bodies, opened by the deflection under the Hertz pressure. A constant is
 added with which the gap continues the film at the edge of its domain. ``points`` and ``charge_density`` give
 the charge on the near body. It is integrated from the edge of the domain to where the normal of the near body
@@ -191,11 +190,10 @@ def around_point(
 ) -> tuple[Outside, float]:
     """Gap around the film of a point contact.
 
-    ``modulus``, reduced modulus E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; ``film``, nodes x and y
-    of the film, and its thickness [m], shapes (nx,); ``width``, width of the bodies across entrainment, at
-    which the gap ends [m]; ``ring``, smallest and largest distance from the contact of the part that is
-    wanted [m]. Returns ``outside``, gap at nodes outside the domain of the film; ``mismatch``, largest
-    relative difference between film thickness and gap at the edge of the domain.
+    ``modulus`` is E' [Pa], with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. ``film`` has the nodes x (nx,) and
+    y (ny,) and the thickness (nx, ny) [m]. ``width`` is that of the bodies across entrainment, at which the
+    gap ends, and ``ring`` bounds the distance from the contact [m]. The second result is the largest relative
+    difference between film thickness and gap at the edge of the domain.
     """
     x, y, thickness = film
     rim = np.ones_like(thickness, dtype=bool)
@@ -230,10 +228,9 @@ def around_line(
 ) -> Outside:
     """Gap before and behind the film of a line contact.
 
-    ``half_width`` and ``reduced_radius``, half-width of the dry contact and reduced radius [m]; ``film``,
-    nodes of the film, and its thickness [m], shapes (nx,); ``length``, length of the contact across
-    entrainment [m]; ``ring``, smallest and largest distance from the contact of the part that is wanted [m].
-    Returns gap at nodes before the inlet and behind the outlet.
+    ``half_width`` and ``reduced_radius`` are those of the dry contact [m]. ``film`` has the nodes and the
+    thickness [m], both (nx,). ``length`` is that of the contact across entrainment, and ``ring`` bounds the
+    distance from the contact [m].
     """
     x, thickness = film
     starts = np.abs([x[0], x[-1]])

@@ -97,6 +97,11 @@ def point_zone_areas(axes: Axes, semi_axis_x: float, semi_axis_y: float) -> dict
     return {name: zone_areas(x, y, zone) for name, zone in zones.items()}
 
 
+def areas_by_zone(axes: Axes, semi_axes: tuple[float, ...]) -> dict[str, Array]:
+    """Width [m] or area [m^2] of each node, split by zone, of a contact with one semi-axis or two [m]."""
+    return line_zone_areas(axes, *semi_axes) if len(semi_axes) == 1 else point_zone_areas(axes, *semi_axes)
+
+
 def part_widths(x: Array, start: float, stop: float) -> Array:
     """Width that belongs to each node of a line between two positions.
 

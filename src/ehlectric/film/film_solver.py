@@ -4,6 +4,7 @@ of oil.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -269,21 +270,20 @@ def meniscus_of(mesh: Mesh, filled: Mask) -> float | None:
     return float(mesh.x[first]) if first > 0 else None
 
 
-def supplied_solution(problem: FilmProblem, progress: Progress | None) -> RefinedSolution:
-    """Solve the film of a problem: the starved one where its supply of oil is given, or the flooded one.
-    Returns solutions on all grids; a ``StarvedSolution`` where the supply of oil is given.
-    """
-    if problem.supply is None:
-        return refined_solution(problem, progress)
-    return _refined(problem, problem.supply, progress)
+def film_method(problem: FilmProblem) -> Callable[[FilmProblem, Progress | None], RefinedSolution]:
+    """Function that solves the film of a problem, flooded or with a given supply of oil."""
+    return refined_solution if problem.supply is None else starved_solution
 
 
-def _refined(problem: FilmProblem, supply: OilSupply, progress: Progress | None) -> StarvedSolution:
-    """Starved film whose grid is refined until its discretisation error is below the target.
+def starved_solution(problem: FilmProblem, progress: Progress | None) -> StarvedSolution:
+    """Solve the film of a problem with a supply of oil, and refine its grid until the error is below the
+    target.
 
     The flooded film is solved on each grid first. The grid is refined over the whole domain, that of a point
     contact at most twice.
     """
+    supply = problem.supply
+    assert supply is not None
     flooded = nested_iteration(problem, progress)
     found = _on_grids(problem, supply, flooded, [], progress)
     target, doubled, unknown = problem.target_error, 0, 0

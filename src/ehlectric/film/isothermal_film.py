@@ -12,7 +12,7 @@ from scipy.interpolate import RegularGridInterpolator
 from ehlectric.arrays import Array
 from ehlectric.film.film_error import lost_by_load, side_deficit
 from ehlectric.film.film_solution import FilmSolution, stationary_film
-from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, supplied_solution
+from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method
 from ehlectric.film.heated_film import film_of, film_status_of, heated_film
 from ehlectric.film.newton import COLLAPSED, Progress
 from ehlectric.film.problem import FilmProblem
@@ -106,7 +106,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     """
     with quiet_solution():
         if problem.physics is None:
-            return _film(supplied_solution(problem, progress))
+            return _film(film_method(problem)(problem, progress))
         found = film_of(problem, progress)
         simple, film = _film(found.simple), _film(found.refined)
         status = film_status_of(found, film.status)
@@ -268,7 +268,7 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     assert problem.width is not None
     with quiet_solution():
         if problem.physics is None:
-            return _point_film(problem, supplied_solution(problem, progress))
+            return _point_film(problem, film_method(problem)(problem, progress))
         found = film_of(problem, progress)
         simple, film = _point_film(problem, found.simple), _point_film(problem, found.refined)
         status = film_status_of(found, film.status)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlectric.errors import ConvergenceError
-from ehlectric.film.film_solver import StarvedSolution, supplied_solution
+from ehlectric.film.film_solver import starved_solution
 from ehlectric.film.nested import nested_iteration
 from ehlectric.film.newton import GridSolution, State
 from ehlectric.film.patch import Patch
@@ -59,8 +59,7 @@ class MovingFilm:
             if self.problem.supply is None:
                 steady, starved = nested_iteration(self.problem, None)[-1], None
             else:
-                found = supplied_solution(replace(self.problem, target_error=None), None)
-                assert isinstance(found, StarvedSolution)
+                found = starved_solution(replace(self.problem, target_error=None), None)
                 steady, starved = found.last, found.film
         if steady.status != "converged":
             raise ConvergenceError(f"film before the motion, {steady.status}")

@@ -7,9 +7,9 @@ not converge, or if the film is thinner somewhere than the boundary film, the su
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator, RegularGridInterpolator
@@ -116,7 +116,7 @@ def _full_film(
         found = _in_place_of(found, _conserving(problem, levels, start, progress, times=times))
         if missed and found[-1].status == "converged" and not forms_again(found[-1].final.full_film):
             # Nothing forms again, so that the film of the other scheme is close.
-            other = _solve_grid(problem, levels, found[-1].state, progress, spike=True)
+            other = _newton_on(problem, levels, progress, spike=True)(found[-1].state)
             found = _in_place_of(found, other)
     return found
 
@@ -245,7 +245,7 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
         tolerance=NESTED_TOLERANCE,
     )
     levels = levels_of(posed, roughness=1.0)
-    return _solve_grid(posed, levels, start, None, spike=True)
+    return _newton_on(posed, levels, None, spike=True)(start)
 
 
 def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
@@ -300,25 +300,20 @@ def _line_levels(
     return tuple(hierarchy(nodes, inlet=inlet, outlet=outlet, geometry=geometry, wedge_order=wedge_order))
 
 
-def _solve_grid(
-    problem: FilmProblem,
-    levels: list[Level],
-    state: State,
-    progress: Progress | None,
-    *,
-    spike: bool,
-) -> GridSolution:
-    """Solve the film equations on the first of ``levels`` from the initial guess ``state``.
+def _newton_on(
+    problem: FilmProblem, levels: list[Level], progress: Progress | None, *, spike: bool
+) -> Callable[[State], GridSolution]:
+    """Newton's method for the film equations on the first of ``levels``: a function of the initial guess.
 
     The tolerance is that of the problem on its own grid, and larger on coarser grids. ``spike`` tells whether
     to solve the nodes of the pressure spike separately.
     """
     finest = levels[0].nodes == problem.nodes
     direct = problem.width is None and levels[0].nodes <= DIRECT
-    return newton(
+    return partial(
+        newton,
         problem.fluid,
         levels[:1] if direct else levels,
-        state,
         tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
         max_iterations=problem.max_iterations,
         # The residual of an interpolated film may be small although the film is that of the coarser grid.
@@ -338,7 +333,7 @@ def _from_coarser(
     """
     state = interpolated_state(levels[0], coarse)
     state = state.lifted(0.5 * float(coarse.state.thickness.min()))
-    return _solve_grid(problem, levels, state, progress, spike=True)
+    return _newton_on(problem, levels, progress, spike=True)(state)
 
 
 def interpolated_state(level: Level, coarse: GridSolution) -> State:
@@ -429,7 +424,7 @@ def _from_hertz(
         loosely = problem
         if problem.width is None:
             loosely = replace(problem, tolerance=max(problem.tolerance, _WARM_TOLERANCE))
-        start = _solve_grid(loosely, monotone, state, progress, spike=False)
+        start = _newton_on(loosely, monotone, progress, spike=False)(state)
         yield start
         state = start.state if start.status == "converged" else state
-    yield _solve_grid(problem, levels, state, progress, spike=False)
+    yield _newton_on(problem, levels, progress, spike=False)(state)

@@ -1,7 +1,7 @@
 """Companion of a run: the same motion on every second node with steps twice as long, for an error
 estimate.
 
-The companion is solved beside the run. It takes about a fifth of the time of the run: it has half the steps,
+It is solved step by step with the run. It takes about a fifth of the time of the run: it has half the steps,
 each with half the nodes of a line contact or a quarter of those of a point contact.
 ``ehlectric.motion.summary`` compares the two films.
 """
@@ -45,7 +45,7 @@ class KeyFilms:
 
 
 class Companion:
-    """Run on every second node with steps twice as long, advanced beside the run that it accompanies.
+    """Run on every second node with steps twice as long, advanced together with its run.
 
     Its steps end with every second step of the run. A run whose companion does not converge goes on without
     it, and its error is unknown.

@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlectric.arrays import Array, Mask
 from ehlectric.contact.touching import Spots, load_of
-from ehlectric.field.zones import line_zone_areas, point_zone_areas
+from ehlectric.field.zones import areas_by_zone
 from ehlectric.film.mesh import Mesh
 from ehlectric.film.newton import State
 from ehlectric.motion.moving_contact import TransientContact
@@ -42,8 +42,7 @@ class Toucher:
     @cached_property
     def _zone(self) -> Array:
         """Part of each node in the area of the Hertz zone, in sum one."""
-        zones = line_zone_areas if len(self._axes) == 1 else point_zone_areas
-        zone: Array = zones(self._axes, *self._contact.conditions.semi_axes)["hertz"]
+        zone = areas_by_zone(self._axes, self._contact.conditions.semi_axes)["hertz"]
         return zone / np.sum(zone)
 
     def at(self, state: State) -> Touch:

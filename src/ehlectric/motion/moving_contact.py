@@ -1,19 +1,12 @@
-"""Transient contact: conditions, time steps, moving surfaces, film equations, and what differs between the
-kinds.
-
-Schedule of a transient contact: time steps, speeds of the surfaces, and when roughness fills the contact.
-The schedule follows from the case and its conditions alone; it does not need the heights of the surfaces.
+"""Transient contact: conditions, time steps, moving surfaces, film equations, and the kinds line and point.
 
 Time is dimensionless, T = t u/b, and positions are in half-widths, X = x/b. Here u is the entrainment speed,
 the mean speed of the surfaces, and b is the half-width. At T = 0 all moving roughness lies outside the
 domain. A point at x in the case is at x - D + u_k t at the time t. Here D is the length of the domain, and
-u_k is the speed of its surface. At the time D/u_k the point is at its position in the case.
-
-Moving roughness: heights of the surfaces of a transient contact over position and time.
-The case describes each surface at rest. A point at x in the case is at x - D + u_k t at the time t. Here D is
-the length of the domain and u_k the speed of its surface. If u_k is negative, the point is at x + D + u_k t.
-Roughness that lies beyond the far end of the domain in the case is left out. Moving roughness therefore
-begins with a front, behind which its height rises from zero over one half-width.
+u_k is the speed of its surface. At the time D/u_k the point is at its position in the case. If u_k is
+negative, the point is at x + D + u_k t. Roughness that lies beyond the far end of the domain in the case is
+left out. Moving roughness therefore begins with a front, behind which its height rises from zero over one
+half-width.
 """
 
 from __future__ import annotations
@@ -29,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
-from ehlectric.arrays import Array, Mask
+from ehlectric.arrays import Array
 from ehlectric.cases.case import Case
 from ehlectric.cases.grid_inputs import Grid
 from ehlectric.contact import contact_kinds
@@ -143,8 +136,9 @@ class Schedule:
 
 
 def schedule_of(case: Case, conditions: Conditions | PointConditions) -> Schedule:
-    """Schedule of a case with moving roughness. Returns time steps and speeds. Raises InputError if the case
-    has no ``motion``, or all rough surfaces are at rest.
+    """Time steps and speeds of a case with moving roughness.
+
+    Raises an InputError if the case has no ``motion``, or all rough surfaces are at rest.
     """
     if case.motion is None:
         raise InputError.worded("motion", "missing; a case whose roughness moves needs it")
@@ -229,9 +223,9 @@ class MovingRoughness:
         return [surface for surface in self.surfaces if not self.schedule.speed_of(surface.surface)]
 
     def heights(self, time: float, *axes: Array) -> Array:
-        """Roughness heights of both surfaces at a time. ``time``, time T, dimensionless; ``*axes``, positions
-        X, shape (nx,), and of a point contact also Y, shape (ny,) [half-widths]. Returns heights, positive
-        out of the body [m], shape (2, nx) or (2, nx, ny).
+        """Heights of both surfaces at the time T [m], positive out of the body, shape (2, nx) or (2, nx, ny).
+
+        The axes are the positions X (nx,), and of a point contact also Y (ny,) [half-widths].
         """
         heights = np.zeros((2, *(axis.size for axis in axes)))
         for surface in self.surfaces:
@@ -285,8 +279,6 @@ class Kind(Generic[C, R, F, E]):
     film: Callable[[FilmSolution, FilmProblem, Mesh], F]
     # Largest field strength across the film at its nodes [V/m]; NaN outside the field range.
     column_strength: Callable[[F, E], Array]
-    # Mask of the nodes in the Hertz zone, from the conditions and the positions along each axis [m].
-    in_hertz_zone: Callable[..., Mask]
 
 
 AnyKind: TypeAlias = Kind[Any, Any, Any, Any]
@@ -322,15 +314,6 @@ def _point_column_strength(film: PointFilm, field: PointField) -> Array:
     return strength
 
 
-def _in_line_zone(conditions: Conditions, x: Array) -> Mask:
-    return np.asarray(np.abs(x) < conditions.half_width)
-
-
-def _in_point_zone(conditions: PointConditions, x: Array, y: Array) -> Mask:
-    along, across = x[:, np.newaxis] / conditions.semi_axis_x, y / conditions.semi_axis_y
-    return np.asarray(np.hypot(along, across) < 1.0)
-
-
 LINE = Kind[Conditions, RoughSurface, Film, Field](
     name="line",
     axes=("x",),
@@ -341,7 +324,6 @@ LINE = Kind[Conditions, RoughSurface, Film, Field](
     shaped=lambda _mesh, values: values[:, 0],
     film=lambda solution, _problem, _mesh: Film.of(solution),
     column_strength=_line_column_strength,
-    in_hertz_zone=_in_line_zone,
 )
 POINT = Kind[PointConditions, RoughMap, PointFilm, PointField](
     name="point",
@@ -353,7 +335,6 @@ POINT = Kind[PointConditions, RoughMap, PointFilm, PointField](
     shaped=lambda mesh, values: mesh.mirrored(values),
     film=_point_film,
     column_strength=_point_column_strength,
-    in_hertz_zone=_in_point_zone,
 )
 KINDS: dict[Literal["line", "point"], AnyKind] = {"line": LINE, "point": POINT}
 
@@ -375,9 +356,9 @@ class TransientContact:
 
     @classmethod
     def of(cls, case: Case, rough: Sequence[RoughSurface | RoughMap] = ()) -> TransientContact:
-        """Contact of a case, with its surfaces generated or read. Returns contact that is ready to be solved
-        in time steps. Raises InputError if the schedule is refused (see ``schedule_of``), or a surface cannot
-        be generated or read.
+        """Contact of a case, with its surfaces generated or read.
+
+        Raises an InputError if ``schedule_of`` refuses the case, or a surface cannot be generated or read.
         """
         kind = KINDS[case.contact.geometry]
         conditions = kind.contact.resolve(case)
@@ -411,9 +392,8 @@ class TransientContact:
     def moving_gap(self, time: float, x: Array, y: Array) -> Array:
         """Contribution of moving roughness to the dimensionless gap; peaks reduce the gap.
 
-        ``time``, time T, dimensionless; ``x``, positions X along entrainment [half-widths], shape (nx,);
-        ``y``, positions Y across entrainment [half-widths]; not used by a line contact, shape (ny,). Returns
-        change of the gap divided by the scale of the film thickness, dimensionless, shape (nx, ny).
+        It has the shape (nx, ny) at the time T and the positions X (nx,) and Y (ny,) [half-widths]. A line
+        contact does not use Y.
         """
         heights = self.roughness.moving_height(time, *(x, y)[: len(self.kind.axes)])
         gap: Array = -heights.reshape(x.size, y.size) / self.conditions.thickness_scale
@@ -421,9 +401,9 @@ class TransientContact:
 
 
 def travelled_case(case: Case, schedule: Schedule) -> Case:
-    """Case whose domain is extended to the length of the surfaces that pass through the contact. Returns case
-    with the same grid spacing; the domain is extended along entrainment only, so the number of nodes across
-    is the same.
+    """Case whose domain is extended to the length of the surfaces that pass through the contact.
+
+    The grid spacing and the number of nodes across entrainment stay the same.
     """
     grid, length = case.grid, schedule.length
     inlet, outlet = schedule.domain

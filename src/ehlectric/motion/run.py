@@ -38,10 +38,9 @@ def run(
 ) -> RunOutcome[xr.Dataset]:
     """Solve a contact with moving roughness, and write motion.nc and summary.json.
 
-    ``folder``, folder of the files; it is made if it does not exist. Returns its result is the dataset of
-    ``read_motion``. Raises InputError where the case or the folder cannot be used, or another command writes
-    into the folder; ConvergenceError where the film before the motion is not converged, so that there is
-    nothing to sum up.
+    The folder is made if it does not exist, and the result is the dataset of ``read_motion``. Raises an
+    InputError where the case or the folder cannot be used, or another command writes into the folder, and a
+    ConvergenceError where the film before the motion did not converge.
     """
     prepared = check_case(case)
     contact = TransientContact.of(case, prepared.rough)

@@ -19,7 +19,6 @@ from ehlectric.film.film_solution import FilmSolution, pressure_of
 from ehlectric.film.film_solver import meniscus_of
 from ehlectric.film.gap import Gap
 from ehlectric.film.isothermal_film import Film, PointFilm
-from ehlectric.film.levels import Level
 from ehlectric.film.moving_patch import MovingFilm
 from ehlectric.film.unsteady import History, Instant
 from ehlectric.motion.companion import KeyFilms
@@ -58,15 +57,13 @@ class TransientSolver:
         self._moving = MovingFilm(contact.problem, contact.moving_gap)
 
     def start(self) -> History:
-        """Stationary film before any moving roughness has entered: the initial condition of the run. Raises
-        ConvergenceError if the stationary film does not converge.
-        """
+        """Stationary film before any moving roughness has entered: the initial condition of the run."""
         return self._moving.start(self.contact.schedule.step)
 
     def run(self, history: History, done: int = 0) -> Iterator[tuple[int, History]]:
-        """Solve the time steps after step ``done``. Yields number of a step, and the films of the last two
-        instants after it. Raises ConvergenceError if a time step does not converge, even after it was halved
-        several times.
+        """Solve the time steps after step ``done``: the number of each step, and the last two films after it.
+
+        Raises a ConvergenceError if a time step does not converge, even after it was halved several times.
         """
         schedule = self.contact.schedule
         for step in range(done + 1, schedule.steps + 1):
@@ -116,7 +113,30 @@ class TransientSolver:
         moving = self._moving
         whole = moving.whole(instant)
         fraction = None if moving.starved is None else instant.oil_fraction
-        return film_of(self.contact, moving.steady.level, whole, fraction)
+        level, contact = moving.steady.level, self.contact
+        scales, state, mesh = contact.problem.scales, whole.state, level.mesh
+
+        def shaped(values: NDArray[Any]) -> NDArray[Any]:
+            return contact.kind.shaped(mesh, values)
+
+        load = Gap(level, state.thickness).load(state.pressure)
+        solution = FilmSolution(
+            x=scales.length * mesh.x,
+            pressure=shaped(pressure_of(scales, state, whole.full_film)),
+            thickness=shaped(scales.thickness * state.thickness),
+            deflection=shaped(scales.thickness * level.deflection(state.pressure)),
+            density=shaped(whole.density),
+            cavitated=shaped(~whole.full_film & ~state.touching),
+            contact_pressure=(
+                shaped(scales.pressure * np.asarray(state.contact_pressure)) if state.touching.any() else None
+            ),
+            scales=scales,
+            status="converged",
+            load_residual=abs(load / level.load - 1.0),
+            film_fraction=None if fraction is None else shaped(fraction),
+        )
+        film: Film | PointFilm = contact.kind.film(solution, contact.problem, mesh)
+        return film
 
     def meniscus(self, instant: Instant) -> float:
         """Position on the line y = 0 from which oil fills the gap [m]; NaN if the inlet is flooded."""
@@ -124,35 +144,3 @@ class TransientSolver:
             return math.nan
         found = meniscus_of(self._moving.film.level.mesh, instant.full_film)
         return math.nan if found is None else self.contact.problem.scales.length * found
-
-
-def film_of(
-    contact: TransientContact, level: Level, instant: Instant, fraction: Array | None = None
-) -> Film | PointFilm:
-    """Film of a transient contact at an instant, on the finest grid, SI units.
-
-    ``fraction`` (nx, ny) is the part of the gap that oil fills; None if the inlet is flooded.
-    """
-    scales, state, mesh = contact.problem.scales, instant.state, level.mesh
-
-    def shaped(values: NDArray[Any]) -> NDArray[Any]:
-        return contact.kind.shaped(mesh, values)
-
-    load = Gap(level, state.thickness).load(state.pressure)
-    solution = FilmSolution(
-        x=scales.length * mesh.x,
-        pressure=shaped(pressure_of(scales, state, instant.full_film)),
-        thickness=shaped(scales.thickness * state.thickness),
-        deflection=shaped(scales.thickness * level.deflection(state.pressure)),
-        density=shaped(instant.density),
-        cavitated=shaped(~instant.full_film & ~state.touching),
-        contact_pressure=(
-            shaped(scales.pressure * np.asarray(state.contact_pressure)) if state.touching.any() else None
-        ),
-        scales=scales,
-        status="converged",
-        load_residual=abs(load / level.load - 1.0),
-        film_fraction=None if fraction is None else shaped(fraction),
-    )
-    film: Film | PointFilm = contact.kind.film(solution, contact.problem, mesh)
-    return film

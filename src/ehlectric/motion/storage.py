@@ -1,12 +1,9 @@
-"""File of a transient run: its variables, how it grows, and how a stopped run is resumed from it.
+"""File of a transient run, written while the run is solved and read again to resume it.
 
-File of a transient run, written while the run is solved and read again to resume it.
 The file is closed between two recorded instants, so it is intact when the run stops there. An instant is
 written whole or not at all: HDF5 changes a draft of the file in memory, which is then written to the disk.
-The films from which a run is resumed are stored twice (see ``ehlectric.motion.storage``). Maps are stored in
-single precision. The films from which a run is resumed are stored in double precision.
+Maps are stored in single precision.
 
-Last two films of a transient run in its file, from which a stopped run is resumed.
 The time integration uses the films of the last two instants, so a run is resumed from both. The group
 "resume" of the file stores them in double precision, alternately in two places. If the run stops while an
 instant is written, the other place is still intact. A checksum of each place tells whether it is complete.
@@ -17,7 +14,7 @@ from __future__ import annotations
 import json
 import math
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -240,8 +237,16 @@ def described(contact: TransientContact) -> str:
     return json.dumps(plain([surface.describe() for surface in contact.roughness.surfaces]))
 
 
-# Variables of an instant over the mesh, and its scalars: time T and rigid separation H00.
-_OVER_MESH = ("pressure", "thickness", "mass", "density", "free")
+# Stored values of an instant: those over the mesh, and its time T and rigid separation H00.
+_VALUES: Mapping[str, Callable[[Instant], Any]] = {
+    "pressure": lambda instant: instant.state.pressure,
+    "thickness": lambda instant: instant.state.thickness,
+    "mass": lambda instant: instant.mass,
+    "density": lambda instant: instant.density,
+    "free": lambda instant: instant.full_film,
+    "t": lambda instant: instant.time,
+    "h00": lambda instant: instant.state.h00,
+}
 _NUMBERS = ("t", "h00")
 
 # Variable over the mesh that a file has from the first instant on whose surfaces touch.
@@ -289,7 +294,7 @@ def kept(file: Any, frames: int, *, group: str = _FINE) -> History | None:
     None if no instant is recorded, or its place is not complete. A missing variable raises a KeyError.
     """
     variables, place = file.groups[group].variables, (frames - 1) % _PLACES
-    names = [*_OVER_MESH, *_NUMBERS, *([_TOUCHING] if _TOUCHING in variables else [])]
+    names = [*_VALUES, *([_TOUCHING] if _TOUCHING in variables else [])]
     values = {name: np.asarray(variables[name][place]) for name in names}
     if not frames or _checksum(values) != int(variables["checksum"][place]):
         return None
@@ -299,7 +304,7 @@ def kept(file: Any, frames: int, *, group: str = _FINE) -> History | None:
 def _create(file: Any, name: str, shape: tuple[int, ...]) -> None:
     group = file.create_group(name)
     group.dimensions = {"place": _PLACES, "instant": 2, "along": shape[0], "across": shape[1]}
-    for variable in (*_OVER_MESH, *_NUMBERS):
+    for variable in _VALUES:
         _add_state(group, variable)
     group.create_variable("checksum", ("place",), "i8")
 
@@ -316,7 +321,7 @@ def _type_of(name: str) -> str:
 def _checksum(values: Mapping[str, Array]) -> int:
     """CRC-32 of the values, in the order and with the types of the file."""
     total = 0
-    for name in (*_OVER_MESH, *_NUMBERS, *([_TOUCHING] if _TOUCHING in values else [])):
+    for name in (*_VALUES, *([_TOUCHING] if _TOUCHING in values else [])):
         total = zlib.crc32(np.ascontiguousarray(values[name], dtype=_type_of(name)).tobytes(), total)
     return total
 
@@ -329,15 +334,7 @@ def _touches(history: History) -> bool:
 def _values_of(history: History) -> dict[str, Array]:
     """Values of both instants by the names of their variables, the last instant first."""
     instants = history.now, history.before
-    values = {
-        "pressure": np.stack([instant.state.pressure for instant in instants]),
-        "thickness": np.stack([instant.state.thickness for instant in instants]),
-        "mass": np.stack([instant.mass for instant in instants]),
-        "density": np.stack([instant.density for instant in instants]),
-        "free": np.stack([instant.full_film for instant in instants]),
-        "t": np.array([instant.time for instant in instants]),
-        "h00": np.array([instant.state.h00 for instant in instants]),
-    }
+    values = {name: np.stack([value(instant) for instant in instants]) for name, value in _VALUES.items()}
     if _touches(history):
         over = [np.broadcast_to(each.state.contact_pressure, each.mass.shape) for each in instants]
         values[_TOUCHING] = np.stack(over)

@@ -136,13 +136,13 @@ def summary_of(dataset: xr.Dataset) -> dict[str, Any]:
         "converged": complete,
         **texts_and_codes([*warnings_in(attributes), *_halved(run), *_unreliable(run)]),
         "inputs": run.case.to_dict(),
-        "motion": _course(run),
+        "motion": _progress(run),
         "film": _film(run),
         "field": _field(run),
         "asperities": _asperities(TouchHistory.whole(run)),
         "discharge": _discharge(run),
         "stationary": json.loads(attributes["stationary"]),
-        "beside_stationary": _beside(run),
+        "beside_stationary": _compared_with_stationary(run),
         "rough": json.loads(attributes["rough"]),
         "seconds": float(attributes["seconds"]),
     }
@@ -222,7 +222,7 @@ def _field_error(run: MotionRun) -> float | None:
     return float(np.max(errors)) if errors.size and np.all(np.isfinite(errors)) else None
 
 
-def _course(run: MotionRun) -> dict[str, Any]:
+def _progress(run: MotionRun) -> dict[str, Any]:
     dataset = run.dataset
     steps = dataset.sizes["step"] - 1
     return run.schedule.described() | {
@@ -319,12 +319,14 @@ def local_maxima(run: MotionRun, within: Mask) -> Array:
     neighbouring nodes, from all these instants together [V/m], shape (n,).
     """
     strength = np.nan_to_num(run.dataset["strength"].values[within], nan=-np.inf)
-    inside = run.kind.in_hertz_zone(run.conditions, *(run.dataset[axis].values for axis in run.kind.axes))
+    axes = zip(run.kind.axes, run.conditions.semi_axes, strict=True)
+    places = np.meshgrid(*(run.dataset[axis].values / half for axis, half in axes), indexing="ij")
+    inside = (np.hypot(*places) if len(places) > 1 else np.abs(places[0])) < 1.0
     size = (1, *(3 for _ in run.kind.axes))
     neighbours = np.ones(size, dtype=bool)
     neighbours[tuple(n // 2 for n in size)] = False
-    beside = maximum_filter(strength, footprint=neighbours, mode="constant", cval=-np.inf)
-    peaks: Array = strength[(strength > beside) & inside]
+    around = maximum_filter(strength, footprint=neighbours, mode="constant", cval=-np.inf)
+    peaks: Array = strength[(strength > around) & inside]
     return peaks.astype(float)
 
 
@@ -371,7 +373,7 @@ def instant_beside(run: MotionRun) -> int | None:
     return nearest if away[nearest] <= _NEAR * schedule.step * schedule.time else None
 
 
-def _beside(run: MotionRun) -> dict[str, Any] | None:
+def _compared_with_stationary(run: MotionRun) -> dict[str, Any] | None:
     """Differences between moving and stationary roughness when both are in the same position.
 
     The nodes with abs(x) < b are compared. None if no such instant is recorded.

@@ -1,8 +1,4 @@
-"""Generated profiles over the domain of a contact: exact shapes, and random ones from a seed.
-
-Generated profiles for line contacts: exact shapes, and random profiles from a seed.
-Heights are positive out of the body.
-"""
+"""Generated profiles for line contacts, positive out of the body: exact shapes, and random ones by a seed."""
 
 from __future__ import annotations
 

@@ -35,9 +35,9 @@ _MOST_STEPS = 5000
 
 
 def without_void_borders(heights: Array) -> Array:
-    """Map without the outer rows and columns that have no data at all. ``heights``, heights in any unit, NaN
-    at voids, shape (nx, ny). Returns heights over the smallest rectangle that contains all points with data;
-    empty if there are none.
+    """Heights (nx, ny), NaN at voids, without the outer rows and columns that have no data at all.
+
+    Empty if no point has data.
 
     Examples
     --------
@@ -50,11 +50,8 @@ def without_void_borders(heights: Array) -> Array:
     there = np.isfinite(heights)
     if not there.any():
         return heights[:0, :0]
-    kept = []
-    for other in (1, 0):
-        lines = np.flatnonzero(there.any(axis=other))
-        kept.append(slice(lines[0], lines[-1] + 1))
-    return heights[kept[0], kept[1]]
+    rows, columns = (np.flatnonzero(there.any(axis=other)) for other in (1, 0))
+    return heights[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
 
 
 def filled(heights: Array, spacing_x: float, spacing_y: float) -> Array:

@@ -1,18 +1,14 @@
-"""Roughness of a contact: the height of each rough surface as a function of position, beyond its measured
-length too.
+"""Roughness of a contact: the height of each rough surface as a function of position.
 
-Roughness of a line contact: the height of each rough surface as a function of position.
-The midpoint of a profile lies at x = 0. A profile that is shorter than the domain is continued by the key
-``extend`` of the case. The warnings about a profile are in ``ehlectric.surfaces.surface_warnings``.
-
-Roughness of a point contact: the height of each rough surface as a function of position (x, y).
-A measured map is used whole. A measured profile, or one line of a map, is extended along the lay, across its
-own direction. Lengths are in metres, and x runs along entrainment.
+The midpoint of a profile or map lies at the centre of the contact, and x runs along entrainment. A surface
+that is shorter than the domain is continued by the key ``extend`` of the case. In a point contact a measured
+map is used whole. A measured profile, or one line of a map, is extended along the lay, across its own
+direction. Lengths are in metres.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from itertools import chain
@@ -30,7 +26,6 @@ from ehlectric.surfaces.generated_profiles import Domain, turned
 from ehlectric.surfaces.maps import Map, processed_map
 from ehlectric.surfaces.maps import statistics as map_statistics
 from ehlectric.surfaces.profiles import TAPER, Points, Processing, Profile, processed, rms, statistics
-from ehlectric.surfaces.profiles import statistics as of_profile
 from ehlectric.surfaces.surface_files import Surface, read_surface
 
 # Height of a map [m] as a function of positions x and y [m] whose shapes broadcast, and height of a profile
@@ -40,8 +35,7 @@ Height = Callable[[Array], Array]
 
 
 def continued_map(surface: Map, extend: str) -> MapHeight:
-    """Height of a map at any position: a bicubic spline inside the map, and its continuation outside. Returns
-    height [m] as a function of positions x and y [m] whose shapes broadcast.
+    """Height [m] of a map at any position x and y [m]: a bicubic spline inside, and its continuation outside.
 
     Examples
     --------
@@ -88,8 +82,7 @@ def _joined(z: Array, fade: Array) -> Array:
 
 
 def continued(profile: Profile, extend: str) -> Height:
-    """Height of a profile at any position: a cubic spline inside the profile, and its continuation outside.
-    Returns height [m], shape (n,), as a function of positions [m], shape (n,).
+    """Height [m] of a profile at any position [m]: a cubic spline inside, and its continuation outside.
 
     Examples
     --------
@@ -179,25 +172,25 @@ class RoughSurface:
 
     def describe(self) -> dict[str, Any]:
         """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
-        read = self.surface_read
-        return {
-            "surface": self.surface,
-            "source": None if read is None else read.source,
-            "size": None if read is None else list(read.heights.shape),
-            "voids": self.voids,
-            "height_step": None if read is None else read.height_step,
-            "steps": [
-                {"step": name, "points": profile.heights.size, "spacing": profile.spacing}
-                | vars(statistics(profile))
-                for name, profile in self.steps
-            ],
-        }
+        return _described(self)
+
+
+def _described(rough: RoughSurface | RoughMap) -> dict[str, Any]:
+    read = rough.surface_read
+    return {
+        "surface": rough.surface,
+        "source": None if read is None else read.source,
+        "size": None if read is None else list(read.heights.shape),
+        "voids": rough.voids,
+        "height_step": None if read is None else read.height_step,
+        "steps": [{"step": name} | _described_step(step) for name, step in rough.steps],
+    }
 
 
 def rough_surfaces(tables: Sequence[Roughness], domain: Domain) -> list[RoughSurface]:
-    """Read or generate the roughness of a line contact. ``tables`` [roughness], ``domain`` [m]. Returns one
-    surface per table, in their order. Raises InputError if a file cannot be used, or a shape does not fit the
-    domain.
+    """Rough surfaces of a line contact, read or generated, one for each table.
+
+    Raises an InputError if a file cannot be used, or a shape does not fit the domain.
     """
     return [_rough_surface(table, domain) for table in tables]
 
@@ -240,15 +233,24 @@ def _cut(height: Height, limit: float | None) -> Height:
 
 
 def _shape(table: Roughness, domain: float) -> Height:
+    return _shifted(_exact_shape(table, generators.SHAPES, ("the domain", domain)), table.shift)
+
+
+def _exact_shape(
+    table: Roughness, shapes: Mapping[str, Callable[..., Array]], widest: tuple[str, float]
+) -> Callable[..., Array]:
+    """Exact shape of a table; ``widest`` is the name and the length [m] that bound its width."""
     names = chain(*GENERATORS[str(table.generator)])
     values: dict[str, Any] = {
         name: getattr(table, name) for name in names if getattr(table, name) is not None
     }
-    if values.get("width", 0.0) > domain:
+    if values.get("width", 0.0) > widest[1]:
         raise InputError(
-            "roughness.width", got=f"{values['width']:.3g} m", takes=f"less than the domain, {domain:.3g} m"
+            "roughness.width",
+            got=f"{values['width']:.3g} m",
+            takes=f"less than {widest[0]}, {widest[1]:.3g} m",
         )
-    return _shifted(partial(generators.SHAPES[str(table.generator)], **values), table.shift)
+    return partial(shapes[str(table.generator)], **values)
 
 
 def _shifted(height: Height, shift: float) -> Height:
@@ -260,22 +262,15 @@ def _random(table: Roughness, domain: float, reach: float) -> Profile:
     assert table.rq is not None and table.seed is not None
     key = "correlation_length" if table.generator == "gaussian" else "rolloff_wavelength"
     longest = getattr(table, key)
-    if longest > MOST_OF_DOMAIN * domain:
-        raise InputError(
-            f"roughness.{key}",
-            got=f"{longest:.3g} m",
-            takes=f"at most {MOST_OF_DOMAIN * domain:.3g} m, a tenth of the domain: the heights of "
-            "fewer waves are those of chance",
-        )
-    trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
     common: dict[str, Any] = {"rq": table.rq, "seed": table.seed}
     shortest = table.shortest_wavelength or longest / 100.0
     if table.generator == "gaussian":
         finest = longest / generators.POINTS_IN_CORRELATION
     else:
         finest = shortest / generators.POINTS_IN_SHORTEST
-    common["length"] = 2.0 * (reach + trim + _MARGIN * finest)
+    common["length"] = 2.0 * (reach + _trim(table) + _MARGIN * finest)
     try:
+        _check_waves(key, longest, ("the domain", domain))
         if table.generator == "gaussian":
             return generators.gaussian(correlation_length=longest, **common)
         assert table.hurst is not None
@@ -311,37 +306,26 @@ class RoughMap:
     warnings: tuple[ResultWarning, ...] = ()  # warnings about the file and the processing steps
 
     def height(self, x: Array, y: Array) -> Array:
-        """Heights of the surface at the nodes of a grid. ``x``, positions along entrainment [m], zero at the
-        centre of the contact, shape (nx,); ``y``, positions across entrainment [m], shape (ny,). Returns
-        heights [m], positive out of the body, shape (nx, ny).
-        """
+        """Heights (nx, ny) at the nodes x (nx,) and y (ny,) of a grid, all [m], positive out of the body."""
         return self.at(*np.meshgrid(x, y, indexing="ij"))
 
     def describe(self) -> dict[str, Any]:
         """Source, processing steps and statistics of the surface in SI units, for the files of a result."""
-        read = self.surface_read
-        return {
-            "surface": self.surface,
-            "source": None if read is None else read.source,
-            "size": None if read is None else list(read.heights.shape),
-            "voids": self.voids,
-            "height_step": None if read is None else read.height_step,
-            "steps": [{"step": name} | _described(step) for name, step in self.steps],
-        }
+        return _described(self)
 
 
-def _described(step: Map | Profile) -> dict[str, Any]:
+def _described_step(step: Map | Profile) -> dict[str, Any]:
     if isinstance(step, Profile):
-        return {"points": step.heights.size, "spacing": step.spacing} | vars(of_profile(step))
+        return {"points": step.heights.size, "spacing": step.spacing} | vars(statistics(step))
     nx, ny = step.heights.shape
     size = {"points_x": nx, "points_y": ny, "spacing_x": step.spacing_x, "spacing_y": step.spacing_y}
     return size | vars(map_statistics(step))
 
 
 def rough_maps(tables: Sequence[Roughness], domain: Domain) -> list[RoughMap]:
-    """Read or generate the roughness of a point contact. ``tables`` [roughness], ``domain`` [m]. Returns one
-    surface per table, in their order. Raises InputError if a file cannot be used, or a shape does not fit the
-    domain.
+    """Rough surfaces of a point contact, read or generated, one for each table.
+
+    Raises an InputError if a file cannot be used, or a shape does not fit the domain.
 
     Examples
     --------
@@ -431,30 +415,20 @@ def _of_map(table: Roughness, made: Map, read: Surface | None) -> RoughMap:
 
 
 def _map_shape(table: Roughness, domain: Domain) -> MapHeight:
-    names = chain(*GENERATORS[str(table.generator)])
-    values: dict[str, Any] = {
-        name: getattr(table, name) for name in names if getattr(table, name) is not None
-    }
-    if values.get("width", 0.0) > domain.shorter:
-        raise InputError(
-            "roughness.width",
-            got=f"{values['width']:.3g} m",
-            takes=f"less than the shorter side of the domain, {domain.shorter:.3g} m",
-        )
-    made: MapHeight = partial(map_generators.SHAPES[str(table.generator)], **values)
+    made = _exact_shape(table, map_generators.SHAPES, ("the shorter side of the domain", domain.shorter))
     return lambda x, y: made(x - table.shift, y - table.shift_y)
 
 
 def _random_map(table: Roughness, domain: Domain) -> Map:
     """Random map that covers the domain after its ends have been trimmed."""
     assert table.rq is not None and table.seed is not None
-    trim = table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
-    reach = [length + trim for length in domain.reach(table)]
+    reach = [length + _trim(table) for length in domain.reach(table)]
+    shorter = "the shorter side of the domain", domain.shorter
     try:
         if table.generator == "gaussian":
             assert table.correlation_length is not None
             lengths = table.correlation_length, table.correlation_length_y or table.correlation_length
-            _check_waves("correlation_length", min(lengths), domain)
+            _check_waves("correlation_length", min(lengths), shorter)
             beyond = [_MAP_MARGIN * length / map_generators.POINTS_IN_CORRELATION for length in lengths]
             return map_generators.gaussian(
                 rq=table.rq,
@@ -465,7 +439,7 @@ def _random_map(table: Roughness, domain: Domain) -> Map:
                 seed=table.seed,
             )
         assert table.hurst is not None and table.rolloff_wavelength is not None
-        _check_waves("rolloff_wavelength", table.rolloff_wavelength, domain)
+        _check_waves("rolloff_wavelength", table.rolloff_wavelength, shorter)
         shortest = table.shortest_wavelength or table.rolloff_wavelength / map_generators.SHORTEST_PART
         margin = _MAP_MARGIN * shortest / map_generators.POINTS_IN_SHORTEST
         return map_generators.self_affine(
@@ -481,12 +455,18 @@ def _random_map(table: Roughness, domain: Domain) -> Map:
         raise error.under("roughness") from None
 
 
-def _check_waves(key: str, length: float, domain: Domain) -> None:
-    most = MOST_OF_DOMAIN * domain.shorter
+def _trim(table: Roughness) -> float:
+    """Length that is cut off at each end of a generated surface [m], at most."""
+    return table.trim if table.trim is not None else max(table.cutoff_long or 0.0, table.cutoff_short or 0.0)
+
+
+def _check_waves(key: str, length: float, side: tuple[str, float]) -> None:
+    """Raise an InputError if a wave [m] is longer than a tenth of a ``side``, its name and length [m]."""
+    most = MOST_OF_DOMAIN * side[1]
     if length > most:
         raise InputError(
             key,
             got=f"{length:.3g} m",
-            takes=f"at most {most:.3g} m, a tenth of the shorter side of the domain: the heights of "
+            takes=f"at most {most:.3g} m, a tenth of {side[0]}: the heights of "
             "fewer waves are those of chance",
         )

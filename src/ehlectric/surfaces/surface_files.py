@@ -1,19 +1,9 @@
 """Readers of measured surfaces: text profiles, ISO 25178-72 X3P and Alicona AL3D.
 
-Members of a ZIP archive, read without trust in the sizes that the archive states.
-Python's own reader decompresses some kinds of members as a whole, whatever size the archive states for them.
-
-Reader of text profiles: position and height in two columns, below a header of any form.
-The separator of the columns is a semicolon, a tab, a comma or white space, the same in the whole file. A
-comma that is not the separator is a decimal comma. A file that can be read in two ways is refused.
-
-Reader of binary height maps from instruments: ISO 25178-72 X3P and Alicona AL3D.
-The content of a file is not trusted: every size is checked before a block of this size is read.
-
-Reader of measured surfaces from instrument files: text profiles, ISO 25178-72 X3P and Alicona AL3D.
-The reader refuses doubtful data with an error that names the fault, such as spacings that are not uniform,
-slopes that are too large for the spacing, and lines without data. Other formats are read by the package
-SurfaceTopography if it is installed.
+The content of a file is not trusted: every size is checked before a block of this size is read, and members
+of ZIP archives are decompressed no further than the size that is expected. Doubtful data are refused with an
+error that names the fault, such as spacings that are not uniform, slopes that are too large for the spacing,
+and lines without data. Other formats are read by the package SurfaceTopography if it is installed.
 """
 
 from __future__ import annotations
@@ -79,18 +69,17 @@ _ENCRYPTED = 1
 
 
 def opened(content: bytes) -> zipfile.ZipFile:
-    """Archive with a content. Raises zipfile.BadZipFile where the content is no archive, or lists more than
-    ``MOST_MEMBERS`` members.
-    """
+    """ZIP archive of a content. Raises BadZipFile for other content or more than ``MOST_MEMBERS`` members."""
     if content.count(_ENTRY) > MOST_MEMBERS:
         raise zipfile.BadZipFile("too many members")
     return zipfile.ZipFile(io.BytesIO(content))
 
 
 def member(archive: zipfile.ZipFile, content: bytes, name: str, most: int) -> bytes:
-    """Content of a member of an archive; decompression ends at its bound. ``most``, largest size of the
-    member [bytes]. Raises InputError where the member states more than ``MOST_RATIO`` times its compressed
-    size; BROKEN where the archive has no such member, or it is broken, encrypted, or larger than ``most``.
+    """Content of a member of an archive, decompressed up to the largest size ``most`` [bytes].
+
+    Raises an InputError where the stated size is more than ``MOST_RATIO`` times the compressed size, and one
+    of ``BROKEN`` where the member is missing, broken, encrypted, or larger than ``most``.
 
     Examples
     --------
@@ -122,14 +111,6 @@ def member(archive: zipfile.ZipFile, content: bytes, name: str, most: int) -> by
     return data
 
 
-def _inflate(data: bytes, most: int) -> bytes:
-    return zlib.decompressobj(-zlib.MAX_WBITS).decompress(data, most)
-
-
-def _bunzip(data: bytes, most: int) -> bytes:
-    return bz2.BZ2Decompressor().decompress(data, most)
-
-
 def _unlzma(data: bytes, most: int) -> bytes:
     """Member compressed by LZMA: two bytes of version, the length of the properties, and five of them."""
     length, properties, dictionary = struct.unpack("<xxHBI", data[:9])
@@ -145,12 +126,16 @@ def _unlzma(data: bytes, most: int) -> bytes:
 _DECOMPRESS: Mapping[int, Callable[[bytes, int], bytes]] = MappingProxyType(
     {
         zipfile.ZIP_STORED: lambda data, most: data[:most],
-        zipfile.ZIP_DEFLATED: _inflate,
-        zipfile.ZIP_BZIP2: _bunzip,
+        zipfile.ZIP_DEFLATED: lambda data, most: zlib.decompressobj(-zlib.MAX_WBITS).decompress(data, most),
+        zipfile.ZIP_BZIP2: lambda data, most: bz2.BZ2Decompressor().decompress(data, most),
         zipfile.ZIP_LZMA: _unlzma,
     }
 )
 
+
+# Text profiles: position and height in two columns, below a header of any form. The separator of the columns
+# is a semicolon, a tab, a comma or white space, the same in the whole file. A comma that is not the separator
+# is a decimal comma. A file that can be read in two ways is refused.
 
 # Most lines of a text, of which each is looked at: twice those of the longest profiles of instruments.
 MOST_LINES = 2_000_000
@@ -233,9 +218,11 @@ def is_text(content: bytes) -> bool:
 
 
 def read_text(path: Path, content: bytes, x_unit: str | None, z_unit: str | None) -> TextProfile:
-    """Read the profile in a text file. Returns heights and spacing in metres. Raises NoProfileError if the
-    file is not two columns of numbers; another reader may know its format; InputError if the file cannot be
-    read or can be read in two ways, or if its units are unknown or contradict the arguments.
+    """Profile in a text file, with heights and spacing in metres.
+
+    Raises a NoProfileError if the file is not two columns of numbers, so that another reader may know its
+    format. Raises an InputError if the file cannot be read or can be read in two ways, or if its units are
+    unknown or contradict the arguments.
     """
     block = _block(path, _decoded(path, content))
     if len(block.rows) < LEAST_POINTS:
@@ -352,15 +339,15 @@ def _values(path: Path, block: _Block) -> Array:
     return values
 
 
-def _heads(block: _Block) -> list[list[str]]:
-    """Fields of the last two header lines, without comment marks."""
-    lines = [line.strip().lstrip("#%/ ") for line in block.header if line.strip()]
-    return [block.layout.fields(line) for line in lines[-2:]]
+def _head_lines(block: _Block) -> list[str]:
+    """Lines of the header without comment marks."""
+    return [line.strip().lstrip("#%/ ") for line in block.header if line.strip()]
 
 
 def _has_validity(block: _Block) -> bool:
-    """Whether the header of the third column is "valid" or "validity"."""
-    return any(len(head) > 2 and _VALIDITY.fullmatch(head[2].strip("\"' ")) for head in _heads(block))
+    """Whether the header of the third column, in one of the last two lines, is "valid" or "validity"."""
+    heads = [block.layout.fields(line) for line in _head_lines(block)[-2:]]
+    return any(len(head) > 2 and _VALIDITY.fullmatch(head[2].strip("\"' ")) for head in heads)
 
 
 def _valid(path: Path, block: _Block) -> NDArray[np.bool_]:
@@ -377,7 +364,7 @@ def _stated_units(block: _Block, width: int) -> tuple[str | None, str | None]:
     The line must have one field per column. Examples are "Lateral um,Raw Micrometer", "[mm];[mm]" and, with
     white space as separator, "x [um] z [nm]".
     """
-    lines = [line.strip().lstrip("#%/ ") for line in block.header if line.strip()]
+    lines = _head_lines(block)
     if not lines:
         return None, None
     fields = block.layout.fields(lines[-1])
@@ -497,12 +484,9 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
     columns, rows, layers = (_whole(path, root, f"MatrixDimension/Size{axis}") for axis in "XYZ")
     if layers != 1:
         raise InputError(path, f"has {layers} heights at each point", takes="one")
-    if columns * rows > MOST_POINTS:
-        raise InputError(path, f"says it has {rows} x {columns} points", takes=f"at most {MOST_POINTS}")
     kind = np.dtype(_KINDS[_text(root, "CZ/DataType")])
     points = rows * columns
-    needed = points * (kind.itemsize + _POINT)
-    check_memory_for(path, needed, f"says it has {rows} x {columns} points")
+    _check_size(path, (rows, columns), kind.itemsize + _POINT)
     data = _binary_block(path, archive, content, root, "PointDataLink", points * kind.itemsize)
     assert data is not None
     increment = _number(path, root, "CZ/Increment", None if kind.kind == "i" else 1.0)
@@ -524,6 +508,14 @@ def read_x3p(path: Path, content: bytes) -> HeightMap:
     # A single row has no neighbour, even if the file states a distance between rows.
     dy = None if rows == 1 else _number(path, root, "CY/Increment", None)
     return heights.reshape(rows, columns), dx, dy
+
+
+def _check_size(path: Path, shape: tuple[int, ...], each: int = 0) -> None:
+    """Raise an InputError if a map has too many points, or too little memory for ``each`` [bytes]."""
+    stated = f"says it has {' x '.join(map(str, shape))} points"
+    if math.prod(shape) > MOST_POINTS:
+        raise InputError(path, stated, takes=f"at most {MOST_POINTS}")
+    check_memory_for(path, math.prod(shape) * each, stated)
 
 
 def _text(root: ElementTree.Element, place: str) -> str:
@@ -614,15 +606,14 @@ def read_al3d(path: Path, content: bytes) -> HeightMap:
         raise InputError(
             path, f"says it has {rows} x {columns} points at the byte {offset}", takes="positive numbers"
         )
-    if columns * rows > MOST_POINTS:
-        raise InputError(path, f"says it has {rows} x {columns} points", takes=f"at most {MOST_POINTS}")
+    _check_size(path, (rows, columns))
     # Rows are padded to eight bytes.
     stride = -(-columns * 4 // 8) * 8
     if offset + stride * rows > len(content):
         raise InputError(
             path, f"is {len(content)} bytes long", takes=f"{offset + stride * rows} for its header"
         )
-    check_memory_for(path, columns * rows * 2 * _POINT, f"says it has {rows} x {columns} points")
+    _check_size(path, (rows, columns), 2 * _POINT)
     block = np.frombuffer(content, "<f4", stride // 4 * rows, offset).reshape(rows, stride // 4)
     # NaN and infinite numbers become voids.
     with np.errstate(all="ignore"):
@@ -769,13 +760,7 @@ def _checked(profile: Profile, source: str) -> Profile:
             f"the largest slope between neighbours is {slope:.3g}",
             takes=f"one up to {STEEPEST:g}; are x_unit and z_unit right?",
         )
-    height = float(np.ptp(profile.heights))
-    if height > profile.length:
-        raise InputError(
-            source,
-            f"the heights range over {height:.3g} m, the line over {profile.length:.3g} m",
-            takes="a surface, whose heights range over less than its length; are x_unit and z_unit right?",
-        )
+    _check_range("line", profile.length, profile.heights, source, "x_unit and z_unit")
     return profile
 
 
@@ -790,14 +775,19 @@ def _checked_map(surface: Map, source: str) -> Map:
             f"{100 * steep:.2g} % of the slopes between neighbours are above {STEEPEST:g}",
             takes=f"a map with up to {100 * _MOST_STEEP:g} %; are its units right?",
         )
-    height, length = float(np.ptp(z)), max(surface.length_x, surface.length_y)
+    _check_range("map", max(surface.length_x, surface.length_y), z, source, "its units")
+    return surface
+
+
+def _check_range(name: str, length: float, heights: Array, source: str, units: str) -> None:
+    """Raise an InputError if heights [m] range over more than the ``length`` of their line or map [m]."""
+    height = float(np.ptp(heights))
     if height > length:
         raise InputError(
             source,
-            f"the heights range over {height:.3g} m, the map over {length:.3g} m",
-            takes="a surface, whose heights range over less than its length; are its units right?",
+            f"the heights range over {height:.3g} m, the {name} over {length:.3g} m",
+            takes=f"a surface, whose heights range over less than its length; are {units} right?",
         )
-    return surface
 
 
 def read_surface(path: str | Path, *, x_unit: str | None = None, z_unit: str | None = None) -> Surface:
@@ -878,9 +868,7 @@ def _read_other(path: Path, otherwise: str = "is no text profile, X3P or AL3D") 
     try:
         reader = open_topography(str(path))
         # The sizes in the header are known before the heights are read.
-        points = math.prod(reader.channels[0].nb_grid_pts or ())
-        if points > MOST_POINTS:
-            raise InputError(path, f"says it has {points} points", takes=f"at most {MOST_POINTS}")
+        _check_size(path, (math.prod(reader.channels[0].nb_grid_pts or ()),))
         topography = reader.topography().to_unit("m")
         heights: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
         spacing = np.atleast_1d(topography.pixel_size)

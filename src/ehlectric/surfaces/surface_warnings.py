@@ -83,9 +83,9 @@ MOST_MISSED = 0.01
 def map_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughMap], domain: Domain, dx: float, dy: float
 ) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a point contact, before its film is computed. ``tables`` [roughness];
-    ``domain`` [m]; ``dx`` and ``dy``, spacings of the nodes of the film [m]. Yields warnings about files and
-    processing steps, continuation, and roughness that is finer than the grid.
+    """Warnings about the roughness of a point contact on a grid with the spacings ``dx`` and ``dy`` [m].
+
+    They concern files and processing steps, continuation, and roughness that is finer than the grid.
     """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
@@ -154,13 +154,17 @@ def _map_warnings(
         yield unresolved(spacing[worst], whose, lengths[worst])
     within = _inside(table, last, domain)
     missed = map_variance_beyond(within, 0.5 / spacing[0], 0.5 / spacing[1], surface.orientation)
+    yield from _variance_missed(surface.surface, missed, spacing)
+
+
+def _variance_missed(surface: int, missed: float, spacings: tuple[float, ...]) -> Iterator[ResultWarning]:
+    """Warning about the part of the variance of a surface that a grid with these spacings [m] misses."""
     if missed > MOST_MISSED:
-        coarser = max(spacing)
         yield ResultWarning(
             "variance-missed",
-            f"the grid spacing of {spacing[0] * 1e6:.3g} x {spacing[1] * 1e6:.3g} µm misses "
-            f"{100 * missed:.2g} % of the variance of surface {surface.surface}, in waves shorter than two "
-            f"spacings; use more grid.nodes, or a cutoff_short of at least {4e6 * coarser:.3g} µm",
+            f"the grid spacing of {' x '.join(f'{each * 1e6:.3g}' for each in spacings)} µm misses "
+            f"{100 * missed:.2g} % of the variance of surface {surface}, in waves shorter than two "
+            f"spacings; use more grid.nodes, or a cutoff_short of at least {4e6 * max(spacings):.3g} µm",
         )
 
 
@@ -241,9 +245,9 @@ def map_variance_beyond(
 def profile_surface_warnings(
     tables: Sequence[Roughness], rough: Sequence[RoughSurface], domain: Domain, dx: float
 ) -> Iterator[ResultWarning]:
-    """Warnings about the roughness of a line contact, before its film is computed. ``tables`` [roughness];
-    ``domain`` [m]; ``dx``, spacing of the nodes of the film [m]. Yields warnings about files and processing
-    steps, continuation, and roughness that is finer than the grid.
+    """Warnings about the roughness of a line contact on a grid with the spacing ``dx`` [m].
+
+    They concern files and processing steps, continuation, and roughness that is finer than the grid.
     """
     for table, surface in zip(tables, rough, strict=True):
         yield from surface.warnings
@@ -276,9 +280,7 @@ def same_seeds(tables: Iterable[Roughness]) -> Iterator[ResultWarning]:
 
 
 def unresolved(dx: float, what: str, length: float) -> ResultWarning:
-    """Warning about roughness that the grid does not resolve. ``dx``, spacing of the nodes [m]; ``length``
-    [m].
-    """
+    """Warning that a grid with the spacing ``dx`` does not resolve a ``length`` of the roughness [m]."""
     return ResultWarning(
         "roughness-unresolved",
         f"the grid spacing of {dx * 1e6:.3g} µm does not resolve {what} is {length * 1e6:.3g} µm: the error "
@@ -314,14 +316,7 @@ def profile_warnings(
     if dx > length / LEAST_IN_CORRELATION:
         whose = f"the profile of surface {surface}, whose correlation length"
         yield unresolved(dx, whose, length)
-    missed = profile_variance_beyond(last, 0.5 / dx, ends)
-    if missed > MOST_MISSED:
-        yield ResultWarning(
-            "variance-missed",
-            f"the grid spacing of {dx * 1e6:.3g} µm misses {100 * missed:.2g} % of the variance of surface "
-            f"{surface}, in waves shorter than two spacings; use more grid.nodes, or a cutoff_short of at "
-            f"least {4e6 * dx:.3g} µm",
-        )
+    yield from _variance_missed(surface, profile_variance_beyond(last, 0.5 / dx, ends), (dx,))
 
 
 def profile_variance_beyond(profile: Profile, frequency: float, ends: tuple[float, float]) -> float:
