@@ -12,7 +12,7 @@ from time import process_time
 from tests.helpers.hot import ball, paper_line
 
 from ehlectric.film.film_solver import refined_solution
-from ehlectric.film.heated_film import film_of
+from ehlectric.film.heated_film import solve_heated_film
 from ehlectric.film.shear_laws import Rheology
 from ehlectric.runtime.threads import quiet_solution
 
@@ -29,7 +29,7 @@ def ratio(problem):
             refined_solution(replace(problem, physics=None), None)
             cold.append(process_time() - start)
             start = process_time()
-            loops = film_of(problem).outer_iterations
+            loops = solve_heated_film(problem).outer_iterations
             hot.append(process_time() - start)
     return min(hot) / min(cold), loops
 

@@ -1,11 +1,9 @@
-"""Error estimate of the largest field strength of a gap: the places where it may be largest, and finer
-solutions there.
+"""Electric field of a gap, and the error estimate of its largest field strength.
 
-Places in a gap where the field strength may be largest, from a solution that may be too coarse.
-To first order in the heights of the walls, the field at a wall follows from integrals over the walls. It
-does not depend on the polynomial degree. It shows where a coarse solution lacks the rise at a crest.
+The places where the field may be largest are found from a solution that may be too coarse. To first order in
+the heights of the walls, the field at a wall follows from integrals over the walls. It does not depend on the
+polynomial degree. It shows where a coarse solution lacks the rise at a crest.
 
-Error estimate of the largest field strength of a gap, by finer solutions where it may be largest.
 A wave on a wall raises the field next to it. This rise decays within 1/k from the wall, where k is the wave
 number. If the gap is much wider than the wave, the polynomial across the gap must resolve a boundary layer.
 The columns must resolve the wave along the gap. Both errors are estimated in windows of a few gaps around
@@ -170,9 +168,9 @@ class Place:
 def places(problem: GapProblem, strength: Array) -> list[Place]:
     """Places where the field may be largest; the first has the largest field of the solution.
 
-    ``strength``, largest field strength of each column of the solution [V/m], shape (nx,) or (nx, ny).
-    Returns the others are local maxima of the higher of ``strength`` and the field of first order, which has
-    a surcharge for terms of higher order; they are sorted by this bound, the highest first.
+    ``strength`` [V/m] is the largest field strength of each column, shape (nx,) or (nx, ny). The other places
+    are local maxima of the higher of ``strength`` and the field of first order, which is raised for terms of
+    higher order. They are sorted by this bound, the highest first.
     """
     first_order = first_order_strength(problem, strength)
     return [

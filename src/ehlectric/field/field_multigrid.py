@@ -18,6 +18,7 @@ from scipy.linalg import eigh, lapack
 
 from ehlectric.arrays import Array, IntArray, Mask
 from ehlectric.field.poisson import Across
+from ehlectric.formulas.polynomials import linear_interpolation
 
 # An axis with at most this many nodes is not coarsened. With fewer than three nodes, index offsets of the
 # nine neighbours would coincide.
@@ -161,12 +162,7 @@ def _every_other(x: Array) -> tuple[Array, sparse.csr_array]:
     coarse = x[np.unique(np.append(np.arange(0, x.size, 2), x.size - 1))]
     left = np.clip(np.searchsorted(coarse, x, side="right") - 1, 0, coarse.size - 2)
     share = (x - coarse[left]) / (coarse[left + 1] - coarse[left])
-    rows = np.repeat(np.arange(x.size), 2)
-    columns = np.stack([left, left + 1], axis=1).ravel()
-    values = np.stack([1.0 - share, share], axis=1).ravel()
-    matrix = sparse.csr_array((values, (rows, columns)), shape=(x.size, coarse.size))
-    matrix.eliminate_zeros()
-    return coarse, matrix
+    return coarse, linear_interpolation(left, share, coarse.size)
 
 
 def _with_identity(matrix: sparse.csr_array, free: Mask) -> sparse.csr_array:

@@ -20,6 +20,7 @@ from ehlectric.field.poisson import (
     nodal_values,
 )
 from ehlectric.field.zones import HIGH_FIELD, interval_above, line_zone_areas, part_widths
+from ehlectric.formulas.polynomials import interpolation
 from ehlectric.runtime.stored import stored
 from ehlectric.runtime.threads import one_blas_thread
 
@@ -139,11 +140,7 @@ class Field(GapField):
         Returns abs(E) [V/m]; NaN where the line is outside the gap, shape (nx,).
         """
         lower, upper = self.y[:, 0], self.y[:, -1]
-        at = ((height - lower) / (upper - lower))[:, np.newaxis]
-        basis = np.ones_like(self.y)
-        for k, node in enumerate(self.s):
-            others = np.delete(self.s, k)
-            basis[:, k] = np.prod((at - others) / (node - others), axis=1)
+        basis = interpolation(self.s, (height - lower) / (upper - lower))
         strength = np.hypot(np.sum(basis * self.field_x, axis=1), np.sum(basis * self.field_y, axis=1))
         return np.where((lower <= height) & (height <= upper), strength, np.nan)
 

@@ -13,27 +13,15 @@ from functools import cache
 import numpy as np
 from scipy.constants import epsilon_0
 from scipy.linalg import cho_solve_banded, cholesky_banded
-from scipy.special import eval_legendre, roots_jacobi
 
 from ehlectric.arrays import Array
+from ehlectric.formulas.polynomials import derivative_matrix, interpolation, lobatto_nodes, lobatto_weights
 
 # Two Gauss points along an element: more points would not raise the order of linear elements.
 GAUSS = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
 
 # Smallest gap in the field problem [m], the size of an atom; thinner gaps are replaced by it.
 ATOM = 1e-10
-
-
-def lobatto_nodes(degree: int) -> Array:
-    """Gauss-Lobatto-Legendre nodes on [0, 1], ascending, shape (degree + 1,).
-
-    Examples
-    --------
-    >>> [float(s) for s in lobatto_nodes(2)]
-    [0.0, 0.5, 1.0]
-    """
-    interior = roots_jacobi(degree - 1, 1.0, 1.0)[0] if degree > 1 else np.empty(0)
-    return 0.5 * (1.0 + np.concatenate([[-1.0], interior, [1.0]]))
 
 
 @dataclass(frozen=True)
@@ -57,22 +45,12 @@ class Across:
     def of_degree(cls, degree: int) -> Across:
         """Nodes, weights and matrices of a polynomial degree, computed once per degree."""
         s = lobatto_nodes(degree)
-        t = 2.0 * s - 1.0
-        weights = 1.0 / (degree * (degree + 1) * eval_legendre(degree, t) ** 2)
-        difference = s[:, np.newaxis] - s + np.eye(s.size)
-        barycentric = 1.0 / np.prod(difference, axis=1)
-        derivative = barycentric / barycentric[:, np.newaxis] / difference
-        np.fill_diagonal(derivative, 0.0)
-        np.fill_diagonal(derivative, -derivative.sum(axis=1))
-        at_middle = np.array(
-            [np.prod((0.5 - np.delete(s, k)) / (s[k] - np.delete(s, k))) for k in range(s.size)]
-        )
-        values = np.eye(s.size)
+        values, derivative = np.eye(s.size), derivative_matrix(s)
         return cls(
             nodes=s,
-            weights=weights,
+            weights=lobatto_weights(s),
             derivative=derivative,
-            at_middle=at_middle,
+            at_middle=interpolation(s, np.array([0.5]))[0],
             slope=np.einsum("qk,ql->qkl", derivative, derivative),
             mixed=np.einsum("qk,ql->qkl", values, derivative),
             mass=np.einsum("qk,ql->qkl", values, values),

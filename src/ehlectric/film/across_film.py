@@ -7,10 +7,11 @@ from functools import cache
 from typing import Protocol
 
 import numpy as np
-from scipy.special import eval_legendre, roots_jacobi, roots_legendre
+from scipy.special import roots_legendre
 
 from ehlectric.arrays import Array
 from ehlectric.film.mesh import Mesh
+from ehlectric.formulas.polynomials import derivative_matrix, interpolation, lobatto_nodes, lobatto_weights
 
 # Number of Gauss points across the film. Where the stress changes by 200 Eyring stresses over the film the
 # flux is accurate to 2e-8, where it changes by 500 to 2e-3.
@@ -26,6 +27,7 @@ class Across:
     weights: Array
     # Matrix of the integral from 0 to each node, exact for the polynomial through the nodes, shape (nz, nz).
     cumulative: Array
+    derivative: Array  # matrix of the derivative by zeta at the nodes, shape (nz, nz)
 
     @classmethod
     @cache
@@ -40,23 +42,12 @@ class Across:
         >>> bool(np.allclose(across.cumulative @ across.zeta**2, across.zeta**3 / 3.0))
         True
         """
-        inner = roots_jacobi(degree - 1, 1.0, 1.0)[0]
-        zeta = 0.5 * (1.0 + np.concatenate([[-1.0], inner, [1.0]]))
-        weights = 1.0 / (degree * (degree + 1) * eval_legendre(degree, 2.0 * zeta - 1.0) ** 2)
-        return cls(zeta, weights, integrals(zeta, zeta))
+        zeta = lobatto_nodes(degree)
+        return cls(zeta, lobatto_weights(zeta), integrals(zeta, zeta), derivative_matrix(zeta))
 
     def at(self, zeta: Array) -> Array:
         """Matrix of the interpolation from the nodes to other positions ``zeta`` (n,), shape (n, nz)."""
         return interpolation(self.zeta, zeta)
-
-
-def interpolation(nodes: Array, at: Array) -> Array:
-    """Values at ``at`` (n,) of the Lagrange polynomials of ``nodes`` (m,), shape (n, m)."""
-    columns = []
-    for k, node in enumerate(nodes):
-        others = np.delete(nodes, k)
-        columns.append(np.prod((at[:, np.newaxis] - others) / (node - others), axis=1))
-    return np.stack(columns, axis=1)
 
 
 def integrals(nodes: Array, ends: Array) -> Array:

@@ -15,7 +15,7 @@ from scipy import fft
 
 from ehlectric.arrays import Array, ComplexArray
 from ehlectric.film.mesh import Mesh
-from ehlectric.formulas.hertz import line_pressure
+from ehlectric.formulas.hertz import line_pressure, point_pressure
 
 
 def line_influence(nodes: int, dx: float) -> Array:
@@ -99,9 +99,7 @@ def point_geometry(*, radius_ratio: float, ellipse_ratio: float, compliance: flo
     return Geometry(
         influence=lambda nodes, dx, dy: compliance * point_influence(nodes, dx, dy),
         dry_gap=lambda x, y: 0.5 * (x[:, np.newaxis] ** 2 + radius_ratio * y**2),
-        dry_pressure=lambda x, y: np.sqrt(
-            np.maximum(0.0, 1.0 - x[:, np.newaxis] ** 2 - (y / ellipse_ratio) ** 2)
-        ),
+        dry_pressure=lambda x, y: point_pressure(x[:, np.newaxis], y, ellipse_ratio),
         load=2.0 * np.pi * ellipse_ratio / 3.0,
         radius_ratio=radius_ratio,
     )

@@ -1,8 +1,8 @@
 """Energy equation of the film: temperature across the film and on both surfaces, for a film whose pressure
 is given.
 
-Heat balance of the columns of the film as small linear systems, one for each node of the grid.
-In mapped coordinates zeta = z/h, with the filling theta of a cavitated gap,
+The heat balance of each column across the film is a small linear system. In mapped coordinates zeta = z/h,
+with the filling theta of a cavitated gap, it is
 
     theta h rho c (u T_x + v T_y) - c (q_x,x + q_y,y) T_zeta = theta/h (k T_zeta)_zeta + theta h S,
     q(zeta) = theta h Int_0^zeta rho u,      S = tau_x u_z + tau_y v_z - (T/rho) (d rho/dT) (u p_x + v p_y)
@@ -12,18 +12,18 @@ form on Gauss-Lobatto nodes, so that the sum of a column is its balance of heat 
 the convection is an upstream difference of second order where the oil flows forward and of first order where
 it flows back; across the contact it is of first order.
 
-Energy equation of the film with both surfaces: one march along x for all columns across it.
-The march solves the columns from the inlet to the outlet. The fluxes into the bodies at the column itself are
-implicit, those of the columns before it enter by the history of the moving surfaces. In the reverse flow of
-the inlet the columns depend on those behind them; there one banded system of all columns is exact. Three
-parts are taken from the last iterate: the history of the surfaces in the reverse flow, the heat that a slow
-body conducts upstream, and the convection across the contact. The march is repeated for the last two.
+One march along x solves the columns from the inlet to the outlet. The fluxes into the bodies at the column
+itself are implicit, those of the columns before it enter by the history of the moving surfaces. In the
+reverse flow of the inlet the columns depend on those behind them; there one banded system of all columns is
+exact. Three parts are taken from the last iterate: the history of the surfaces in the reverse flow, the heat
+that a slow body conducts upstream, and the convection across the contact. The march is repeated for the last
+two.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import lapack, matmul_toeplitz
@@ -32,35 +32,14 @@ from scipy.special import k0e, k1e
 from ehlectric.arrays import Array, IntArray
 from ehlectric.film.across_film import Across, Properties, on_mesh
 from ehlectric.film.hot_oil import Body, HotOil
-from ehlectric.film.mesh import Mesh
+from ehlectric.film.mesh import Mesh, trapezoidal_weights
 from ehlectric.film.shear_flow import Columns
 
 
-@cache
-def derivative(degree: int) -> Array:
-    """Matrix of the derivative by zeta at the nodes of ``Across.of(degree)``. Returns exact for polynomials
-    of this degree; its rows sum to zero, shape (nz, nz).
-
-    J.-P. Berrut and L. N. Trefethen, SIAM Rev. 46 (2004) 501, doi:10.1137/S0036144502417715, section 9.3.
-
-    Examples
-    --------
-    >>> zeta = Across.of(4).zeta
-    >>> bool(np.allclose(derivative(4) @ zeta**3, 3.0 * zeta**2))
-    True
-    """
-    zeta = Across.of(degree).zeta
-    apart = zeta[:, np.newaxis] - zeta + np.eye(zeta.size)
-    scale = 1.0 / np.prod(apart, axis=1)
-    matrix = scale / scale[:, np.newaxis] / apart
-    matrix -= np.diag(np.diag(matrix))
-    return np.asarray(matrix - np.diag(matrix.sum(axis=1)))
-
-
 def conduction(across: Across, conductivity: Array) -> Array:
-    """Matrix of conduction across the film in its weak form, the integral of k T' phi' over zeta.
-    ``conductivity``, thermal conductivity at the nodes, shape (nz, ...). Returns symmetric matrix; its rows
-    sum to zero, shape (..., nz, nz).
+    """Symmetric matrix (..., nz, nz) of conduction across the film, the integral of k T' phi' over zeta.
+
+    ``conductivity`` (nz, ...) is the thermal conductivity k at the nodes. The rows of the matrix sum to zero.
 
     Examples
     --------
@@ -71,7 +50,7 @@ def conduction(across: Across, conductivity: Array) -> Array:
     >>> bool(np.allclose(heat, [-2.0, 0.0, 0.0, 0.0, 2.0]))
     True
     """
-    slope = derivative(across.zeta.size - 1)
+    slope = across.derivative
     weighted = np.moveaxis(conductivity, 0, -1) * across.weights
     return np.asarray(slope.T @ (weighted[..., np.newaxis] * slope))
 
@@ -122,10 +101,10 @@ class Surface:
 
 
 def moving_surface(body: Body, speed: float, *, nodes: int, spacing: float, half_width: float) -> Surface:
-    """Surface of a body that moves along x under a flux that is constant in each cell of a grid. ``speed``,
-    speed along x [m/s], >= 0; ``spacing``, length of a cell [m]; ``half_width``, half-width of the contact
-    [m], the length of the Peclet number. Returns influence of the flux in a cell on the temperature at the
-    nodes.
+    """Surface of a body that moves along x under a flux that is constant in each cell of a grid.
+
+    ``speed`` [m/s] is not negative, ``spacing`` [m] is the length of a cell, and ``half_width`` [m] of the
+    contact is the length of the Peclet number.
 
     H. S. Carslaw and J. C. Jaeger, Conduction of Heat in Solids, 2nd ed., Oxford 1959, sections 2.9 (fast
     limit) and 10.7: a line source on a half-space gives T = Q/(pi k) exp(xi) K0(abs(xi)), xi = u x/(2 kappa).
@@ -173,9 +152,8 @@ _DEPENDENT = 1e-12
 class Mixing:
     """Anderson acceleration: the next iterate from the last few iterates and their images.
 
-    The combination of the last images is taken whose change is smallest in a weighted norm of least squares.
-
-    ``weights``, weights of the components in the norm, shape (n,).
+    The next iterate is the combination of the last images whose change is smallest in a norm of least squares
+    with the given weights (n,).
 
     D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305.
 
@@ -257,7 +235,7 @@ class Stream:
     heating_slope: Array
     # -(1/rho) (d rho/dT) (u p_x + v p_y) [W/(m^3 K)]; times T it is the heating by compression.
     compression: Array
-    compression_p: Array  # derivative of ``compression`` by the pressure at its own node [1/(s K)]
+    compression_p: Array  # derivative of ``compression`` by the pressure at the same node [1/(s K)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -305,7 +283,7 @@ class HeatColumns:
         # No oil passes surface b; the discrete balance of mass at a node is another one than here.
         upward -= across.zeta[:, np.newaxis, np.newaxis] * upward[-1]
         upward *= across.weights[:, np.newaxis, np.newaxis]
-        matrix -= _last(upward)[..., np.newaxis] * derivative(across.zeta.size - 1)
+        matrix -= _last(upward)[..., np.newaxis] * across.derivative
         index = np.arange(across.zeta.size)
         matrix[..., index, index] += _last(diagonal)
         source_p = volume * stream.compression_p * temperature
@@ -404,7 +382,7 @@ def stream_of(
 
 
 def upstream_slope(pressure: Array, u: Array, dx: float) -> Array:
-    """Slope of the pressure along the way that the oil has come.
+    """Slope of the pressure upstream of each node, along the path of the oil.
 
     Heat of compression from the node upstream to this one depends on no pressure further downstream. The
     difference is of first order: one of second order overshoots behind the pressure spike, where the oil
@@ -436,9 +414,23 @@ class Heat:
     # shape (nz, nx, ny).
     temperature: Array
     flux: Array  # heat flow into body a and body b [W/m^2], shape (2, nx, ny)
-    # Derivative of the temperature by the pressure at its own node, by heat of compression [K/Pa]; zero in
-    # the columns with reverse flow and before them, shape (nz, nx, ny).
+    # Derivative of the temperature by the pressure at the same node, by heat of compression [K/Pa];
+    # zero in the columns with reverse flow and before them, shape (nz, nx, ny).
     by_pressure: Array
+
+    @property
+    def vector(self) -> Array:
+        """Temperature and heat flow as one vector, for the acceleration of an iteration."""
+        return np.concatenate([self.temperature.ravel(), self.flux.ravel()])
+
+    def with_vector(self, vector: Array) -> Heat:
+        """Heat with the temperature and the heat flow of a vector as ``vector`` returns it."""
+        temperature, flux = np.split(vector, [self.temperature.size])
+        return replace(
+            self,
+            temperature=temperature.reshape(self.temperature.shape),
+            flux=flux.reshape(self.flux.shape),
+        )
 
 
 def solve_energy(
@@ -451,9 +443,7 @@ def solve_energy(
     marches: int = _MARCHES,
     enough: float = 0.02,
 ) -> Heat:
-    """Temperature of the film for a given flow. ``inlet_temperature``, temperature of the oil that enters
-    [K]. Returns temperature and heat flow into the bodies.
-    """
+    """Temperature and heat flow into the bodies for a given flow; oil enters at ``inlet_temperature`` [K]."""
     march = _March.of(columns, surfaces)
     lagged = any(surface.is_slow for surface in surfaces) or bool(columns.from_left.any())
     now, mixing, first = last, Mixing(), 0.0
@@ -463,13 +453,7 @@ def solve_energy(
         first = max(first, change)
         if not change > max(_STANDS, enough * first):
             break
-        mixed = mixing(
-            np.concatenate([now.temperature.ravel(), now.flux.ravel()]),
-            np.concatenate([new.temperature.ravel(), new.flux.ravel()]),
-        )
-        size = now.temperature.size
-        temperature, flux = mixed[:size].reshape(now.temperature.shape), mixed[size:].reshape(now.flux.shape)
-        now = replace(now, temperature=temperature, flux=flux)
+        now = now.with_vector(mixing(now.vector, new.vector))
     return replace(new, by_pressure=march.by_pressure)
 
 
@@ -490,9 +474,9 @@ class _March:
 
     @classmethod
     def of(cls, columns: HeatColumns, surfaces: tuple[Surface, Surface]) -> _March:
-        matrix, own = columns.matrix.copy(), _own(surfaces)
+        matrix, resistances = columns.matrix.copy(), _resistances(surfaces)
         nz = len(matrix[0, 0])
-        for row, resistance in zip((0, -1), own, strict=True):
+        for row, resistance in zip((0, -1), resistances, strict=True):
             matrix[..., row, row] += 1.0 / resistance
         back = np.flatnonzero(np.any(columns.after[:-1], axis=(1, 2)))
         entry = _Entry.of(matrix, columns, int(back[-1]) + 2) if back.size else None
@@ -501,13 +485,13 @@ class _March:
         chain = np.empty((*inverse.shape[:2], nz + 2, 2 * nz + 2))
         chain[..., :nz, :nz] = inverse * columns.second[behind, :, np.newaxis]
         chain[..., :nz, nz:-2] = inverse * columns.before[behind, :, np.newaxis]
-        chain[..., :nz, -2:] = inverse[..., :: nz - 1] / own
-        chain[..., nz:, :] = chain[..., : nz : nz - 1, :] / own[:, np.newaxis]
-        chain[..., nz:, -2:] -= np.diag(1.0 / own)
+        chain[..., :nz, -2:] = inverse[..., :: nz - 1] / resistances
+        chain[..., nz:, :] = chain[..., : nz : nz - 1, :] / resistances[:, np.newaxis]
+        chain[..., nz:, -2:] -= np.diag(1.0 / resistances)
         return cls(columns, surfaces, entry, inverse, chain)
 
     def __call__(self, last: Heat, inlet_temperature: float, *, symmetric: bool) -> Heat:
-        columns, surfaces, own = self.columns, self.surfaces, _own(self.surfaces)
+        columns, surfaces, resistances = self.columns, self.surfaces, _resistances(self.surfaces)
         nx, ny, nz = columns.right.shape
         old = np.moveaxis(last.temperature, 0, -1)
         right = columns.right + self._from_sides(old, inlet_temperature, symmetric=symmetric)
@@ -522,13 +506,13 @@ class _March:
             start = self.entry.count
             before = [s.rise_behind(q[:start]) for s, q in zip(surfaces, last.flux, strict=True)]
             rest[:start] += np.stack(before, axis=-1)
-            right[:start, :, :: nz - 1] += rest[:start] / own
+            right[:start, :, :: nz - 1] += rest[:start] / resistances
             found = self.entry(right[:start], inlet_temperature)
             columns_of[:, :start] = found.swapaxes(0, 1)
-            flux[..., :start] = ((found[..., :: nz - 1] - rest[:start]) / own).transpose(2, 1, 0)
-        right[start:, :, :: nz - 1] += rest[start:] / own
+            flux[..., :start] = ((found[..., :: nz - 1] - rest[:start]) / resistances).transpose(2, 1, 0)
+        right[start:, :, :: nz - 1] += rest[start:] / resistances
         known = (self.inverse @ right[start:, ..., np.newaxis])[..., 0]
-        known = np.concatenate([known, (known[..., :: nz - 1] - rest[start:]) / own], axis=-1)
+        known = np.concatenate([known, (known[..., :: nz - 1] - rest[start:]) / resistances], axis=-1)
         tails = np.stack([surface.downstream[::-1, np.newaxis] for surface in surfaces])
         for i, chain, part in zip(range(start, nx), self.chain, known, strict=True):
             place = (i + 2) * nz
@@ -541,7 +525,7 @@ class _March:
 
     @property
     def by_pressure(self) -> Array:
-        """Derivative of the temperature (nz, nx, ny) by the pressure at its own node [K/Pa]."""
+        """Derivative of the temperature (nz, nx, ny) by the pressure at the same node [K/Pa]."""
         found = np.zeros_like(self.columns.right_p)
         start = len(found) - len(self.inverse)
         found[start:] = (self.inverse @ self.columns.right_p[start:, ..., np.newaxis])[..., 0]
@@ -557,7 +541,7 @@ class _March:
         return np.asarray(self.columns.from_left * padded[:, :-2] + self.columns.from_right * padded[:, 2:])
 
 
-def _own(surfaces: tuple[Surface, Surface]) -> Array:
+def _resistances(surfaces: tuple[Surface, Surface]) -> Array:
     """Rise of both surfaces by a unit flux at the same column, shape (2,)."""
     return np.array([surface.downstream[0] for surface in surfaces])
 
@@ -669,16 +653,18 @@ class FrozenTemperature:
 
 
 def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> float:
-    """Heat that neither the bodies nor the oil take up, over the heat that is made. ``inlet_temperature``,
-    temperature of the oil that enters [K]. Returns relative imbalance, >= 0; heat and cold of compression
-    count with their size.
+    """Heat that neither the bodies nor the oil take up, over the heat that is made.
+
+    Heating and cooling by compression count with their absolute values. Oil enters at ``inlet_temperature``
+    [K].
 
     The heat that the oil carries is the flow of c (T - T_inlet) through the edges of the grid, less what the
     change of c along the way takes up. Nothing here uses the discrete equations of the columns.
     """
     weights = stream.across.weights[:, np.newaxis, np.newaxis]
     filled = weights * stream.filling * stream.thickness
-    area = _trapezoid(stream.u.shape[1], stream.dx)[:, np.newaxis] * _lines(stream)
+    along, lines = trapezoidal_weights(stream.u.shape[1], stream.dx), _lines(stream)
+    area = along[:, np.newaxis] * lines
     compression = stream.compression * heat.temperature
     made = np.sum(filled * (stream.heating + compression), axis=0)
     size = np.sum(filled * (stream.heating + np.abs(compression)), axis=0)
@@ -687,12 +673,11 @@ def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> fl
     # div(c m (T - T0)) with the mass flow m, less (T - T0) m grad c
     specific = stream.heat_capacity / stream.density
     through = np.sum(carried * stream.u * rise, axis=0)
-    out = float(np.sum(_lines(stream) * (through[-1] - through[0])))
+    out = float(np.sum(lines * (through[-1] - through[0])))
     slope = np.gradient(specific, stream.dx, axis=1) * stream.u
     if stream.dy:
         slope += np.gradient(specific, stream.dy, axis=2) * stream.v
         sides = np.sum(carried * stream.v * rise, axis=0)
-        along = _trapezoid(stream.u.shape[1], stream.dx)
         left = 0.0 if stream.symmetric else float(along @ sides[:, 0])
         out += (2.0 if stream.symmetric else 1.0) * float(along @ sides[:, -1]) - left
     changed = np.sum(filled * stream.density * slope * rise, axis=0)
@@ -701,14 +686,8 @@ def energy_imbalance(stream: Stream, heat: Heat, inlet_temperature: float) -> fl
     return abs(left_over) / max(float(np.sum(area * size)), 1e-300)
 
 
-def _trapezoid(count: int, spacing: float) -> Array:
-    weights = np.full(count, spacing)
-    weights[[0, -1]] *= 0.5
-    return weights
-
-
 def _lines(stream: Stream) -> Array:
     """Weights of the integral across the contact, with the half y < 0 of a symmetric one."""
     if not stream.dy:
         return np.ones(1)
-    return _trapezoid(stream.u.shape[2], (2.0 if stream.symmetric else 1.0) * stream.dy)
+    return trapezoidal_weights(stream.u.shape[2], (2.0 if stream.symmetric else 1.0) * stream.dy)

@@ -13,8 +13,8 @@ from ehlectric.arrays import Array, Mask
 from ehlectric.film.film_error import max_pressure_error, point_load_deficit, upstream_deficits
 from ehlectric.film.film_solver import RefinedSolution, Starvation, StarvedSolution
 from ehlectric.film.hot_oil import HeatedFilm
-from ehlectric.film.mesh import Mesh
-from ehlectric.film.newton import GridSolution, NewtonStep, State, Status, film_touches
+from ehlectric.film.mesh import Mesh, at_centre
+from ehlectric.film.newton import COLLAPSED, GridSolution, NewtonStep, State, Status
 from ehlectric.film.problem import Scales
 from ehlectric.film.starved_solver import oil_fraction
 from ehlectric.runtime.stored import number, stored
@@ -238,6 +238,5 @@ def film_status(status: Status, mesh: Mesh, thickness: Array) -> Status:
     It is "film collapsed" if the film did not converge and is thinner somewhere than 1 % of its central
     thickness. Otherwise it is the status of the iteration.
     """
-    if status != "converged" and film_touches(mesh, thickness):
-        return "film collapsed"
-    return status
+    collapsed = float(np.min(thickness)) < COLLAPSED * at_centre(mesh, thickness)
+    return "film collapsed" if collapsed and status != "converged" else status

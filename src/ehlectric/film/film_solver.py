@@ -1,6 +1,4 @@
-"""Films on grids that are refined until the estimate of the error is small enough, and films with a supply
-of oil.
-"""
+"""Flooded and starved films on grids that are refined until the estimate of the error is small enough."""
 
 from __future__ import annotations
 
@@ -22,16 +20,22 @@ from ehlectric.film.film_error import (
 )
 from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.nested import (
-    DIRECT,
-    NESTED_TOLERANCE,
     filled_state,
+    grids_of_solution,
     levels_of,
     nested_iteration,
+    tolerance_of,
 )
 from ehlectric.film.newton import GridSolution, Progress, State
 from ehlectric.film.patch import Patch
 from ehlectric.film.problem import FilmProblem, OilSupply
-from ehlectric.film.starved_solver import Course, StarvedFilm, at_centre_line, film_of_ratio, taken_layer
+from ehlectric.film.starved_solver import (
+    StarvedFilm,
+    StarvedProblem,
+    at_centre_line,
+    film_of_ratio,
+    taken_layer,
+)
 from ehlectric.runtime.stored import number
 
 # Number of successive grids without an error estimate after which refinement stops. Each grid takes several
@@ -147,7 +151,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Starvation:
-    """Supply of oil of a solved film, and the flooded film beside it, SI units."""
+    """Supply of oil of a solved film, and its flooded film, SI units."""
 
     # Thickness of the layer of oil on both surfaces together, on the line y = 0 [m]. None for the flooded
     # film of a point contact that was asked for by its ratio of 1: the least layer that floods it depends on
@@ -285,7 +289,7 @@ def starved_solution(problem: FilmProblem, progress: Progress | None) -> Starved
     supply = problem.supply
     assert supply is not None
     flooded = nested_iteration(problem, progress)
-    found = _on_grids(problem, supply, flooded, [], progress)
+    found = _starved_on_grids(problem, supply, flooded, [], progress)
     target, doubled, unknown = problem.target_error, 0, 0
     problem.tell(found.last.level.mesh, found.error)
     while target is not None and (found.error is None or found.error > target):
@@ -298,12 +302,12 @@ def starved_solution(problem: FilmProblem, progress: Progress | None) -> Starved
         if finer.nodes > problem.most_nodes or found.last.status != "converged":
             break
         problem, flooded = finer, nested_iteration(finer, progress, flooded)
-        found = _on_grids(problem, supply, flooded, found.solutions, progress, found.film)
+        found = _starved_on_grids(problem, supply, flooded, found.solutions, progress, found.film)
         problem.tell(found.last.level.mesh, found.error)
     return found
 
 
-def _on_grids(
+def _starved_on_grids(
     problem: FilmProblem,
     supply: OilSupply,
     flooded: list[GridSolution],
@@ -318,11 +322,11 @@ def _on_grids(
     solutions, last = list(known), film
     coarsest = known[-1].level.nodes if known else 0
     found = None
-    for posed, full in _grids(problem, flooded, coarsest):
+    for posed, full in _flooded_on_grids(problem, flooded, coarsest):
         finest = posed.nodes == problem.nodes
-        course = _course(posed, full, progress, finest=finest)
-        near = None if last is None else filled_state(course.level, last.solution, last.content.filled)
-        layer, last = _supplied(course, supply, near, last)
+        starved = _starved_problem(posed, full, progress, finest=finest)
+        near = None if last is None else filled_state(starved.level, last.solution, last.content.filled)
+        layer, last = _layer_and_film(starved, supply, near, last)
         solution = full if last is None else last.solution
         solutions.append(solution)
         found = StarvedSolution(posed, solutions, flooded=full, film=last, layer=layer)
@@ -332,7 +336,7 @@ def _on_grids(
     return found
 
 
-def _grids(
+def _flooded_on_grids(
     problem: FilmProblem, flooded: list[GridSolution], coarsest: int
 ) -> list[tuple[FilmProblem, GridSolution]]:
     """Problem and flooded film on each grid with more nodes than ``coarsest``, from the coarsest on."""
@@ -345,39 +349,38 @@ def _grids(
     return grids[::-1]
 
 
-def _course(
+def _starved_problem(
     problem: FilmProblem, flooded: GridSolution, progress: Progress | None, *, finest: bool
-) -> Course:
+) -> StarvedProblem:
     """Equations of the starved film on the grid of a problem."""
     levels = levels_of(problem)
     mesh = levels[0].mesh
-    direct = problem.width is None and problem.nodes <= DIRECT
-    return Course(
+    return StarvedProblem(
         fluid=problem.fluid,
-        levels=levels[:1] if direct else levels,
+        levels=grids_of_solution(levels),
         order=problem.wedge_order,
         flooded=flooded,
         dry_pressure=np.broadcast_to(problem.geometry.dry_pressure(mesh.x, mesh.y), mesh.shape),
-        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        tolerance=tolerance_of(problem, finest=finest),
         max_iterations=_MORE * problem.max_iterations,
         progress=progress,
     )
 
 
-def _supplied(
-    course: Course, supply: OilSupply, near: tuple[State, Mask] | None, last: StarvedFilm | None
+def _layer_and_film(
+    starved: StarvedProblem, supply: OilSupply, near: tuple[State, Mask] | None, last: StarvedFilm | None
 ) -> tuple[Array | None, StarvedFilm | None]:
     """Layer of oil on a grid and its film; None where the flooded film needs no more oil than there is."""
     if supply.layer is None:
         assert supply.film_ratio is not None
-        return film_of_ratio(course, supply.film_ratio, near, last)
-    layer = supply.layer(course.level.mesh.y)
-    return layer, None if is_flooded(course, layer) else course.solved(layer, near)
+        return film_of_ratio(starved, supply.film_ratio, near, last)
+    layer = supply.layer(starved.level.mesh.y)
+    return layer, None if is_flooded(starved, layer) else starved.solved(layer, near)
 
 
-def is_flooded(course: Course, layer: Array) -> bool:
-    """Whether the flooded film of a course takes no more oil at any line than a layer (ny,) supplies."""
-    if course.flooded.status != "converged":
+def is_flooded(starved: StarvedProblem, layer: Array) -> bool:
+    """Whether the flooded film takes no more oil at any line than a layer (ny,) supplies."""
+    if starved.flooded.status != "converged":
         return False
-    enough = layer >= (1.0 - _ROUNDING) * taken_layer(course)
-    return bool(np.all(enough, where=course.level.mesh.inner[1]))
+    enough = layer >= (1.0 - _ROUNDING) * taken_layer(starved)
+    return bool(np.all(enough, where=starved.level.mesh.inner[1]))

@@ -111,13 +111,6 @@ class FaceFlow:
         faces = self.conductance
         return Sides(self.by_properties.before - faces, self.by_properties.after + faces).outflow()
 
-    def by_thickness(self) -> tuple[Array, Array, Array]:
-        """Derivatives of -dF/dX at the inner nodes by H, each of shape (n - 2, m).
-
-        They are the derivatives by H of the node before, of the node itself and of the node after.
-        """
-        return self.by_gap.outflow()
-
 
 @dataclass(frozen=True)
 class Flow:

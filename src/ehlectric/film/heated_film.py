@@ -30,7 +30,7 @@ from ehlectric.film.film_solver import RefinedSolution, refined_solution
 from ehlectric.film.hot_oil import HeatedFilm, Physics, Thermal
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import at_centre
-from ehlectric.film.nested import DIRECT, NESTED_TOLERANCE, interpolated_state, levels_of
+from ehlectric.film.nested import grids_of_solution, interpolated_state, levels_of, tolerance_of
 from ehlectric.film.newton import GridSolution, NewtonStep, Progress, State, Status, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.shear_flow import Columns, ShearedFlow, filled_part, traction
@@ -81,7 +81,7 @@ class HeatedGrid:
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class OuterIteration:
     """Outer iteration on one grid."""
 
     problem: FilmProblem
@@ -294,8 +294,8 @@ class Course:
     ) -> Heat | None:
         """Temperature of a held film together with its flow; None if it has no finite solution.
 
-        The heat of shear of a cold Newtonian film is many orders of magnitude too large. The film, and
-        above all its spike, would follow each temperature on the way. Where the pressure gradient and not the
+        The heat of shear of a cold Newtonian film is many orders of magnitude too large. The film, and above
+        all its spike, would follow each intermediate temperature. Where the pressure gradient and not the
         slip drives the flow, the temperature of a film far from its solution may run away. The first
         temperature counts then.
         """
@@ -365,24 +365,16 @@ def _mixing(weight: Array, heat: Heat) -> Mixing:
 
 def _mixed(mixing: Mixing, heat: Heat, new: Heat) -> Heat:
     """Next temperature, at most 40 K from the last one."""
-    mixed = mixing(
-        np.concatenate([heat.temperature.ravel(), heat.flux.ravel()]),
-        np.concatenate([new.temperature.ravel(), new.flux.ravel()]),
-    )
-    size = heat.temperature.size
-    temperature = mixed[:size].reshape(heat.temperature.shape)
-    flux = mixed[size:].reshape(heat.flux.shape)
-    step = float(np.max(np.abs(temperature - heat.temperature)))
+    mixed = new.with_vector(mixing(heat.vector, new.vector))
+    step = float(np.max(np.abs(mixed.temperature - heat.temperature)))
     if step > _MOST_CHANGE:
         mixing.forget()
-        part = _MOST_CHANGE / step
-        temperature = heat.temperature + part * (temperature - heat.temperature)
-        flux = heat.flux + part * (flux - heat.flux)
-    return replace(new, temperature=temperature, flux=flux)
+        mixed = mixed.with_vector(heat.vector + _MOST_CHANGE / step * (mixed.vector - heat.vector))
+    return mixed
 
 
-# Another way to solve a film: course and temperature -> course and initial temperature.
-Variation: TypeAlias = Callable[[Course, Heat], tuple[Course, Heat]]
+# Variation of the solution for comparison: iteration and temperature -> iteration and initial temperature.
+Variation: TypeAlias = Callable[[OuterIteration, Heat], tuple[OuterIteration, Heat]]
 
 # Growth of the temperature at the pressure spike on a grid that is four times finer, over that from the next
 # coarser grid: as much again. Where the stress grows with the spike, the second doubling adds twice as much.
@@ -401,15 +393,15 @@ def mid_film(temperature: Array) -> Array:
     return np.asarray(np.tensordot(weights, temperature, axes=1))
 
 
-def largest_rise(course: Course, grid: HeatedGrid) -> float | None:
+def largest_rise(iteration: OuterIteration, grid: HeatedGrid) -> float | None:
     """Largest rise of the mid-film temperature over that of the oil that enters [K]; None without heat."""
-    thermal = course.physics.thermal
+    thermal = iteration.physics.thermal
     if grid.heat is None or thermal is None:
         return None
     return float(np.max(mid_film(grid.heat.temperature))) - thermal.inlet_temperature
 
 
-def rise_error(found: list[tuple[Course, HeatedGrid]]) -> float | None:
+def rise_error(found: list[tuple[OuterIteration, HeatedGrid]]) -> float | None:
     """Estimated error of the largest rise of the mid-film temperature.
 
     Returns sum of the errors by the grid along the film, by the polynomial across it and by properties of the
@@ -425,14 +417,14 @@ def rise_error(found: list[tuple[Course, HeatedGrid]]) -> float | None:
     return along + sum(known) if len(known) == len(parts) else None
 
 
-def _along(found: list[tuple[Course, HeatedGrid]]) -> float | None:
+def _along(found: list[tuple[OuterIteration, HeatedGrid]]) -> float | None:
     """Error by the grid along the film [K].
 
     At first order the error is the difference to the next coarser grid, and half of the difference between
     the two grids before. The larger one counts, as a difference of two maxima passes through zero. A peak
     that the grid hardly shows may still become the largest one.
     """
-    known = [(course, grid) for course, grid in found[-3:] if grid.converged and grid.heat is not None]
+    known = [(iteration, grid) for iteration, grid in found[-3:] if grid.converged and grid.heat is not None]
     if len(known) < 2 or known[-2:] != found[-2:]:
         return None
     rises = [rise for each in reversed(known) if (rise := largest_rise(*each)) is not None]
@@ -440,53 +432,55 @@ def _along(found: list[tuple[Course, HeatedGrid]]) -> float | None:
     return max(*changes, _LEAST, close_enough(rises[0]), _growing_peak(*known[-2:]))
 
 
-def _growing_peak(coarse: tuple[Course, HeatedGrid], fine: tuple[Course, HeatedGrid]) -> float:
+def _growing_peak(
+    coarse: tuple[OuterIteration, HeatedGrid], fine: tuple[OuterIteration, HeatedGrid]
+) -> float:
     """Largest rise less that of the fine grid [K], if the growth from the coarse grid goes on."""
-    meshes = [course.levels[0].mesh for course, _ in (coarse, fine)]
+    meshes = [iteration.levels[0].mesh for iteration, _ in (coarse, fine)]
     before, now = (mid_film(grid.heat.temperature) for _, grid in (coarse, fine) if grid.heat is not None)
     growth = np.maximum(now - on_mesh(before[np.newaxis], *meshes)[0], 0.0)
     times = _GROWTH_UNBOUNDED if fine[0].physics.rheology.name in UNBOUNDED else _GROWTH
     return float(np.max(now + times * growth) - np.max(now))
 
 
-def _beyond(course: Course, grid: HeatedGrid) -> bool:
+def _beyond(iteration: OuterIteration, grid: HeatedGrid) -> bool:
     """Whether the film is hotter than the range in which the laws of the oil have values."""
-    thermal = course.physics.thermal
+    thermal = iteration.physics.thermal
     assert thermal is not None and grid.heat is not None
     return bool(np.max(grid.heat.temperature) > thermal.oil.highest)
 
 
-def _finer_across(course: Course, heat: Heat) -> tuple[Course, Heat]:
-    """Course and initial temperature of the film with a polynomial of higher degree across it."""
-    rows = Across.of(course.degree).at(Across.of(_FINE_DEGREE).zeta)
+def _finer_across(iteration: OuterIteration, heat: Heat) -> tuple[OuterIteration, Heat]:
+    """Iteration and initial temperature of the film with a polynomial of higher degree across it."""
+    rows = Across.of(iteration.degree).at(Across.of(_FINE_DEGREE).zeta)
     temperature, by_pressure = (np.tensordot(rows, v, axes=1) for v in (heat.temperature, heat.by_pressure))
     finer = replace(heat, temperature=temperature, by_pressure=by_pressure)
-    return replace(course, degree=_FINE_DEGREE), finer
+    return replace(iteration, degree=_FINE_DEGREE), finer
 
 
-def _curved_oil(course: Course, heat: Heat) -> tuple[Course, Heat]:
-    """Course of the film whose oil goes on beyond its range as parabolas, and not as straight lines."""
-    thermal = course.physics.thermal
+def _curved_oil(iteration: OuterIteration, heat: Heat) -> tuple[OuterIteration, Heat]:
+    """Iteration for oil properties that go on beyond their range as parabolas, and not as straight lines."""
+    thermal = iteration.physics.thermal
     assert thermal is not None
-    physics = replace(course.physics, thermal=replace(thermal, oil=replace(thermal.oil, curved=True)))
-    return replace(course, problem=replace(course.problem, physics=physics)), heat
+    physics = replace(iteration.physics, thermal=replace(thermal, oil=replace(thermal.oil, curved=True)))
+    return replace(iteration, problem=replace(iteration.problem, physics=physics)), heat
 
 
-def _change(course: Course, grid: HeatedGrid, other: Variation) -> float | None:
-    """Change of the largest rise [K] by another way to solve the film; None if that does not converge."""
-    now = largest_rise(course, grid)
+def _change(iteration: OuterIteration, grid: HeatedGrid, other: Variation) -> float | None:
+    """Change of the largest rise [K] by a variation of the solution; None if that does not converge."""
+    now = largest_rise(iteration, grid)
     if now is None or grid.heat is None:
         return None
-    course, heat = other(replace(course, finer=0), grid.heat)
-    varied = course(grid.solution.state, heat, spike=False)
-    rise = largest_rise(course, varied)
+    iteration, heat = other(replace(iteration, finer=0), grid.heat)
+    varied = iteration(grid.solution.state, heat, spike=False)
+    rise = largest_rise(iteration, varied)
     return abs(rise - now) if rise is not None and varied.converged else None
 
 
 # Smallest number of nodes along x of the first grid with heat, in a line and in a point contact.
 _FIRST, _FIRST_POINT = 151, 33
 
-# The same for the careful way.
+# Smallest number of nodes of the first grid of the careful iteration of a line contact.
 _FIRST_CAREFUL = 101
 
 # Parts of the slip of a film that does not converge at once.
@@ -516,13 +510,8 @@ class HeatedSolution:
     outer_iterations: int  # number of outer loops on all grids
     status: Status  # "converged", "stalled" or "diverged"
 
-    @property
-    def surface_temperatures(self) -> Array | None:
-        """Temperatures of both surfaces [K], shape (2, nx, ny); None for an isothermal film."""
-        return None if self.temperature is None else self.temperature[[0, -1]]
 
-
-def film_of(problem: FilmProblem, progress: Progress | None = None) -> HeatedSolution:
+def solve_heated_film(problem: FilmProblem, progress: Progress | None = None) -> HeatedSolution:
     """Solve the film with the physics of its problem, after the isothermal Newtonian film. Returns both
     films, the temperature, and the friction.
 
@@ -548,42 +537,45 @@ def _solved(problem: FilmProblem, progress: Progress | None) -> HeatedSolution:
 
 def _on_grids(
     finest: FilmProblem, simple: RefinedSolution, progress: Progress | None, *, careful: bool
-) -> list[tuple[Course, HeatedGrid]]:
-    """Film with heat on all grids; the quick way ends with the first grid that it does not solve."""
+) -> list[tuple[OuterIteration, HeatedGrid]]:
+    """Film with heat on all grids; the quick iteration ends with the first grid that it does not solve."""
     grids, least = [finest], _FIRST_CAREFUL if careful else _FIRST
     if finest.width is not None:
         least = _FIRST_POINT
     while len(grids) < 2 or grids[-1].nodes // 2 + 1 >= least:
         width = None if grids[-1].width is None else grids[-1].width.coarser()
         grids.append(replace(grids[-1], nodes=grids[-1].nodes // 2 + 1, width=width))
-    found: list[tuple[Course, HeatedGrid]] = []
+    found: list[tuple[OuterIteration, HeatedGrid]] = []
     for finer, posed in reversed(list(enumerate(grids))):
-        course = replace(_course(posed, finer=finer, progress=progress), careful=careful)
+        iteration = replace(_iteration_on(posed, finer=finer, progress=progress), careful=careful)
         if careful:
-            course, grid = _careful(course, simple, found)
+            iteration, grid = _careful(iteration, simple, found)
         else:
-            grid = course(*_start(course, simple, found), spike=True)
-        found.append((course, grid))
+            grid = iteration(*_start(iteration, simple, found), spike=True)
+        found.append((iteration, grid))
         if not careful and not grid.converged:
             break
     return found
 
 
 def _careful(
-    course: Course, simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]
-) -> tuple[Course, HeatedGrid]:
-    """Film with heat on a grid by the first careful way that converges, that of the coarser grid first."""
+    iteration: OuterIteration, simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedGrid]]
+) -> tuple[OuterIteration, HeatedGrid]:
+    """Film with heat on a grid by the first careful iteration that converges.
+
+    The variant that converged on the coarser grid comes first.
+    """
     before = bool(found) and found[-1][0].held
-    ways = [replace(course, held=held) for held in (before, not before)]
-    state, heat = _start(course, simple, found)
-    tried: list[tuple[Course, HeatedGrid]] = []
-    for way in ways:
-        tried.append((way, way(state, heat, spike=True)))
+    variants = [replace(iteration, held=held) for held in (before, not before)]
+    state, heat = _start(iteration, simple, found)
+    tried: list[tuple[OuterIteration, HeatedGrid]] = []
+    for variant in variants:
+        tried.append((variant, variant(state, heat, spike=True)))
         if tried[-1][1].converged:
             return tried[-1]
-    if course.physics.slide_to_roll_ratio != 0.0:
-        for way in ways:
-            tried.append((way, _by_slip(way, simple)))
+    if iteration.physics.slide_to_roll_ratio != 0.0:
+        for variant in variants:
+            tried.append((variant, _by_slip(variant, simple)))
             if tried[-1][1].converged:
                 return tried[-1]
     return tried[0]
@@ -598,23 +590,21 @@ def _on(posed: FilmProblem, whole: GridSolution, problem: FilmProblem) -> FilmPr
     return replace(posed, nodes=mesh.x.size, width=width, physics=problem.physics, wedge_order=3)
 
 
-def _course(problem: FilmProblem, *, finer: int, progress: Progress | None) -> Course:
+def _iteration_on(problem: FilmProblem, *, finer: int, progress: Progress | None) -> OuterIteration:
     """Outer iteration on the grid of a problem."""
-    levels = levels_of(problem)
-    direct = problem.width is None and problem.nodes <= DIRECT
-    tolerance = problem.tolerance if finer == 0 else max(problem.tolerance, NESTED_TOLERANCE)
-    return Course(problem, levels[:1] if direct else levels, tolerance, finer, progress)
+    levels = grids_of_solution(levels_of(problem))
+    return OuterIteration(problem, levels, tolerance_of(problem, finest=finer == 0), finer, progress)
 
 
-def _by_slip(course: Course, simple: RefinedSolution) -> HeatedGrid:
-    """Film with heat on a grid from rolling to its own slip in steps, which converges from farther."""
-    first, second = course.physics.speeds
-    mean = course.physics.mean_speed
-    (state, heat), loops = _start(course, simple, []), 0
+def _by_slip(iteration: OuterIteration, simple: RefinedSolution) -> HeatedGrid:
+    """Film with heat on a grid from rolling to its slip in steps, which converges from farther."""
+    first, second = iteration.physics.speeds
+    mean = iteration.physics.mean_speed
+    (state, heat), loops = _start(iteration, simple, []), 0
     for part in _SLIPS:
         speeds = mean + part * (first - mean), mean + part * (second - mean)
-        problem = replace(course.problem, physics=replace(course.physics, speeds=speeds))
-        grid = replace(course, problem=problem)(state, heat, spike=False)
+        problem = replace(iteration.problem, physics=replace(iteration.physics, speeds=speeds))
+        grid = replace(iteration, problem=problem)(state, heat, spike=False)
         loops += grid.loops
         if grid.solution.status != "diverged":
             state, heat = grid.solution.state, grid.heat
@@ -622,10 +612,10 @@ def _by_slip(course: Course, simple: RefinedSolution) -> HeatedGrid:
 
 
 def _start(
-    course: Course, simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]
+    iteration: OuterIteration, simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedGrid]]
 ) -> tuple[State, Heat | None]:
     """Initial guess: the film with heat on the coarser grid, or the isothermal film on the first grid."""
-    level = course.levels[0]
+    level = iteration.levels[0]
     if found and found[-1][1].converged:
         coarse = found[-1][1]
         state = interpolated_state(level, coarse.solution)
@@ -642,27 +632,27 @@ def _finer(heat: Heat, coarse: Level, level: Level) -> Heat:
     return Heat(*(on_mesh(values, coarse.mesh, level.mesh) for values in vars(heat).values()))
 
 
-def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -> HeatedSolution:
+def _solution(simple: RefinedSolution, found: list[tuple[OuterIteration, HeatedGrid]]) -> HeatedSolution:
     """Results of the film on its finest grid."""
-    course, last = found[-1]
-    problem, physics = course.problem, course.physics
-    mesh, state = course.levels[0].mesh, last.solution.state
-    columns, filled = course.columns(last.solution, last.flow)
+    iteration, last = found[-1]
+    problem, physics = iteration.problem, iteration.physics
+    mesh, state = iteration.levels[0].mesh, last.solution.state
+    columns, filled = iteration.columns(last.solution, last.flow)
     friction = traction(
         columns,
         state.thickness,
         mesh,
-        load=course.levels[0].load,
-        stress_ratio=course.stress_scale / problem.scales.pressure,
+        load=iteration.levels[0].load,
+        stress_ratio=iteration.stress_scale / problem.scales.pressure,
         filled=filled,
     )
-    scales, level = problem.scales, course.levels[0]
+    scales, level = problem.scales, iteration.levels[0]
     load = scales.pressure * scales.length ** (1 if mesh.dy is None else 2) * level.load
     heat = last.heat
     middle = None if heat is None else mid_film(heat.temperature)
     imbalance = None
     if heat is not None and physics.thermal is not None:
-        stream = course.stream(last.solution, heat, columns, filled)
+        stream = iteration.stream(last.solution, heat, columns, filled)
         imbalance = energy_imbalance(stream, heat, physics.thermal.inlet_temperature)
     return HeatedSolution(
         refined=RefinedSolution(problem, [grid.solution for _, grid in found]),
@@ -670,9 +660,9 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
         temperature=None if heat is None else heat.temperature,
         zeta=columns.across.zeta,
         mid_temperature=middle,
-        max_temperature_rise=largest_rise(course, last),
+        max_temperature_rise=largest_rise(iteration, last),
         temperature_rise_error=rise_error(found),
-        shear_stress=course.stress_scale * columns.middle[0] * filled,
+        shear_stress=iteration.stress_scale * columns.middle[0] * filled,
         traction_coefficient=friction.sliding,
         rolling_coefficient=friction.rolling,
         power_loss=friction.power_loss(
@@ -686,7 +676,7 @@ def _solution(simple: RefinedSolution, found: list[tuple[Course, HeatedGrid]]) -
     )
 
 
-def film_status_of(found: HeatedSolution, status: Status) -> Status:
+def heated_status(found: HeatedSolution, status: Status) -> Status:
     """Status of a film, "converged" only if its temperature converged with it and its surfaces are apart.
 
     The equations of heat and shear know no surfaces that touch: a film thinner than the boundary film is no
@@ -698,7 +688,7 @@ def film_status_of(found: HeatedSolution, status: Status) -> Status:
     return "stalled" if pierced else found.status
 
 
-def heated_film(
+def heated_result(
     found: HeatedSolution,
     shaped: Callable[[NDArray[Any]], NDArray[Any]],
     *,

@@ -1,9 +1,11 @@
-"""Stationary films of line and of point contacts, with the result in SI units."""
+"""Stationary films of line and of point contacts in SI units, with heat and shear where they are computed."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from functools import partial
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +13,10 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ehlectric.arrays import Array
 from ehlectric.film.film_error import lost_by_load, side_deficit
-from ehlectric.film.film_solution import FilmSolution, stationary_film
+from ehlectric.film.film_solution import FilmSolution, Shaped, stationary_film
 from ehlectric.film.film_solver import RefinedSolution, StarvedSolution, film_method
-from ehlectric.film.heated_film import film_of, film_status_of, heated_film
+from ehlectric.film.heated_film import heated_result, heated_status, solve_heated_film
+from ehlectric.film.mesh import Mesh
 from ehlectric.film.newton import COLLAPSED, Progress
 from ehlectric.film.problem import FilmProblem
 from ehlectric.runtime.stored import number, stored
@@ -104,20 +107,7 @@ def solve_film(problem: FilmProblem, *, progress: Progress | None = None) -> Fil
     >>> solve_film(FilmProblem(fluid, 401, -4.0, 2.0, thickness_guess=0.1)).status
     'converged'
     """
-    with quiet_solution():
-        if problem.physics is None:
-            return _film(film_method(problem)(problem, progress))
-        found = film_of(problem, progress)
-        simple, film = _film(found.simple), _film(found.refined)
-        status = film_status_of(found, film.status)
-        heated = heated_film(
-            found,
-            _on_line,
-            status=status,
-            minimum_thickness=simple.minimum_thickness if simple.converged else None,
-            central_thickness=simple.central_thickness if simple.converged else None,
-        )
-        return replace(film, heated=heated, status=status)
+    return _solved(problem, progress, _film, lambda _: _on_line)
 
 
 def _film(found: RefinedSolution) -> Film:
@@ -266,20 +256,7 @@ def solve_point_film(problem: FilmProblem, *, progress: Progress | None = None) 
     'converged'
     """
     assert problem.width is not None
-    with quiet_solution():
-        if problem.physics is None:
-            return _point_film(problem, film_method(problem)(problem, progress))
-        found = film_of(problem, progress)
-        simple, film = _point_film(problem, found.simple), _point_film(problem, found.refined)
-        status = film_status_of(found, film.status)
-        heated = heated_film(
-            found,
-            found.refined.last.level.mesh.mirrored,
-            status=status,
-            minimum_thickness=simple.minimum_thickness if simple.converged else None,
-            central_thickness=simple.central_thickness if simple.converged else None,
-        )
-        return replace(film, heated=heated, status=status)
+    return _solved(problem, progress, partial(_point_film, problem), lambda mesh: mesh.mirrored)
 
 
 def _point_film(problem: FilmProblem, found: RefinedSolution) -> PointFilm:
@@ -300,3 +277,33 @@ def _point_film(problem: FilmProblem, found: RefinedSolution) -> PointFilm:
 def semi_axis_across(problem: FilmProblem) -> float:
     """Semi-axis of the dry contact across entrainment [m], which follows from the dimensionless load."""
     return problem.scales.length * 1.5 * problem.geometry.load / np.pi
+
+
+_Solved = TypeVar("_Solved", Film, PointFilm)
+
+
+def _solved(
+    problem: FilmProblem,
+    progress: Progress | None,
+    film_of: Callable[[RefinedSolution], _Solved],
+    shape_on: Callable[[Mesh], Shaped],
+) -> _Solved:
+    """Film of a problem, with its heat and shear where the problem has their physics.
+
+    ``film_of`` makes a film in SI units from solutions on all grids, and ``shape_on`` gives the function that
+    brings nodal values on a mesh into the shape of the film.
+    """
+    with quiet_solution():
+        if problem.physics is None:
+            return film_of(film_method(problem)(problem, progress))
+        found = solve_heated_film(problem, progress)
+        simple, film = film_of(found.simple), film_of(found.refined)
+        status = heated_status(found, film.status)
+        heated = heated_result(
+            found,
+            shape_on(found.refined.last.level.mesh),
+            status=status,
+            minimum_thickness=simple.minimum_thickness if simple.converged else None,
+            central_thickness=simple.central_thickness if simple.converged else None,
+        )
+        return replace(film, heated=heated, status=status)

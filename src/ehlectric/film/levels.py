@@ -10,10 +10,11 @@ from typing import TypeAlias
 import numpy as np
 from scipy import sparse
 
-from ehlectric.arrays import Array
+from ehlectric.arrays import Array, Mask
 from ehlectric.film.deflection import Deflection, Geometry
 from ehlectric.film.mesh import Mesh, Width
 from ehlectric.film.reynolds import Stencil, wedge_stencil
+from ehlectric.formulas.polynomials import linear_interpolation
 
 # The hierarchy ends at the first grid with at most this many nodes, in a line and in a point contact. The
 # dense solve on this grid costs less than one more grid.
@@ -35,12 +36,7 @@ def interpolation(coarse: int, fine: int) -> sparse.csr_array:
     numerator = np.arange(fine) * (coarse - 1)
     left = np.minimum(numerator // (fine - 1), coarse - 2)
     weight = numerator / (fine - 1) - left
-    rows = np.repeat(np.arange(fine), 2)
-    columns = np.stack([left, left + 1], axis=1).ravel()
-    values = np.stack([1.0 - weight, weight], axis=1).ravel()
-    matrix = sparse.csr_array((values, (rows, columns)), shape=(fine, coarse))
-    matrix.eliminate_zeros()
-    return matrix
+    return linear_interpolation(left, weight, coarse)
 
 
 @dataclass(frozen=True)
@@ -117,6 +113,11 @@ class Level:
         """Interpolate values (nx, ny) of the next finer grid to the nodes of this grid."""
         assert self.from_finer is not None
         return self.from_finer(values)
+
+    def inside(self, nodes: Mask) -> Mask:
+        """Nodes of this grid inside a mask (nx, ny) of the next finer grid; none that lies on its border."""
+        inside: Mask = self.inject(nodes.astype(float)) > 1.0 - 1e-9
+        return inside
 
     def prolong(self, values: Array) -> Array:
         """Interpolate values (nx, ny) of this grid linearly to the nodes of the next finer grid."""

@@ -79,9 +79,7 @@ class Mesh:
     @property
     def weights_along(self) -> Array:
         """Trapezoidal weights of the integral over x, shape (nx,)."""
-        weights = np.full(self.x.size, self.dx)
-        weights[[0, -1]] *= 0.5
-        return weights
+        return trapezoidal_weights(self.x.size, self.dx)
 
     @property
     def weights_across(self) -> Array:
@@ -91,9 +89,7 @@ class Mesh:
         """
         if self.dy is None:
             return np.ones(1)
-        weights = np.full(self.y.size, 2.0 * self.dy if self.symmetric else self.dy)
-        weights[[0, -1]] *= 0.5
-        return weights
+        return trapezoidal_weights(self.y.size, 2.0 * self.dy if self.symmetric else self.dy)
 
     @property
     def weights(self) -> Array:
@@ -130,6 +126,13 @@ class Mesh:
     def whole_y(self) -> Array:
         """Positions across entrainment of the whole contact, for the values that ``mirrored`` returns."""
         return np.concatenate([-self.y[:0:-1], self.y]) if self.symmetric else self.y
+
+
+def trapezoidal_weights(count: int, spacing: float) -> Array:
+    """Weights of the trapezoidal rule on equidistant nodes, shape (count,), in the unit of the spacing."""
+    weights = np.full(count, spacing)
+    weights[[0, -1]] *= 0.5
+    return weights
 
 
 def at_centre(mesh: Mesh, values: Array) -> float:

@@ -87,7 +87,7 @@ class MovingFilm:
     def start(self, step: float) -> History:
         """History that starts from the stationary film, with a time T between its two instants."""
         if self.starved is not None:
-            return self.film.start_supplied(self.starved, step)
+            return self.film.start(self.starved, step)
         if self.patch is None:
             return self.film.start(self.steady, step)
         with quiet_solution():

@@ -1,14 +1,13 @@
-"""V-cycle over all grids that preconditions the Newton steps of the film, and its smoother, line
-relaxation.
-
-Line relaxation of the film: the smoother of the multigrid cycle.
-All nodes of a line along x are changed at once, with the band of the Jacobian around its diagonal. Where the
-deflection dominates the Jacobian, an unknown is not the pressure of one node but a dipole or a second
-difference of pressures. Its deflection decays faster with distance (``ehlectric.film.levels.Distribution``).
+"""V-cycle over all grids that preconditions the Newton steps of the film, with line relaxation.
 
 One V-cycle solves J (dP, dH00) = (r, load) approximately, with the Jacobian J. The residual is restricted to
-the coarsest grid, where a dense factorisation solves the system. Each finer grid adds one line relaxation on
-the way back.
+the coarsest grid, where a dense factorisation solves the system. Each finer grid adds one line relaxation
+after the coarse-grid correction.
+
+Line relaxation changes all nodes of a line along x at once, with the band of the Jacobian around its
+diagonal. Where the deflection dominates the Jacobian, an unknown is not the pressure of one node but a dipole
+or a second difference of pressures. Its deflection decays faster with distance
+(``ehlectric.film.levels.Distribution``).
 """
 
 from __future__ import annotations
@@ -194,20 +193,36 @@ class Linearised:
     @classmethod
     def of(cls, gap: Gap, at_faces: Flow, full_film: Mask) -> Linearised:
         """Jacobian at a state, from its gap, its flow and its full-film nodes (nx, ny)."""
-        level = gap.level
-        by_p, by_h = linearise(at_faces, level.wedge, gap.thickness, level.mesh)
-        poiseuille = poiseuille_weight(at_faces, level.mesh)
-        diagonal = poiseuille + gap.elastic_weight(at_faces.coefficients.density)
+        by_p, by_h = linearise(at_faces, gap.level.wedge, gap.thickness, gap.level.mesh)
+        stencils = by_p.on_rows(full_film), by_h.on_rows(full_film)
+        return cls.of_stencils(gap, stencils, at_faces, full_film)
+
+    @classmethod
+    def of_stencils(
+        cls,
+        gap: Gap,
+        stencils: tuple[Stencil, Stencil],
+        at_faces: Flow,
+        full_film: Mask,
+        contact: Mask | bool = False,  # noqa: FBT001, FBT002
+    ) -> Linearised:
+        """Jacobian from its stencils by P and by H, whose rows are zero where P does not change.
+
+        At the nodes in ``contact`` (nx, ny) no pressure drives oil, and the density counts as one.
+        """
+        k = at_faces.coefficients
+        poiseuille = np.where(contact, 0.0, poiseuille_weight(at_faces, gap.level.mesh))
+        diagonal = poiseuille + gap.elastic_weight(np.where(contact, 1.0, k.density))
         return cls(
             gap=gap,
-            by_p=by_p.on_rows(full_film),
-            by_h=by_h.on_rows(full_film),
+            by_p=stencils[0],
+            by_h=stencils[1],
             full_film=full_film,
             poiseuille=poiseuille,
             scale=np.divide(1.0, diagonal, out=np.zeros(full_film.shape), where=full_film),
             unscale=np.where(full_film, diagonal, 0.0),
-            resolved=resolved_nodes(level, at_faces.coefficients.eps, full_film),
-            log_viscosity=at_faces.coefficients.log_viscosity,
+            resolved=resolved_nodes(gap.level, k.eps, full_film),
+            log_viscosity=k.log_viscosity,
         )
 
     @property
@@ -337,8 +352,7 @@ def linearise_levels(
     for level in levels[1:]:
         pressure = level.inject(pressure)
         thickness = level.inject(thickness)
-        # A coarse node between a full-film and a cavitated one counts as cavitated.
-        full_film = level.inject(full_film.astype(float)) > 1.0 - 1e-9
+        full_film = level.inside(full_film)
         at_faces = flow(fluid, pressure, thickness, level.mesh)
         jacobians.append(Linearised.of(Gap(level, thickness), at_faces, full_film))
     return jacobians

@@ -22,7 +22,7 @@ from ehlectric.film.newton import GridSolution, Progress, State, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import wedge_stencil
 from ehlectric.film.starved_solver import conserving_film, forms_again, with_inlet
-from ehlectric.film.touching_solver import Conserving, mixed_film
+from ehlectric.film.touching_solver import Conserving, touching_films
 
 # Tolerance of the residual on the coarser grids, far below their discretisation error.
 NESTED_TOLERANCE = 1e-6
@@ -132,14 +132,12 @@ def _conserving(
 
     ``times`` multiplies the largest number of Newton steps of a film.
     """
-    finest = levels[0].nodes == problem.nodes
-    direct = problem.width is None and levels[0].nodes <= DIRECT
     return conserving_film(
         problem.fluid,
-        levels[:1] if direct else levels,
+        grids_of_solution(levels),
         start,
         order=problem.wedge_order,
-        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        tolerance=tolerance_of(problem, finest=levels[0].nodes == problem.nodes),
         max_iterations=times * problem.max_iterations,
         progress=progress,
     )
@@ -176,7 +174,7 @@ def _mixed(
     elif coarse is not None:
         near = interpolated_state(level, coarse)
     finest = level.nodes == problem.nodes
-    tolerance = problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
+    tolerance = tolerance_of(problem, finest=finest)
     most = (_MIXED if finest else _MIXED_COARSE) * problem.max_iterations
 
     conserving = Conserving(
@@ -192,7 +190,7 @@ def _mixed(
     if not np.any(dry):
         # The dry contact lies between two nodes of this grid.
         return found
-    counted_full = mixed_film(
+    counted_full = touching_films(
         problem.fluid,
         levels,
         dry,
@@ -244,8 +242,7 @@ def accurate_film(problem: FilmProblem, nodes: int, start: State) -> GridSolutio
         wedge_order=3,
         tolerance=NESTED_TOLERANCE,
     )
-    levels = levels_of(posed, roughness=1.0)
-    return _newton_on(posed, levels, None, spike=True)(start)
+    return _newton_on(posed, levels_of(posed), None, spike=True)(start)
 
 
 def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
@@ -256,23 +253,34 @@ def _grids(problem: FilmProblem, *, solved: int) -> list[list[Level]]:
     preconditioner may have half the intervals along one axis only.
     """
     least = FIRST_GRID if problem.width is None else _FIRST_GRID_POINT
-    grids = [levels_of(problem, roughness=1.0)]
+    grids = [levels_of(problem)]
     while (len(grids) < 2 and not solved) or problem.nodes // 2 + 1 >= max(least, solved + 1):
         width = None if problem.width is None else problem.width.coarser()
         problem = replace(problem, nodes=problem.nodes // 2 + 1, width=width)
         coarser = grids[-1][1:]
         shape = Mesh.over(problem.nodes, problem.inlet, problem.outlet, width).shape
         known = len(coarser) > 0 and coarser[0].mesh.shape == shape
-        grids.append(coarser if known else levels_of(problem, roughness=1.0))
+        grids.append(coarser if known else levels_of(problem))
     return grids
 
 
-def levels_of(problem: FilmProblem, *, roughness: float = 1.0) -> list[Level]:
-    """Grids of a problem, from the finest on, with its roughness multiplied by a factor ``roughness``."""
+def grids_of_solution(levels: list[Level]) -> list[Level]:
+    """Grids that a Newton step needs: only the first of a small line contact, which is solved directly."""
+    direct = levels[0].mesh.dy is None and levels[0].nodes <= DIRECT
+    return levels[:1] if direct else levels
+
+
+def tolerance_of(problem: FilmProblem, *, finest: bool) -> float:
+    """Tolerance of the residual on the finest grid of a problem, or the larger one of the coarser grids."""
+    return problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE)
+
+
+def levels_of(problem: FilmProblem) -> list[Level]:
+    """Grids of a problem, from the finest on."""
     added, geometry = problem.added_gap, problem.geometry
     if added is not None:
         smooth = geometry.dry_gap
-        geometry = replace(geometry, dry_gap=lambda x, y: smooth(x, y) + roughness * added(x, y))
+        geometry = replace(geometry, dry_gap=lambda x, y: smooth(x, y) + added(x, y))
     if added is None and problem.width is None and problem.source is None and problem.nodes <= _MOST_KEPT:
         levels = list(
             _line_levels(problem.nodes, problem.inlet, problem.outlet, geometry, problem.wedge_order)
@@ -308,13 +316,11 @@ def _newton_on(
     The tolerance is that of the problem on its own grid, and larger on coarser grids. ``spike`` tells whether
     to solve the nodes of the pressure spike separately.
     """
-    finest = levels[0].nodes == problem.nodes
-    direct = problem.width is None and levels[0].nodes <= DIRECT
     return partial(
         newton,
         problem.fluid,
-        levels[:1] if direct else levels,
-        tolerance=problem.tolerance if finest else max(problem.tolerance, NESTED_TOLERANCE),
+        grids_of_solution(levels),
+        tolerance=tolerance_of(problem, finest=levels[0].nodes == problem.nodes),
         max_iterations=problem.max_iterations,
         # The residual of an interpolated film may be small although the film is that of the coarser grid.
         min_iterations=1,

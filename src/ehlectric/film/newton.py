@@ -18,7 +18,6 @@ from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.flow import Coefficients, Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
-from ehlectric.film.mesh import Mesh, at_centre
 from ehlectric.film.multigrid import Linearised, cycled, linearise_levels, with_kept_preconditioner
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike, step_length
@@ -125,16 +124,6 @@ class GridSolution:
         return bool(np.any(self.state.touching))
 
 
-def film_touches(mesh: Mesh, thickness: Array) -> bool:
-    """Whether a film (nx, ny) in any unit is thinner somewhere than 1 % of its central thickness."""
-    return float(np.min(thickness)) < COLLAPSED * at_centre(mesh, thickness)
-
-
-# Limits of one Newton step: largest change of P, and smallest fraction of every gap that remains. Larger
-# steps leave the basin of convergence at the spike of light contacts; smaller steps only take more of them.
-PRESSURE_STEP = 0.3
-GAP_STEP = 0.3
-
 # Residual times dX that is caused by rounding of H: about 40 times the machine epsilon.
 ROUNDING = 40.0 * np.finfo(float).eps
 
@@ -195,20 +184,17 @@ def newton(
         if progress is not None:
             progress(level.nodes, len(steps), now.norm)
         if eliminate_spike:
-            state, now = _without_spike(fluid, level, state, now)
+            relaxed = without_spike(fluid, level, state, now)
+            if relaxed is not None:
+                state, now = relaxed, assess(fluid, level, relaxed)
         jacobians = _linearised(fluid, levels, state, now, last=jacobians if keeps else [])
         close = LINEAR_TOLERANCE
         if loose:
             close = linear_tolerance(now.norm, before, tolerance if transient else 0.0)
         dp, dh00, krylov = _direction(fluid, jacobians, state, now, close)
         before = now.norm
-        full = State.of(level, state.pressure + dp, state.h00 + dh00)
-        dh = full.thickness - state.thickness
-        length = step_length(state.thickness, dp, dh, pressure_step=PRESSURE_STEP, gap_step=GAP_STEP)
+        candidate = after_step(level, state, dp, dh00)
         steps.append(NewtonStep(level.nodes, now.norm, krylov))
-        candidate = full
-        if length < 1.0:
-            candidate = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
         assessed = assess(fluid, level, candidate)
         if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > SMALLEST_GAP):
             return GridSolution(level, state, now, tuple(steps), "diverged")
@@ -257,10 +243,19 @@ def assess(fluid: Fluid, level: Level, state: State) -> Residual:
     return replace(unnormed, norm=norm)
 
 
-def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> tuple[State, Residual]:
-    """State after a separate solution of the nodes of the pressure spike, with its residual.
+def after_step(level: Level, state: State, dp: Array, dh00: float) -> State:
+    """State after the part of a Newton step dP (nx, ny) and dH00 that keeps P and H within their limits."""
+    full = State.of(level, state.pressure + dp, state.h00 + dh00)
+    length = step_length(state.thickness, dp, full.thickness - state.thickness)
+    if length < 1.0:
+        return State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
+    return full
 
-    If no residual stands out, or the separate solution fails, the state is returned unchanged.
+
+def without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> State | None:
+    """State after a separate solution of the nodes of the pressure spike.
+
+    None if no residual stands out, or if the separate solution fails.
     """
     pressure = relax_spike(
         fluid,
@@ -268,15 +263,9 @@ def _without_spike(fluid: Fluid, level: Level, state: State, now: Residual) -> t
         pressure=state.pressure,
         full_film=now.full_film,
         scaled_residual=np.where(now.full_film, now.scaled, 0.0),
-        pressure_step=PRESSURE_STEP,
-        gap_step=GAP_STEP,
     )
-    if pressure is None:
-        return state, now
-    relaxed = State.of(level, pressure, state.h00)
-    if np.min(relaxed.thickness) <= SMALLEST_GAP:
-        return state, now
-    return relaxed, assess(fluid, level, relaxed)
+    relaxed = None if pressure is None else State.of(level, pressure, state.h00)
+    return None if relaxed is None or np.min(relaxed.thickness) <= SMALLEST_GAP else relaxed
 
 
 def linear_tolerance(norm: float, before: float, tolerance: float) -> float:
@@ -319,14 +308,9 @@ def _direction(
     if len(jacobians) == 1 and finest.kept is None:
         solution = cycled(jacobians, right)
         return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), 1
-    cycles = 0
-
-    def precondition(image: Array) -> Array:
-        nonlocal cycles
-        cycles += 1
-        return cycled(jacobians, image)
-
-    solution = flexible_gmres(finest.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT)
+    solution, cycles = flexible_gmres(
+        finest.image, lambda image: cycled(jacobians, image), right, tolerance=tolerance, limit=KRYLOV_LIMIT
+    )
     return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles
 
 
@@ -337,12 +321,11 @@ def flexible_gmres(
     *,
     tolerance: float,
     limit: int,
-) -> Array:
-    """Solution of a linear system by GMRES with a preconditioner that may vary from iteration to iteration.
+) -> tuple[Array, int]:
+    """Solution (n,) of a linear system by GMRES, and the number of iterations.
 
-    The preconditioner is on the right, so that the norm of the residual itself becomes smallest.
-
-    ``right``, right side, shape (n,). Returns solution; the last iterate if the limit is reached, shape (n,).
+    The preconditioner may vary from iteration to iteration. It is on the right, so that the norm of the
+    residual itself becomes smallest. The solution is the last iterate if the limit is reached.
 
     Y. Saad, SIAM J. Sci. Comput. 14 (1993) 461, doi:10.1137/0914028, algorithm 2.2.
 
@@ -350,20 +333,22 @@ def flexible_gmres(
     --------
     >>> matrix = np.array([[2.0, 1.0], [0.0, 1.0]])
     >>> right = np.array([3.0, 1.0])
-    >>> found = flexible_gmres(lambda v: matrix @ v, lambda v: v, right, tolerance=1e-12, limit=2)
-    >>> bool(np.allclose(found, 1.0))
-    True
+    >>> found, number = flexible_gmres(lambda v: matrix @ v, lambda v: v, right, tolerance=1e-12, limit=2)
+    >>> bool(np.allclose(found, 1.0)), number
+    (True, 2)
     """
     norm = float(np.linalg.norm(right))
     if norm == 0.0:
-        return np.zeros_like(right)
+        return np.zeros_like(right), 0
     basis, changes = [right / norm], []
     # Columns of the triangular factor of the Hessenberg matrix, the rotations that make it triangular, and
     # the rotated right side, whose last entry is the norm of the residual.
     columns: list[Array] = []
     rotations: list[tuple[float, float]] = []
     rotated = [norm]
-    for _ in range(limit):
+    iterations = 0
+    while iterations < limit:
+        iterations += 1
         changes.append(precondition(basis[-1]))
         image = operator(changes[-1])
         length = float(np.linalg.norm(image))
@@ -390,6 +375,6 @@ def flexible_gmres(
             break
         basis.append(image / after)
     if not changes:
-        return np.zeros_like(right)
+        return np.zeros_like(right), iterations
     triangle = np.stack(columns, axis=1)[: len(columns)]
-    return np.asarray(np.linalg.solve(triangle, rotated[:-1]) @ changes)
+    return np.asarray(np.linalg.solve(triangle, rotated[:-1]) @ changes), iterations

@@ -191,12 +191,12 @@ def linearise(flow: Flow, wedge: Stencil, thickness: Array, mesh: Mesh) -> tuple
         by_p[row, here] = w * mass_p[there]
         by_h[row, here] = w * k.density[there]
 
-    for by, along in ((by_p, flow.along.by_pressure()), (by_h, flow.along.by_thickness())):
+    for by, along in ((by_p, flow.along.by_pressure()), (by_h, flow.along.by_gap.outflow())):
         for row, part in zip((1, 2, 3), along, strict=True):
             by[row, 1:-1] += part
     if flow.across is not None:
         _add_across(by_p, flow.across.by_pressure(), mesh)
-        _add_across(by_h, flow.across.by_thickness(), mesh)
+        _add_across(by_h, flow.across.by_gap.outflow(), mesh)
     return Stencil(by_p), Stencil(by_h)
 
 

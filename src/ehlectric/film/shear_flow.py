@@ -1,23 +1,19 @@
-"""Flow of a shear-thinning oil through the faces of a grid, with its derivatives, its stress over the
+"""Flow of a shear-thinning oil through the faces of a grid, with its derivatives, the stress across the
 film, and traction.
 
-Flux through faces of a grid, from the properties of the oil at the nodes across the film.
-Nearly all columns of a film have stress differences below the characteristic stress of the law, for which few
-Gauss points across the film are exact. Only the columns at the pressure spike need many.
-
-Flow of a shear-thinning oil through the faces of a grid, with its derivatives.
 A face has the mean film thickness and density of its two nodes and the logarithmic mean of their fluidities,
 as for a Newtonian oil (``ehlectric.film.flow.mean_fluidity``). Where the viscosity varies across the film,
 the logarithm of its ratio to the viscosity of the reference temperature is the mean of the two nodes. The
-mass flux relative to the mean speed of the surfaces is, with the dimensionless flux of a column (``column``),
+mass flux relative to the mean speed of the surfaces is, with the dimensionless flux of a column
+(``ehlectric.film.shear_stress``),
 
     F = (12/lambda) H^2 S flux(a, w, q, g),    q = H dP/dX/S,    g = lambda SRR/(12 H S)
 
 Stresses are over p_h b/R, and S is the characteristic stress of the law. F is the mass
 flux less the mean density times u_m h. The wedge term is therefore that of a Newtonian oil with the mean
-density across the film.
+density across the film. Nearly all columns have stress differences below the characteristic stress, for which
+few Gauss points across the film are exact. Only the columns at the pressure spike need many.
 
-Traction of a lubricated contact: friction by sliding and by rolling, and the power that it takes.
 The shear stress in the film is tau = tau_m + (z - h/2) dp/dx. The mid-film stress tau_m drags both surfaces
 in opposite directions, and vanishes in pure rolling. The rest, h/2 dp/dx on each surface, resists the motion
 of both in the same direction. It remains in pure rolling, where the inlet has the larger film.
@@ -82,7 +78,7 @@ def flux_of(
     """Flux along the first axis of columns with uniform properties or with a profile across the film.
 
     ``mean``, fluidity eta_0/eta of the columns, at the reference temperature, shape (...); ``gradient`` and
-    ``slip``, q and g of ``column``, along the axis of the flux and, for d = 2, along the other axis,
+    ``slip``, q and g of ``shear_stress``, along the axis of the flux and, for d = 2, along the other axis,
     shape (d, ...); ``profile``, logarithm of the viscosity over that at the reference temperature, and the
     density, at the nodes across the film, shape (nz, ...). Returns flux and derivatives; those by viscosity
     and density are by the values at the nodes across the film.
@@ -474,10 +470,9 @@ class Traction:
     rolling: float  # rolling coefficient: integral of h/2 dp/dx over the load, the resistance on each surface
 
     def power_loss(self, load: float, *, entrainment_speed: float, slide_to_roll_ratio: float) -> float:
-        """Power that the motion of the surfaces takes, sliding and rolling together. ``load``, load of the
-        contact [N], or load per length of a line contact [N/m]; ``entrainment_speed``, mean speed u_m of the
-        surfaces [m/s]. Returns power loss [W], or [W/m] of a line contact: the stress on each surface times
-        its speed.
+        """Power [W], or [W/m] of a line contact, that the motion of the surfaces takes: stress times speed.
+
+        ``load`` is in N, or in N/m of a line contact, and ``entrainment_speed`` in m/s.
 
         Examples
         --------
@@ -499,9 +494,10 @@ def traction(
     stress_ratio: float,
     filled: Array | float = 1.0,
 ) -> Traction:
-    """Traction and rolling coefficients of a contact. ``thickness``, film thickness H, shape (nx, ny);
-    ``filled``, part of the gap that the oil fills; the stress of a cavitated film is this part of that of a
-    full one, shape (nx, ny). Returns coefficients, dimensionless.
+    """Traction and rolling coefficients of a contact with the film thickness H (nx, ny).
+
+    ``filled`` (nx, ny) is the part of the gap that the oil fills. The stress of a cavitated film is this part
+    of that of a full film.
     """
     weights = stress_ratio / load * mesh.weights
     sliding = np.sum(weights * filled * columns.middle[0])

@@ -1,7 +1,6 @@
-r"""Shear stress and flow in one column of the film: along one axis, along both axes, and where the oil is
-even across it.
+"""Shear stress and flow in columns of the film: along one axis, along both axes, and with one rate factor
+across the film.
 
-Shear stress and flow in one column of the film, for stresses along one axis.
 The stress changes linearly across the film, tau(zeta) = t + q (zeta - 1/2) with q = h dp/dx. The mid-film
 stress t follows from the slip of the two surfaces, and the flux from t:
 
@@ -13,22 +12,20 @@ thereby that of the oil relative to the mean speed of the surfaces (integration 
 It is the generalised Reynolds equation of P. Yang and S. Wen, J. Tribol. 112 (1990) 631,
 doi:10.1115/1.2920308, without its effective viscosities.
 
-Stress and flow in one column of the film where the rate factor f is the same across the film.
-A Newtonian oil has f = 1. At a limiting shear stress the stress law alone would put all slip into a layer at
-one surface, and the flux would jump with the sign of the pressure gradient. Where the oil shears is not known
-there. The slip is therefore spread evenly: f is that of the mean stress Int a tau dzeta/Int a dzeta, which
-the limit bounds. The part of the stress that balances the pressure gradient is not limited. Stress and flux
-have closed forms,
+A Newtonian oil has the rate factor f = 1 across the film. At a limiting shear stress the stress law alone
+would put all slip into a layer at one surface, and the flux would jump with the sign of the pressure
+gradient. Where the oil shears is not known there. The slip is therefore spread evenly: f is that of the mean
+stress Int a tau dzeta/Int a dzeta, which the limit bounds. The part of the stress that balances the pressure
+gradient is not limited. Stress and flux have closed forms,
 
     x = g/Int a,    tau_mean = r(abs(x)) x/abs(x),    f = abs(x)/r,    flux = B0 x + f K q
 
-with B0 = Int w a dzeta, K the covariance of w and zeta with the weight a, and the notation of ``column``.
+with B0 = Int w a dzeta, K the covariance of w and zeta with the weight a.
 
-Shear stress and flow in one column of the film, for stresses along both axes of a point contact.
-The equations are those of ``column`` with vectors: the stress tau(zeta) = t + q (zeta - 1/2) has two
-components, and the shear rate has the direction of the stress. The mid-film stress t follows from two
-conditions, the slip along both axes, by Newton's method. The two conditions are the gradient of a convex
-function of t, so that there is one solution.
+Along both axes of a point contact the equations are the same with vectors: the stress tau(zeta) = t + q (zeta
+- 1/2) has two components, and the shear rate has the direction of the stress. The mid-film stress t follows
+from two conditions, the slip along both axes, by Newton's method. The two conditions are the gradient of a
+convex function of t, so that there is one solution.
 """
 
 from __future__ import annotations

@@ -35,6 +35,10 @@ _MARGIN = 2
 # Largest number of Newton steps for the nodes of the window.
 _MAX_ITERATIONS = 30
 
+# Limits of one Newton step: largest change of P, and smallest fraction of every gap that remains. Larger
+# steps leave the basin of convergence at the spike of light contacts; smaller steps only take more of them.
+_PRESSURE_STEP, _GAP_STEP = 0.3, 0.3
+
 
 @dataclass(frozen=True)
 class _Window:
@@ -88,8 +92,6 @@ def relax_spike(
     pressure: Array,
     full_film: Mask,
     scaled_residual: Array,
-    pressure_step: float,
-    gap_step: float,
 ) -> Array | None:
     """Pressure of a line contact after a separate solution at the nodes around the largest residual.
 
@@ -124,19 +126,16 @@ def relax_spike(
             return None
         dp[unknown, 0] = step
         dh = window.influence @ dp
-        length = step_length(h, dp, dh, pressure_step=pressure_step, gap_step=gap_step)
+        length = step_length(h, dp, dh)
         p[window.inner] += length * dp
         h += length * dh
     return None
 
 
-def step_length(thickness: Array, dp: Array, dh: Array, *, pressure_step: float, gap_step: float) -> float:
-    """Fraction of a full Newton step that keeps the changes of P and H within their limits. ``thickness``,
-    ``dp`` and ``dh``, film thickness H, and the changes of P and H in a full step, dimensionless,
-    shape (nx, ny).
-    """
-    length = min(1.0, pressure_step / max(float(np.max(np.abs(dp))), 1e-300))
+def step_length(thickness: Array, dp: Array, dh: Array) -> float:
+    """Fraction of a full Newton step that keeps the changes of P and H (nx, ny) within their limits."""
+    length = min(1.0, _PRESSURE_STEP / max(float(np.max(np.abs(dp))), 1e-300))
     closing = dh < 0.0
     if closing.any():
-        length = min(length, float(np.min((gap_step - 1.0) * thickness[closing] / dh[closing])))
+        length = min(length, float(np.min((_GAP_STEP - 1.0) * thickness[closing] / dh[closing])))
     return length

@@ -1,8 +1,8 @@
 """Starved films: content of oil in the gap, the Newton-Krylov iteration that finds the meniscus, and its
 Jacobian.
 
-Oil content of a starved film: mass that fills a part of the gap, carried along by the surfaces.
-Every node fulfils the complementarity condition of Elrod and Adams in the whole domain:
+Oil that fills only a part of the gap is carried along by the surfaces. Every node fulfils the complementarity
+condition of Elrod and Adams in the whole domain:
 
     P >= P_amb,   theta <= 1,   (P - P_amb) (1 - theta) = 0,
     d(theta rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
@@ -29,13 +29,11 @@ from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import Level
 from ehlectric.film.mesh import Mesh
-from ehlectric.film.multigrid import Linearised, cycled, resolved_nodes
+from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
-    GAP_STEP,
     KRYLOV_LIMIT,
     LINEAR_TOLERANCE,
     LOAD_WEIGHT,
-    PRESSURE_STEP,
     ROUNDING,
     SMALLEST_GAP,
     GridSolution,
@@ -44,7 +42,9 @@ from ehlectric.film.newton import (
     Residual,
     State,
     Status,
+    after_step,
     flexible_gmres,
+    without_spike,
 )
 from ehlectric.film.reynolds import (
     ALONG,
@@ -55,7 +55,6 @@ from ehlectric.film.reynolds import (
     stencil_matrix,
     without_columns,
 )
-from ehlectric.film.spike import relax_spike, step_length
 
 # Ratio of the full gaps of two nodes above which the gap closes too steeply to be extrapolated.
 _STEEP = 1.8
@@ -228,9 +227,10 @@ def unreduced(level: Level, flow: Flow, thickness: Array, filled: Mask, supply: 
 
 
 def content(runs: Runs, rows: Array, full: Array, dx: float) -> Array:
-    """Mass of oil at all nodes, shape (nx, ny). ``rows``, rows of the Reynolds equation without the masses of
-    cavitated nodes, as ``unreduced`` returns them, shape (nx, ny); ``full``, mass rho H of the full gap,
-    shape (nx, ny). Returns rho H at filled nodes, theta rho H at cavitated ones, shape (nx, ny).
+    """Mass of oil (nx, ny): rho H at filled nodes, theta rho H at cavitated nodes.
+
+    ``rows`` (nx, ny) are those of the Reynolds equation without the masses of cavitated nodes, as
+    ``unreduced`` returns them; ``full`` (nx, ny) is the mass rho H of the full gap.
 
     Examples
     --------
@@ -266,7 +266,7 @@ class StarvedJacobian:
         jacobians = [_linearised(levels[0], (by_p, by_h), at_faces, thickness, filled)]
         for level in levels[1:]:
             pressure, thickness = level.inject(pressure), level.inject(thickness)
-            on_edge = level.inject(on_edge.astype(float)) > 1.0 - 1e-9
+            on_edge = level.inside(on_edge)
             supply = supply.injected(level)
             at_faces = flow(fluid, pressure, thickness, level.mesh)
             stencils = _stencils(level, at_faces, thickness, on_edge, supply)
@@ -351,22 +351,10 @@ def _linearised(
     level: Level, stencils: tuple[Stencil, Stencil], at_faces: Flow, thickness: Array, filled: Mask
 ) -> Linearised:
     """Jacobian on one grid whose rows behind cavitated nodes contain the row of the node before."""
-    full_film, gap = filled & level.mesh.inner, Gap(level, thickness)
-    poiseuille = poiseuille_weight(at_faces, level.mesh)
-    diagonal = poiseuille + gap.elastic_weight(at_faces.coefficients.density)
+    full_film = filled & level.mesh.inner
     behind = behind_cavities(filled) & full_film
     by_p, by_h = (with_row_before(part, behind).on_rows(full_film) for part in stencils)
-    return Linearised(
-        gap=gap,
-        by_p=by_p,
-        by_h=by_h,
-        full_film=full_film,
-        poiseuille=poiseuille,
-        scale=np.divide(1.0, diagonal, out=np.zeros(full_film.shape), where=full_film),
-        unscale=np.where(full_film, diagonal, 0.0),
-        resolved=resolved_nodes(level, at_faces.coefficients.eps, full_film),
-        log_viscosity=at_faces.coefficients.log_viscosity,
-    )
+    return Linearised.of_stencils(Gap(level, thickness), (by_p, by_h), at_faces, full_film)
 
 
 def behind_cavities(filled: Mask) -> Mask:
@@ -428,15 +416,15 @@ def starved_newton(
     max_iterations: int,
     progress: Progress | None = None,
 ) -> tuple[GridSolution, Content]:
-    """Solve the film equations on the first of ``levels`` with a supply of oil at the inlet edge. ``fluid``,
-    lubricant over dimensionless pressure; ``filled``, nodes that oil fills in the initial guess,
-    shape (nx, ny). Returns last iterate, with its status; content of oil of the last iterate.
+    """Last iterate on the first of ``levels`` with a supply of oil at the inlet edge, and its content of oil.
+
+    ``filled`` (nx, ny) marks the nodes that oil fills in the initial guess.
     """
     level = levels[0]
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
     now = assess_content(fluid, level, state, filled, supply)
-    settled, seen = False, Seen()
+    settled, memory = False, MaskMemory()
     status: Status = "stalled"
     while not (settled and now.norm <= tolerance) and len(steps) < max_iterations:
         if progress is not None:
@@ -445,29 +433,25 @@ def starved_newton(
         jacobian = StarvedJacobian.of(fluid, levels, state, now.residual, now.filled, supply)
         close = LINEAR_TOLERANCE if settled or level.mesh.dy is None else _UNSETTLED
         dp, dh00, krylov = _direction(fluid, jacobian, state, now, close)
-        full = State.of(level, state.pressure + dp, state.h00 + dh00)
-        dh = full.thickness - state.thickness
-        length = step_length(state.thickness, dp, dh, pressure_step=PRESSURE_STEP, gap_step=GAP_STEP)
+        candidate = after_step(level, state, dp, dh00)
         steps.append(NewtonStep(level.nodes, now.norm, krylov))
-        if length < 1.0:
-            full = State.of(level, state.pressure + length * dp, state.h00 + length * dh00)
-        assessed = assess_content(fluid, level, full, now.filled, supply)
-        if not (np.isfinite(assessed.norm) and np.min(full.thickness) > SMALLEST_GAP):
+        assessed = assess_content(fluid, level, candidate, now.filled, supply)
+        if not (np.isfinite(assessed.norm) and np.min(candidate.thickness) > SMALLEST_GAP):
             status = "diverged"
             break
-        moved = next_filled(fluid, level, full, assessed)
+        moved = next_filled(fluid, level, candidate, assessed)
         settled = bool(np.array_equal(moved, assessed.filled))
         if not settled:
-            supply = seen.calmed(supply, assessed.filled, moved)
-            assessed = assess_content(fluid, level, full, moved, supply)
-        state, now = full, assessed
+            supply = memory.supply_after(supply, assessed.filled, moved)
+            assessed = assess_content(fluid, level, candidate, moved, supply)
+        state, now = candidate, assessed
     if settled and now.norm <= tolerance:
         status = "converged"
     return GridSolution(level, state, now.residual, tuple(steps), status), now
 
 
-class Seen:
-    """Memory of the masks of filled nodes of an iteration, to find out where it goes round in circles.
+class MaskMemory:
+    """Masks of filled nodes that an iteration has had, to detect cycles.
 
     The order of the wedge term depends on the nodes that are filled. It may happen that a node overflows as a
     cavitated node and is under tension as a filled one. With the upwind difference on both sides this is
@@ -477,7 +461,7 @@ class Seen:
     def __init__(self) -> None:
         self._masks: set[bytes] = set()
 
-    def calmed(self, supply: Supply, filled: Mask, moved: Mask) -> Supply:
+    def supply_after(self, supply: Supply, filled: Mask, moved: Mask) -> Supply:
         """Supply with an upwind difference at nodes that change, if this change leads to a known mask."""
         key = np.packbits(moved).tobytes()
         if key in self._masks:
@@ -487,9 +471,9 @@ class Seen:
 
 
 def assess_content(fluid: Fluid, level: Level, state: State, filled: Mask, supply: Supply) -> Content:
-    """Residual of a starved film at a state, with given filled nodes. ``fluid``, lubricant over dimensionless
-    pressure; ``filled``, nodes where oil fills the gap; on the edges only those of the inlet edge count,
-    shape (nx, ny). Returns residual of every equation, their norm, and the mass of oil.
+    """Residual of a starved film at a state, and the mass of oil, with given filled nodes (nx, ny).
+
+    On the edges of the domain only the filled nodes of the inlet edge count.
     """
     mesh, thickness = level.mesh, state.thickness
     at_faces = flow(fluid, state.pressure, thickness, mesh)
@@ -548,19 +532,8 @@ def _without_spike(
     if level.mesh.dy is not None:
         return state, now
     posed = replace(level, wedge=supply.wedge(level.mesh, now.filled))
-    pressure = relax_spike(
-        fluid,
-        Gap(posed, state.thickness),
-        pressure=state.pressure,
-        full_film=now.residual.full_film,
-        scaled_residual=np.where(now.residual.full_film, now.residual.scaled, 0.0),
-        pressure_step=PRESSURE_STEP,
-        gap_step=GAP_STEP,
-    )
-    if pressure is None:
-        return state, now
-    relaxed = State.of(level, pressure, state.h00)
-    if np.min(relaxed.thickness) <= SMALLEST_GAP:
+    relaxed = without_spike(fluid, posed, state, now.residual)
+    if relaxed is None:
         return state, now
     assessed = assess_content(fluid, level, relaxed, now.filled, supply)
     return (relaxed, assessed) if assessed.norm < now.norm else (state, now)
@@ -575,12 +548,7 @@ def _direction(
     to_ambient = np.where(residual.full_film, 0.0, resting - state.pressure)
     change, load = jacobian(to_ambient, 0.0) if to_ambient.any() else (0.0, 0.0)
     right = np.append(-finest.scale * (residual.reynolds + change), residual.load - load)
-    cycles = 0
-
-    def precondition(image: Array) -> Array:
-        nonlocal cycles
-        cycles += 1
-        return jacobian.precondition(image)
-
-    solution = flexible_gmres(jacobian.image, precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT)
+    solution, cycles = flexible_gmres(
+        jacobian.image, jacobian.precondition, right, tolerance=tolerance, limit=KRYLOV_LIMIT
+    )
     return to_ambient + solution[:-1].reshape(state.pressure.shape), float(solution[-1]), cycles

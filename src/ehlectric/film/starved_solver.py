@@ -1,11 +1,9 @@
-"""Solution of a starved film on one grid: initial guesses, layers of oil that fall in steps, films that
-form again.
+"""Starved films on one grid, and flooded films that form again behind a cavity.
 
-Flooded films that form again behind a cavity, as between the peaks of a rough surface.
-The wedge term of ``ehlectric.film.newton`` counts a cavitated gap as full. That is exact where no oil fills
-the gap any more behind a cavity. Elsewhere it makes the oil that is missing in the cavity. There the content
-of oil is carried through the cavity, as in a starved film (``ehlectric.film.starved_film``) whose inlet is
-flooded.
+A flooded film may form again behind a cavity, as between the peaks of a rough surface. The wedge term of
+``ehlectric.film.newton`` counts a cavitated gap as full. That is exact where no oil fills the gap any more
+behind a cavity. Elsewhere it makes the oil that is missing in the cavity. There the content of oil is carried
+through the cavity, as in a starved film (``ehlectric.film.starved_film``) whose inlet is flooded.
 """
 
 from __future__ import annotations
@@ -56,9 +54,9 @@ def conserving_film(
     max_iterations: int,
     progress: Progress | None = None,
 ) -> GridSolution:
-    """Film that conserves the mass of the oil, on the first of ``levels``. ``fluid``, lubricant over
-    dimensionless pressure; ``order``, order of the wedge term where oil fills the gap. Returns last iterate,
-    with its oil fraction.
+    """Last iterate, with its oil fraction, of a film that conserves its oil, on the first of ``levels``.
+
+    ``order`` is that of the wedge term where oil fills the gap.
     """
     supply = flooded_inlet(levels[0], order)
 
@@ -148,8 +146,8 @@ class StarvedFilm:
 
 
 @dataclass(frozen=True)
-class Course:
-    """Equations and stopping rule of a starved film on one grid."""
+class StarvedProblem:
+    """Starved film to be solved on one grid, with the flooded film and the stopping rule."""
 
     fluid: Fluid  # lubricant over dimensionless pressure
     levels: list[Level]  # grids from the one to solve on to the coarsest of the preconditioner
@@ -278,7 +276,7 @@ _MOST_FACTOR, _FLOODED = 4.0, 1.0 - 1e-9
 
 
 def film_of_ratio(
-    course: Course, ratio: float, near: tuple[State, Mask] | None, last: StarvedFilm | None
+    starved: StarvedProblem, ratio: float, near: tuple[State, Mask] | None, last: StarvedFilm | None
 ) -> tuple[Array | None, StarvedFilm | None]:
     """Uniform layer of oil (ny,) for a ratio of central films, and its starved film.
 
@@ -289,20 +287,20 @@ def film_of_ratio(
 
     Secant method for ln(film) over ln(layer), whose slope is between 0 and 1.
     """
-    lines, mesh = np.ones_like(course.level.mesh.y), course.level.mesh
-    ambient = float(course.flooded.final.coefficients.density[0, 0])
-    if course.flooded.status != "converged":
+    lines, mesh = np.ones_like(starved.level.mesh.y), starved.level.mesh
+    ambient = float(starved.flooded.final.coefficients.density[0, 0])
+    if starved.flooded.status != "converged":
         return None, None
     if ratio >= _FLOODED:
-        return (taken_layer(course) if mesh.dy is None else None), None
-    flooded = at_centre(mesh, course.flooded.state.thickness)
-    layer = first_layer(ratio, line=mesh.dy is None) * course.flooded_mass / ambient
+        return (taken_layer(starved) if mesh.dy is None else None), None
+    flooded = at_centre(mesh, starved.flooded.state.thickness)
+    layer = first_layer(ratio, line=mesh.dy is None) * starved.flooded_mass / ambient
     if last is not None:
         layer = at_centre_line(last.solution.level, last.layer)
     found: list[tuple[float, float]] = []
     best: tuple[float, StarvedFilm] | None = None
     for _ in range(_MOST_FILMS):
-        film = course.solved(layer * lines, near)
+        film = starved.solved(layer * lines, near)
         if film.solution.status != "converged":
             break
         missed = float(np.log(at_centre(mesh, film.solution.state.thickness) / (ratio * flooded)))
@@ -317,13 +315,13 @@ def film_of_ratio(
     return chosen.layer, chosen
 
 
-def taken_layer(course: Course) -> Array:
+def taken_layer(starved: StarvedProblem) -> Array:
     """Thickness H (ny,) at ambient pressure of the oil that the flooded film takes through the inlet edge."""
-    flooded, mesh = course.flooded, course.level.mesh
+    flooded, mesh = starved.flooded, starved.level.mesh
     flow = flooded.final.flow
     density = flow.coefficients.density
     mass = density * flooded.state.thickness
-    edge = mass[0] if course.order == 1 else 0.5 * (mass[0] + mass[1])
+    edge = mass[0] if starved.order == 1 else 0.5 * (mass[0] + mass[1])
     taken: Array = (edge - mesh.dx * flow.along.flux[0]) / density[0]
     return taken
 

@@ -1,6 +1,5 @@
 """Films whose surfaces touch at some nodes: the residual, its Jacobian, and the Newton-Krylov iteration.
 
-Nodes where the surfaces touch, and the residual of a film with such nodes.
 The surfaces touch where the gap is as thin as the boundary film that adheres to them, H = H_s. There the
 contact pressure P_c of the asperities adds to the pressure P of the oil. Every node fulfils
 
@@ -15,12 +14,11 @@ where surfaces touch: P is what drives the oil through a gap of the thickness H_
 node, cavitated, full film and contact, the first two are those of the oil, and either may hold at a node in
 contact (``ehlectric.film.cavitation``).
 
-Jacobian of a film whose surfaces touch at some nodes, and its preconditioner.
-The unknowns are the sum Q of the pressures of oil and asperities at all nodes, the pressure P of the oil
-where the surfaces touch, and H00. The rows of the nodes in contact ask for H = H_s. The pressure of the oil
-there follows from its own Reynolds equation by a sparse factorisation and is eliminated, so that the unknowns
-are those of a film without contact. Where oil is carried through cavities, its mass in them is eliminated
-with the pressure of the oil.
+The unknowns of a Newton step are the sum Q of the pressures of oil and asperities at all nodes, the pressure
+P of the oil where the surfaces touch, and H00. The rows of the nodes in contact ask for H = H_s. The pressure
+of the oil there follows from its own Reynolds equation by a sparse factorisation and is eliminated, so that
+the unknowns are those of a film without contact. Where oil is carried through cavities, its mass in them is
+eliminated with the pressure of the oil.
 
 The difference of the rows of two neighbours in contact is the wedge term of an incompressible film through
 which no pressure drives oil, dH/dX = 0. Written in this form, the rows of a spot are like those of the Hertz
@@ -30,7 +28,7 @@ zone of a heavy contact, and the V-cycles of the film (``ehlectric.film.multigri
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from scipy.sparse.linalg import SuperLU, splu
@@ -40,7 +38,7 @@ from ehlectric.film.cavitation import full_film_nodes, with_refilled_nodes
 from ehlectric.film.flow import Flow, Fluid, flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.levels import DIPOLE, Level
-from ehlectric.film.multigrid import Linearised, cycled, resolved_nodes
+from ehlectric.film.multigrid import Linearised, cycled
 from ehlectric.film.newton import (
     LOAD_WEIGHT,
     ROUNDING,
@@ -64,8 +62,8 @@ from ehlectric.film.reynolds import (
 from ehlectric.film.starved_film import (
     OVERFLOW,
     TENSION,
+    MaskMemory,
     Runs,
-    Seen,
     Supply,
     behind_cavities,
     content,
@@ -76,25 +74,21 @@ from ehlectric.film.starved_film import (
 
 
 @dataclass(frozen=True)
-class Touching:
-    """Residual of a film whose surfaces touch at some nodes, at one state."""
+class Touching(Residual):
+    """Residual of a film whose surfaces touch at some nodes, at one state.
 
-    flow: Flow  # flow of the oil through the faces, with a gap of at least H_s
+    Its flow is that of a gap of at least H_s. Its norm has the rows of all equations but those of the oil
+    where the surfaces touch.
+    """
+
     thickness: Array  # gap of the flow, the larger of H and H_s, shape (nx, ny)
-    reynolds: Array  # residual r of the Reynolds equation, shape (nx, ny)
-    poiseuille: Array  # diagonal of the Poiseuille term, shape (nx, ny)
-    diagonal: Array  # approximate derivative of r by the pressure of the oil at its own node, shape (nx, ny)
-    full_film: Mask  # nodes that oil fills; at all others the oil is at ambient pressure, shape (nx, ny)
     # contact and plastic: nodes where the surfaces touch, and those among them where they are flattened,
     # shape (nx, ny).
     contact: Mask
     plastic: Mask
     missing: Array  # H_s - H where the surfaces touch and are not flattened, zero elsewhere, shape (nx, ny)
     to_hardness: Array  # P_y - Q where they are flattened, zero elsewhere, shape (nx, ny)
-    load: float  # dimensionless load of the contact minus the load that the pressure carries
-    norm: float  # largest scaled residual of all equations but those of the oil where the surfaces touch
-    # Largest scaled residual of the oil where the surfaces touch. Both are pressures over p_h.
-    oil_norm: float
+    oil_norm: float  # largest scaled residual of the oil where the surfaces touch, a pressure over p_h
     # Oil that is carried through cavities; None where a cavitated gap counts as full.
     carried: Carried | None = None
     settled: bool = True  # whether the nodes that oil fills are those at which its mass was carried
@@ -125,12 +119,11 @@ class Carried:
 
     def on(self, level: Level) -> Carried:
         """Filled nodes and supply on the next coarser grid, for its equations only."""
-        filled = level.inject(self.filled.astype(float)) > 1.0 - 1e-9
-        return Carried(self.supply.injected(level), filled)
+        return Carried(self.supply.injected(level), level.inside(self.filled))
 
 
-def own_compliance(level: Level) -> float:
-    """Deflection at a node by a unit pressure there and the opposite one at its neighbour along x."""
+def node_compliance(level: Level) -> float:
+    """Deflection at a node by a unit pressure there and the opposite pressure at its neighbour along x."""
     influence = level.deflection.influence
     return float(influence[0, 0] - influence[1, 0])
 
@@ -149,7 +142,7 @@ def contact_nodes(level: Level, state: State, boundary_film: float) -> Mask:
     They are those where P_c - (H - H_s)/c > 0, with the compliance c of a node, as in a primal-dual active
     set method; the edges of the domain are never among them.
     """
-    excess = state.contact_pressure - (state.thickness - boundary_film) / own_compliance(level)
+    excess = state.contact_pressure - (state.thickness - boundary_film) / node_compliance(level)
     contact: Mask = (excess > 0.0) & level.mesh.inner
     return contact
 
@@ -158,7 +151,7 @@ def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: M
     """Mask of the nodes in contact whose asperities are flattened, shape (nx, ny)."""
     if np.isinf(asperities.hardness):
         return np.zeros(contact.shape, dtype=bool)
-    sunk = (asperities.boundary_film - state.thickness) / own_compliance(level)
+    sunk = (asperities.boundary_film - state.thickness) / node_compliance(level)
     plastic: Mask = contact & (state.pressure - asperities.hardness + sunk > 0.0)
     return plastic
 
@@ -166,9 +159,9 @@ def plastic_nodes(level: Level, state: State, asperities: Asperities, contact: M
 def assess_touching(
     fluid: Fluid, level: Level, state: State, asperities: Asperities, carried: Carried | None = None
 ) -> Touching:
-    """Residual of the film equations at a state whose surfaces may touch. ``fluid``, lubricant over
-    dimensionless pressure; ``carried``, nodes that oil fills, and its supply, where the oil in cavities is
-    carried. Returns residual of every equation, and their norms.
+    """Residual of the film equations at a state whose surfaces may touch.
+
+    ``carried`` has the nodes that oil fills, and the supply, where the oil in cavities is carried.
     """
     mesh, boundary_film = level.mesh, asperities.boundary_film
     contact = contact_nodes(level, state, boundary_film)
@@ -191,7 +184,7 @@ def assess_touching(
         before = carried.filled
         carried, r = _filled_anew(level, at_faces, thickness, poiseuille, excess, carried)
         full_film, settled = carried.filled & mesh.inner, bool(np.array_equal(carried.filled, before))
-    compliance = own_compliance(level)
+    compliance = node_compliance(level)
     moving = np.where(contact, k.density_p * thickness, k.density * compliance)
     diagonal = poiseuille + moving * level.rate
     scaled = np.where(full_film, r / np.where(diagonal > 0.0, diagonal, 1.0), excess)
@@ -205,7 +198,6 @@ def assess_touching(
         flow=at_faces,
         thickness=thickness,
         reynolds=r,
-        poiseuille=poiseuille,
         diagonal=diagonal,
         full_film=full_film,
         contact=contact,
@@ -270,7 +262,7 @@ class TouchingJacobian:
     # Jacobians for Q and H00 on all grids, without the change of the oil where the surfaces touch. Rows
     # behind cavities contain the last row of the cavity.
     levels: list[Linearised]
-    finest: Linearised  # Jacobian for Q and H00 on the finest grid without this
+    finest: Linearised  # Jacobian for Q and H00 on the finest grid, without the last rows of cavities
     # oil_by_p and oil_by_h: derivatives of the Reynolds residual by P and by H, of all nodes that oil fills.
     oil_by_p: Stencil
     oil_by_h: Stencil
@@ -284,16 +276,17 @@ class TouchingJacobian:
     # Factorisation of ``by_rest`` between the nodes of ``rest``; None where there are none.
     factors: SuperLU | None
     open_nodes: Mask  # nodes apart from contact where the Poiseuille term dominates, shape (nx, ny)
-    # Factorisation of the derivative of their Reynolds residual by their P at fixed gap.
+    # Factorisation of the derivative of the Reynolds residual of ``open_nodes`` by their P at fixed gap.
     open_factors: SuperLU | None
 
     @classmethod
     def of(
         cls, fluid: Fluid, levels: list[Level], oil_pressure: Array, now: Touching, damping: float
     ) -> TouchingJacobian:
-        """Jacobian at a state with the residual ``now``; the coarser grids take its injection. Raises
-        numpy.linalg.LinAlgError where the oil of some nodes has no flow, as in gaps that are far from a
-        solution.
+        """Jacobian at a state with the residual ``now``; the coarser grids take its injection.
+
+        Raises numpy.linalg.LinAlgError where the oil of some nodes has no flow, as in gaps that are far from
+        a solution.
         """
         level, contact, full_film, carried = levels[0], now.contact, now.full_film, now.carried
         plastic = now.plastic
@@ -312,7 +305,7 @@ class TouchingJacobian:
         pressure, thickness = oil_pressure, now.thickness
         for coarse in levels[1:]:
             pressure, thickness = coarse.inject(pressure), coarse.inject(thickness)
-            masks = tuple(coarse.inject(mask.astype(float)) > 1.0 - 1e-9 for mask in masks)
+            masks = tuple(coarse.inside(mask) for mask in masks)
             carried = None if carried is None else carried.on(coarse)
             at_faces = flow(fluid, pressure, thickness, coarse.mesh)
             stencils = _damped(coarse, at_faces, thickness, damping * level.rate / coarse.rate, carried)
@@ -352,8 +345,9 @@ class TouchingJacobian:
 
     def rest_of(self, oil: Array, dq: Array, dh: Array) -> Array:
         """Change of P of the oil where the surfaces touch, and of the mass in cavities, shape (nx, ny).
-        ``oil``, right side of the rows of the oil, shape (nx, ny); ``dq`` and ``dh``, change of Q, which is
-        that of P where the surfaces do not touch, and change of H, shape (nx, ny).
+
+        ``oil`` is the right side of the rows of the oil, ``dq`` the change of Q, which is that of P where the
+        surfaces do not touch, and ``dh`` the change of H, each (nx, ny).
         """
         change = np.zeros_like(dq)
         if self.factors is not None:
@@ -376,8 +370,8 @@ class TouchingJacobian:
     def precondition(self, image: Array) -> Array:
         """Approximate change of Q and H00 from a scaled residual and load, by one V-cycle.
 
-        Beside spots the mobility changes by orders of magnitude from node to node, which coarser grids do not
-        see. What the cycle leaves where the Poiseuille term dominates is solved at fixed gap.
+        Next to spots the mobility changes by orders of magnitude from node to node, which coarser grids do
+        not see. What the cycle leaves where the Poiseuille term dominates is solved at fixed gap.
         """
         change = cycled(self.levels, image)
         if self.open_factors is not None:
@@ -429,28 +423,14 @@ def _linearised(
     """
     full_film, contact, plastic = masks
     free = full_film & ~contact
-    gap = Gap(level, thickness)
     if carried is not None:
         behind = behind_cavities(carried.filled) & free
         stencils = with_row_before(stencils[0], behind), with_row_before(stencils[1], behind)
     by_p = without_columns(stencils[0].on_rows(free), contact)
     by_h = without_columns(stencils[1].on_rows(free), plastic)
     by_h = _with_contact_rows(level, by_h, contact & ~plastic)
-    poiseuille = np.where(contact, 0.0, poiseuille_weight(at_faces, level.mesh))
-    density = np.where(contact, 1.0, at_faces.coefficients.density)
-    diagonal = poiseuille + gap.elastic_weight(density)
     unknown = free | (contact & ~plastic)
-    return Linearised(
-        gap=gap,
-        by_p=by_p,
-        by_h=by_h,
-        full_film=unknown,
-        poiseuille=poiseuille,
-        scale=np.divide(1.0, diagonal, out=np.zeros(unknown.shape), where=unknown),
-        unscale=np.where(unknown, diagonal, 0.0),
-        resolved=resolved_nodes(level, at_faces.coefficients.eps, unknown),
-        log_viscosity=at_faces.coefficients.log_viscosity,
-    )
+    return Linearised.of_stencils(Gap(level, thickness), (by_p, by_h), at_faces, unknown, contact)
 
 
 def _with_contact_rows(level: Level, by_h: Stencil, contact: Mask) -> Stencil:
@@ -479,8 +459,8 @@ def _factored(stencil: Stencil, nodes: Mask) -> SuperLU:
 # Largest change of Q in a Newton step.
 _PRESSURE_STEP = 0.5
 
-# Part of the gap above the boundary film that a step may close, beside half of the boundary film; and the
-# smallest part of a step.
+# Part of the gap above the boundary film that a step may close, in addition to half of the boundary film;
+# and the smallest part of a step.
 _CLOSING, _LEAST_STEP = 0.5, 0.05
 
 # Residual of the oil where surfaces touch, a pressure over p_h, that is small enough: it does not move the
@@ -504,7 +484,7 @@ _PATIENCE = 70
 _NEAR = 1e-3
 
 
-def mixed_newton(
+def touching_newton(
     fluid: Fluid,
     levels: list[Level],
     state: State,
@@ -516,14 +496,15 @@ def mixed_newton(
     progress: Progress | None = None,
     carried: Carried | None = None,
 ) -> GridSolution:
-    """Solve the film equations on the first of ``levels`` where surfaces may touch. ``fluid``, lubricant over
-    dimensionless pressure; ``carried``, nodes that oil fills in the initial guess, where the oil in cavities
-    is carried through them. Returns last iterate, with its status; its state has the contact pressure.
+    """Last iterate of Newton's method on the first of ``levels``, where the surfaces may touch.
+
+    Where the oil in cavities is carried through them, ``carried`` has the nodes that oil fills in the initial
+    guess. The state of the result has the contact pressure.
     """
     level = levels[0]
     tolerance = max(tolerance, ROUNDING * level.rate)
     steps: list[NewtonStep] = []
-    now, seen = assess_touching(fluid, level, state, asperities, carried), Seen()
+    now, memory = assess_touching(fluid, level, state, asperities, carried), MaskMemory()
     before, damping = np.inf, first_damping
     best, found = np.inf, 0  # smallest residual that was half of the one before, and its step
     status: Status = "stalled"
@@ -543,7 +524,7 @@ def mixed_newton(
         state = step.state
         if now.carried is not None and assessed.carried is not None and not assessed.settled:
             filled, moved = now.carried.filled, assessed.carried.filled
-            supply = seen.calmed(assessed.carried.supply, filled, moved)
+            supply = memory.supply_after(assessed.carried.supply, filled, moved)
             assessed = replace(assessed, carried=replace(assessed.carried, supply=supply))
         better = assessed.norm < now.norm and step.length > _LONG
         damping = _FALL * damping if better else min(_MOST_DAMPING, max(_RISE * damping, _LEAST_RAISED))
@@ -573,9 +554,7 @@ def newton_step(
     close: float,
     damping: float = 0.0,
 ) -> Stepped:
-    """Film after one Newton step on the first of ``levels``. ``fluid``, lubricant over dimensionless
-    pressure. Returns film after the part of the step that keeps the changes within their limits.
-    """
+    """Film on the first of ``levels`` after the part of a Newton step that keeps P and H within limits."""
     level = levels[0]
     state = projected(fluid, state, now.contact)
     try:
@@ -622,14 +601,7 @@ def grid_solution(
     # where no pressure opens it, and wherever an iterate that did not converge sinks into the other surface.
     of_flow = now.plastic | level.mesh.edge | (status != "converged")
     state = replace(state, thickness=np.where(of_flow, now.thickness, state.thickness))
-    final = Residual(
-        flow=now.flow,
-        reynolds=now.reynolds,
-        diagonal=now.diagonal,
-        full_film=now.full_film,
-        load=now.load,
-        norm=now.norm,
-    )
+    final = Residual(**{each.name: getattr(now, each.name) for each in fields(Residual)})
     return GridSolution(level, state, final, tuple(steps), status, now.fraction)
 
 
@@ -643,16 +615,9 @@ def _direction(
     given = np.where(now.contact, now.to_hardness, to_ambient)
     right, oil = jacobian.right_side(now, to_ambient, given)
     load = now.load - finest.gap.load(given)
-    cycles = 0
-
-    def precondition(image: Array) -> Array:
-        nonlocal cycles
-        cycles += 1
-        return jacobian.precondition(image)
-
-    solution = flexible_gmres(
+    solution, cycles = flexible_gmres(
         jacobian.image,
-        precondition,
+        jacobian.precondition,
         np.append(finest.scale * right, load),
         tolerance=tolerance,
         limit=_KRYLOV_LIMIT,

@@ -1,28 +1,24 @@
-"""Solution of a film whose surfaces may touch, on one grid: initial guesses, the way in time, and dry
-contacts.
+"""Films whose surfaces may touch, on one grid: dry contacts, initial guesses, and iteration in time.
 
-Films whose surfaces may touch and that carry the oil through their cavities.
+Newton's method converges from different initial guesses at different speeds. Where the oil carries part of
+the load, the dry contact with its pressure carried by the oil is near enough, since it has the shape that the
+surfaces take. Where the oil carries hardly any load, the dry contact itself is near enough. In between, the
+film is followed in time from the dry contact on until it is stationary.
+
 A film that counts its cavities as full is a solution of the equations with a source of oil where it forms
 again behind a cavity. Newton's method starts from it without this source. If that does not converge, the
 source is taken away in steps. If that does not help, both are tried with an upwind difference where the gap
 closes steeply, which is less accurate and converges more often.
 
-Film between surfaces that touch, followed in time until it is stationary.
 Where a ridge of a line contact touches, only the oil of the boundary film passes it. Whether such a ridge
 parts depends on the ridges before it, and the film moves through it node by node as the valley in front of
-it fills. Newton's method for the stationary film jumps over this course and comes to no end. In time each
-step is close to the last one, since the oil that a gap takes up has to flow there first:
+it fills. Newton's method for the stationary film skips this process and does not converge. In time each step
+is close to the last one, since the oil that a gap takes up has to flow there first:
 
     (rho H - rho H before)/dT + stationary residual = 0
 
 with implicit Euler steps. The step grows where Newton's method solves it quickly and falls where it does not.
 In the end it is infinite, so that the film is a solution of the stationary equations.
-
-Course of the solution of a film whose surfaces may touch, on one grid: starts, and the way in time.
-Newton's method converges from different starts at different speeds. Where the oil carries part of the load,
-the dry contact with its pressure carried by the oil is near enough, since it has the shape that the surfaces
-take. Where it carries hardly any, the dry contact itself is. In between, the film is followed in time from
-the dry contact on (``ehlectric.film.touching_solver``).
 """
 
 from __future__ import annotations
@@ -49,10 +45,10 @@ from ehlectric.film.touching_film import (
     carried_rows,
     grid_solution,
     is_solved,
-    mixed_newton,
     newton_step,
-    own_compliance,
+    node_compliance,
     projected,
+    touching_newton,
 )
 
 # Change of the pressure from step to step, relative to its mean, at which the iteration ends: it is a first
@@ -72,9 +68,8 @@ _ROUNDING = 1e-9
 def dry_contact(level: Level, pressure: Array, boundary_film: float, ambient_pressure: float) -> State:
     """Contact without oil: Q >= P_amb, H >= H_s, (Q - P_amb)(H - H_s) = 0, and the balance of load.
 
-    ``pressure``, first guess of the pressure, as that of Hertz, shape (nx, ny); ``boundary_film``, thickness
-    H_s of the boundary film, dimensionless. Returns pressure, H00 and gap; all of the pressure above ambient
-    is contact pressure.
+    ``pressure`` (nx, ny) is an initial guess, such as the Hertz pressure. All of the resulting pressure above
+    ambient is contact pressure.
 
     Conjugate gradients on the nodes in contact, after I. A. Polonsky and L. M. Keer, Wear 231 (1999) 206,
     doi:10.1016/S0043-1648(99)00113-1.
@@ -85,7 +80,7 @@ def dry_contact(level: Level, pressure: Array, boundary_film: float, ambient_pre
     q = np.where(inner, np.maximum(pressure - ambient_pressure, 0.0), 0.0)
     q *= load / float(np.vdot(weights, q))
     direction, last, h00 = np.zeros_like(q), 1.0, 0.0
-    opened, compliance = level.deflection(q), own_compliance(level)
+    opened, compliance = level.deflection(q), node_compliance(level)
     for _ in range(_MOST_STEPS):
         touching = q > 0.0
         gap = base + opened
@@ -123,8 +118,8 @@ def relieved(level: Level, state: State, boundary_film: float) -> State:
     On a finer grid a rough surface has waves that the film of the coarser grid does not know. Asperities that
     they push through the other surface are flattened here before the oil answers.
 
-    ``boundary_film``, thickness H_s of the boundary film, dimensionless. Returns film with H >= H_s and P_c
-    >= 0 within the domain, about zero where H > H_s; it carries more load.
+    The result has H >= H_s and P_c >= 0 within the domain, P_c about zero where H > H_s; it carries more
+    load.
 
     Conjugate gradients on the nodes in contact, as in ``dry_contact``, without the balance of load.
     """
@@ -153,8 +148,8 @@ def relieved(level: Level, state: State, boundary_film: float) -> State:
 # converged and one that did not, and the largest number of Newton steps of each.
 _FIRST, _LEAST, _LONGER, _SHORTER, _STEPS = 0.25, 0.01, 1.5, 0.5, 40
 
-# Residual of the steps on the way.
-_ON_THE_WAY = 1e-6
+# Residual of the steps before the last one.
+_INTERMEDIATE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -194,7 +189,7 @@ class Conserving:
         while left > 0.0 and step > _LEAST:
             part = max(0.0, left - step)
             posed = [replace(level, source=level.source + part * made), *self.levels[1:]]
-            tolerance = self.tolerance if part == 0.0 else max(self.tolerance, _ON_THE_WAY)
+            tolerance = self.tolerance if part == 0.0 else max(self.tolerance, _INTERMEDIATE)
             found = self._solved(posed, last.state, last.final.full_film, 0.0, tolerance, _STEPS)
             if found.status == "converged":
                 left, step, last = part, _LONGER * step, found
@@ -222,7 +217,7 @@ class Conserving:
     def _newton(
         self, levels: list[Level], state: State, filled: Mask, damping: float, tolerance: float, most: int
     ) -> GridSolution:
-        return mixed_newton(
+        return touching_newton(
             self.fluid,
             levels,
             state,
@@ -239,8 +234,9 @@ class Conserving:
         return Carried(flooded_inlet(level, self.order, first_order=self.first_order), with_inlet(filled))
 
 
-# Inverse time steps, as the length dX over the way that oil goes in the step: the first one, the one below
-# which a step is infinite, the one to which an infinite step falls, and the one at which the way ends.
+# Inverse time steps, as the spacing dX over the distance that oil travels in the step: the first one, the one
+# below which a step is infinite, the one after a failed infinite step, and the one at which the iteration
+# ends.
 _FIRST_STEP, _LEAST_STEP, _AFTER_INFINITE, _MOST = 1.0, 1e-3, 4e-3, 1e5
 
 # Newton steps of a time step: at most, up to which the next time step is longer, and above which it is
@@ -255,7 +251,7 @@ _LOOSE, _PART = 1e-2, 0.3
 _CLOSE = 1e-2
 
 
-def filled_film(
+def pseudo_transient_film(
     fluid: Fluid,
     levels: list[Level],
     state: State,
@@ -265,9 +261,9 @@ def filled_film(
     max_iterations: int,
     progress: Progress | None = None,
 ) -> GridSolution:
-    """Stationary film on the first of ``levels``, from a film that is followed in time. ``fluid``, lubricant
-    over dimensionless pressure. Returns last film, with its status; it converged if its stationary residual
-    is small after an infinite step.
+    """Stationary film on the first of ``levels``, from a film that is followed in time.
+
+    It has converged if its stationary residual is small after an infinite time step.
 
     Pseudo-transient continuation, C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508,
     doi:10.1137/S0036142996304796. A small residual alone does not make a film stationary: oil creeps through
@@ -338,7 +334,7 @@ def _solved(
 
 
 def _time_step(levels: list[Level], now: Touching, rate: float) -> list[Level]:
-    """All grids with the equations of a time step from a film; ``rate`` is dX over the way of the oil."""
+    """All grids with the equations of a time step from a film; ``rate`` is dX over the path of the oil."""
     finest = levels[0]
     mass: Array = now.flow.coefficients.density * now.thickness
     posed = []
@@ -357,7 +353,7 @@ NEAR_DAMPING = 0.1
 _IN_TIME = 8
 
 
-def mixed_film(
+def touching_films(
     fluid: Fluid,
     levels: list[Level],
     dry_pressure: Array,
@@ -370,16 +366,14 @@ def mixed_film(
     near: State | None = None,
     thorough: bool = True,
 ) -> Iterator[GridSolution]:
-    """Solutions of a film whose surfaces may touch, from one start after the other until one converges.
+    """Last iterates from one initial guess after the other, up to the first that converges.
 
-    ``fluid``, lubricant over dimensionless pressure; ``dry_pressure``, Hertz pressure P, shape (nx, ny);
-    ``film_guess``, film thickness of smooth surfaces by a formula, dimensionless; ``thorough``, whether to
-    try all starts, or the first one only, as on a grid that only serves the next finer one. Yields last
-    iterate from each start; the iteration ends with the first that converges.
+    ``dry_pressure`` (nx, ny) is the Hertz pressure P, and ``film_guess`` the film thickness H of smooth
+    surfaces by a formula. Unless ``thorough``, as on coarser grids, only the first initial guess is tried.
     """
 
     def solved(start: State, damping: float = 1.0) -> GridSolution:
-        return mixed_newton(
+        return touching_newton(
             fluid,
             levels,
             start,
@@ -407,7 +401,7 @@ def mixed_film(
         yield (found := solved(start))
         if found.status == "converged" or not thorough:
             return
-    yield filled_film(
+    yield pseudo_transient_film(
         fluid,
         levels,
         dry,

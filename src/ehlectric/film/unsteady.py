@@ -1,22 +1,25 @@
 """Transient film of a contact with moving roughness: discretisation along characteristics, time steps,
 supply of oil.
 
-Discretisation of the transient film equations along the lines X - T = const, which Couette flow follows.
-Dimensionless, with T = t u/b for the mean speed u of the surfaces, the squeeze term and the wedge term are
-one derivative along these lines:
+Dimensionless, with T = t u/b for the mean speed u of the surfaces:
 
-    d(rho H)/dT + d(rho H)/dX = D(rho H)/DT
+    d(rho H)/dT + d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
 
-This derivative is discretised by a backward difference over two steps (BDF2). The mass of the last two
-instants is carried along the lines to the nodes. A time step is therefore a Reynolds equation whose wedge
-term is the mass at the node times a rate, and whose right side follows from the carried mass.
+The squeeze term and the wedge term are one derivative D(rho H)/DT along the lines X - T = const, on which the
+Couette flow carries the oil. It is discretised by a backward difference over two steps (BDF2). The mass of
+the last two instants is carried along the lines to the nodes. A time step is therefore a Reynolds equation
+whose wedge term is the mass at the node times a rate, and whose right side follows from the carried mass.
 
-Time step of a film with a supply of oil: the oil of cavitated nodes is carried to the meniscus and kept.
-A layer of oil travels at the mean speed u along the lines X - T = const until it fills the gap. Where the gap
-is filled at the foot of a line, the derivative of the mass along the line is the backward difference over two
-steps of ``ehlectric.film.unsteady``. The derivative of the mass at a meniscus is not bounded. Where
-the gap is not filled at the foot, it is therefore the difference over one step. Both are differences of one
-sum, which the row of the next node takes as it is:
+A film that is carried through the Hertz zone keeps its shape. With time steps as long as the grid spacing the
+lines begin at nodes, and nothing is interpolated. Without motion the film is then equal to that of the
+stationary scheme of second order, to the last digit. Where the film is cavitated, its mass is the oil that
+flows in, which does not fill the gap.
+
+With a supply of oil, a layer of oil travels at the mean speed u along the lines X - T = const until it fills
+the gap. Where the gap is filled at the foot of a line, the derivative of the mass along the line is the
+backward difference over two steps. The derivative of the mass at a meniscus is not bounded. Where the gap is
+not filled at the foot, it is therefore the difference over one step. Both are differences of one sum, which
+the row of the next node takes as it is:
 
     W = m + D,   D = r/(1 + r) (m - m at the foot) where the foot is filled, 0 elsewhere,
     W(X, T + dT) - W(X - dT, T) = dT [d/dX(eps dP/dX) + d/dY(eps dP/dY)]
@@ -26,18 +29,6 @@ times the slope of the mass to the next node at the last instant. With equal ste
 the nodes changes by what crosses the ends of the domain alone. Between steps of different lengths the weight
 of the differences in D changes, and the sum of W with it. A film that does not change fulfils the equations
 of ``ehlectric.film.starved_film``.
-
-Dimensionless, with T = t u/b for the mean speed u of the surfaces:
-
-    d(rho H)/dT + d(rho H)/dX - d/dX(eps dP/dX) - d/dY(eps dP/dY) = 0
-
-The squeeze term and the wedge term are one derivative along the lines X - T = const, on which the Couette
-flow carries the oil (``ehlectric.film.unsteady``). It is discretised along these lines by a backward
-difference over two steps. A film that is carried through the Hertz zone therefore keeps its shape. With time
-steps as long as the grid spacing the lines begin at nodes, and nothing is interpolated. Without motion the
-film is then equal to that of the stationary scheme of second order, to the last digit. Where the film is
-cavitated, its mass is the oil that flows in, which does not fill the gap. With a layer of oil at the inlet
-edge this is so ahead of the contact as well (``ehlectric.film.unsteady``).
 """
 
 from __future__ import annotations
@@ -56,7 +47,7 @@ from ehlectric.film.newton import GridSolution, State, assess, newton
 from ehlectric.film.problem import FilmProblem
 from ehlectric.film.reynolds import ALONG, Stencil
 from ehlectric.film.starved_solver import StarvedFilm
-from ehlectric.film.touching_film import mixed_newton
+from ehlectric.film.touching_film import touching_newton
 
 # Distance in grid spacings within which the foot of a line counts as a node.
 SAME_NODE = 1e-9
@@ -65,9 +56,10 @@ SAME_NODE = 1e-9
 def step_levels(
     levels: list[Level], masses: tuple[Array, Array], steps: tuple[float, float], added_gap: Array
 ) -> list[Level]:
-    """Grids with the Reynolds equation of one time step. ``masses``, oil mass rho H on the finest grid at the
-    last instant and at the instant before it, shape (nx, ny); ``added_gap``, gap that moving roughness adds
-    on the finest grid at the new instant, shape (nx, ny). Returns grids in the order of ``levels``.
+    """Grids with the Reynolds equation of one time step, in the order of ``levels``.
+
+    ``masses`` are the oil masses rho H (nx, ny) on the finest grid at the last instant and at the instant
+    before it. ``added_gap`` (nx, ny) is the gap that moving roughness adds there at the new instant.
 
     With r = step/last step, the BDF2 weights of the new, the last and the earlier mass are (1 + 2r)/(1 + r),
     -(1 + r) and r^2/(1 + r), all divided by the step. Where the line of the earlier mass begins upstream of
@@ -84,36 +76,35 @@ def step_levels(
     source[~mesh.inner] = 0.0
     rates = np.where(outside, 1.0 / step, here)
     new = replace(
-        in_time(finest, here), wedge=_mass_term(mesh.shape, rates), dry_gap=finest.dry_gap + added_gap
+        in_time(finest, here),
+        wedge=_mass_term(mesh.shape, rates[:, np.newaxis]),
+        dry_gap=finest.dry_gap + added_gap,
     )
     return [replace(new, source=source), *(in_time(level, here) for level in levels[1:])]
 
 
 def in_time(level: Level, rate: float) -> Level:
     """Grid for a transient film, whose wedge term is ``rate`` times the mass at the node itself."""
-    wedge = _mass_term(level.mesh.shape, np.full(level.nodes, rate))
+    wedge = _mass_term(level.mesh.shape, np.full((level.nodes, 1), rate))
     return replace(level, wedge=wedge, rate=rate, distribution=SECOND_DIFFERENCE)
 
 
 def _mass_term(shape: tuple[int, int], rates: Array) -> Stencil:
-    """Operator that multiplies the mass at each position x by its rate (nx,); the two end rows are zero."""
+    """Operator that multiplies the mass at each node by its rate, (nx, 1) or (nx, ny); end rows are zero."""
     coefficients = np.zeros((ALONG, *shape))
-    coefficients[2, 1:-1] = rates[1:-1, np.newaxis]
+    coefficients[2, 1:-1] = rates[1:-1]
     return Stencil(coefficients)
 
 
 def carried(values: Array, distance: float) -> Array:
-    """Nodal values after they have been carried downstream along x. ``values``, values at the nodes,
-    shape (nx, ny); ``distance``, distance in grid spacings, >= 0. Returns values at the nodes afterwards,
-    shape (nx, ny).
+    """Nodal values (nx, ny) after they have been carried downstream along x by a distance in spacings, >= 0.
 
     Examples
     --------
     >>> carried(np.arange(5.0)[:, np.newaxis] ** 2, 0.5)[:, 0]
     array([ 0.25,  0.25,  2.25,  6.25, 12.25])
     """
-    whole = int(np.floor(distance + SAME_NODE))
-    part = distance - whole
+    whole, part = _split(distance)
     ghosts = whole + 2
     before = parabola_before(values, ghosts)
     beyond = 3.0 * values[-1:] - 3.0 * values[-2:-1] + values[-3:-2]
@@ -151,12 +142,7 @@ def lagrange_weights(part: float) -> tuple[float, float, float, float]:
 
 
 def mass_after(step: GridSolution) -> Array:
-    """Oil mass rho H after a time step.
-
-    At cavitated nodes it is the mass of the oil that is left, which does not fill the gap.
-
-    Returns oil mass, dimensionless, not negative, shape (nx, ny).
-    """
+    """Oil mass rho H (nx, ny) after a time step; at cavitated nodes that of the oil that is left."""
     level, final = step.level, step.final
     mass = final.coefficients.density * step.state.thickness
     rate = level.wedge.coefficients[2]
@@ -168,12 +154,7 @@ def mass_after(step: GridSolution) -> Array:
 
 
 def stationary_mass(stationary: GridSolution) -> Array:
-    """Oil mass rho H of a stationary film.
-
-    At cavitated nodes behind X = 0 it is the mass of the oil that flows in.
-
-    Returns oil mass, dimensionless, not negative, shape (nx, ny).
-    """
+    """Oil mass rho H (nx, ny) of a stationary film; of cavitated nodes behind X = 0 the oil that flows in."""
     level, final = stationary.level, stationary.final
     full = final.coefficients.density * stationary.state.thickness
     mass = full.copy()
@@ -268,11 +249,9 @@ def sums(now: Oil, before: Oil, last: float, ratio: float) -> Array:
 def supplied_step_levels(
     levels: list[Level], instants: tuple[Oil, Oil], steps: tuple[float, float], added_gap: Array
 ) -> list[Level]:
-    """Grids with the Reynolds equation of one time step of a film with a supply of oil. ``added_gap``, gap
-    that moving roughness adds on the finest grid at the new instant, shape (nx, ny). Returns grids in the
-    order of ``levels``.
+    """Grids with the Reynolds equation of one time step of a film with a supply of oil, as ``step_levels``.
 
-    On lines that are filled at the inlet edge the scheme is that of ``characteristics.step_levels``.
+    On lines that are filled at the inlet edge the scheme is that of ``step_levels``.
     """
     finest, mesh = levels[0], levels[0].mesh
     (now, before), (step, last) = instants, steps
@@ -289,11 +268,9 @@ def supplied_step_levels(
     source = (carried + second * np.where(filled, feet, behind)) / step
     source[~mesh.inner] = 0.0
     here = (1.0 + second) / step
-    coefficients = np.zeros((ALONG, *mesh.shape))
-    coefficients[2, 1:-1] = rates[1:-1]
     new = replace(
         in_time(finest, here),
-        wedge=Stencil(coefficients),
+        wedge=_mass_term(mesh.shape, rates),
         dry_gap=finest.dry_gap + added_gap,
         source=source,
     )
@@ -303,28 +280,17 @@ def supplied_step_levels(
 def oil_after(step: GridSolution, layer: Array) -> Oil:
     """Oil after a time step on the grids of ``supplied_step_levels``.
 
-    ``layer`` (ny,) is the mass of the layer of oil that is supplied at the inlet edge.
+    ``layer`` (ny,) is the mass of the layer of oil that is supplied at the inlet edge. It lies on all edges
+    of the domain that oil does not fill.
     """
-    return supplied(step, mass_after(step), layer)
-
-
-def supplied(solution: GridSolution, mass: Array, layer: Array) -> Oil:
-    """Oil of a solution with a known mass (nx, ny) inside the domain: on its edges there is the layer."""
-    full = solution.final.coefficients.density * solution.state.thickness
-    filled = solution.final.full_film.copy()
+    full = step.final.coefficients.density * step.state.thickness
+    filled = step.final.full_film.copy()
     filled[0] = layer >= full[0]
-    layered = solution.level.mesh.edge.copy()
+    layered = step.level.mesh.edge.copy()
     layered[0], layered[-1] = ~filled[0], False
-    mass = np.where(layered, np.minimum(full, layer), mass)
+    mass = np.where(layered, np.minimum(full, layer), mass_after(step))
     mass[-1] = np.minimum(full[-1], mass[-2])
     return Oil(mass, filled)
-
-
-def stationary_oil(film: StarvedFilm) -> Oil:
-    """Oil of a stationary starved film, from which the time steps start."""
-    content = film.content
-    full = content.residual.coefficients.density * film.solution.state.thickness
-    return Oil(np.clip(content.mass, 0.0, full), content.filled)
 
 
 # Tolerance of the residual in a time step, a pressure over p_h, far below the discretisation error of the
@@ -389,6 +355,11 @@ class Effort:
     krylov: int = 0  # number of GMRES iterations in all Newton steps
     halvings: int = 0  # number of times that a step was halved
 
+    @classmethod
+    def of(cls, solution: GridSolution) -> Effort:
+        """Work of a solution on one grid."""
+        return cls(len(solution.steps), sum(step.krylov_iterations for step in solution.steps))
+
     def __add__(self, other: Effort) -> Effort:
         return Effort(self.newton + other.newton, self.krylov + other.krylov, self.halvings + other.halvings)
 
@@ -418,18 +389,16 @@ class UnsteadyFilm:
         """Finest grid, with the operators of the stationary film."""
         return self._levels[0]
 
-    def start(self, steady: GridSolution, step: float) -> History:
-        """History that starts from a stationary film. ``step``, time T between the two instants, > 0. Returns
-        the stationary film at T = 0 and at T = -step.
-        """
-        density = steady.final.coefficients.density
-        now = Instant(0.0, steady.state, stationary_mass(steady), density, steady.final.full_film)
-        return History(now, replace(now, time=-step))
-
-    def start_supplied(self, steady: StarvedFilm, step: float) -> History:
-        """History that starts from a stationary film with a layer of oil; see ``start``."""
-        oil, final = stationary_oil(steady), steady.solution.final
-        now = Instant(0.0, steady.solution.state, oil.mass, final.coefficients.density, oil.filled)
+    def start(self, steady: GridSolution | StarvedFilm, step: float) -> History:
+        """History with a stationary film, flooded or with a layer of oil, at T = 0 and at T = -``step``."""
+        solution = steady if isinstance(steady, GridSolution) else steady.solution
+        state, density = solution.state, solution.final.coefficients.density
+        if isinstance(steady, GridSolution):
+            mass, filled = stationary_mass(steady), solution.final.full_film
+        else:
+            mass = np.clip(steady.content.mass, 0.0, density * state.thickness)
+            filled = steady.content.filled
+        now = Instant(0.0, state, mass, density, filled)
         return History(now, replace(now, time=-step))
 
     def advance(self, history: History, step: float) -> History:
@@ -477,8 +446,7 @@ class UnsteadyFilm:
                 eliminate_spike=spike,
                 transient=True,
             )
-            krylov = sum(one.krylov_iterations for one in solution.steps)
-            effort += Effort(len(solution.steps), krylov)
+            effort += Effort.of(solution)
             if solution.status == "converged":
                 if float(solution.state.thickness.min()) < self.problem.boundary_film:
                     if self.layer is not None:
@@ -487,7 +455,7 @@ class UnsteadyFilm:
                 return self._instant(time, solution), effort
         if self.problem.boundary_film > 0.0 and self.layer is None:
             solution = self._touching(levels, history)
-            effort += Effort(len(solution.steps), sum(one.krylov_iterations for one in solution.steps))
+            effort += Effort.of(solution)
             if solution.status == "converged":
                 return self._instant(time, solution), effort
         return None, effort
@@ -495,7 +463,7 @@ class UnsteadyFilm:
     def _touching(self, levels: list[Level], history: History) -> GridSolution:
         """Film after a time step in which the surfaces touch or part, from the last film."""
         last = history.now.state
-        return mixed_newton(
+        return touching_newton(
             self.problem.fluid,
             levels,
             State.of(levels[0], last.pressure, last.h00, last.contact_pressure),

@@ -1,16 +1,15 @@
 """Statistics of touching asperities: pressure, area and number of spots, share of the load and of time,
 resistance.
 
-Spectral moments of rough surfaces, and the summits that follow from them.
-The moments m0, m2 and m4 are the mean squares of height, slope and curvature along a line over the surface.
-For an isotropic Gaussian surface they give density, radius and heights of its summits.
+The spectral moments m0, m2 and m4 are the mean squares of height, slope and curvature along a line over the
+surface. For an isotropic Gaussian surface they give density, radius and heights of its summits.
 
 No surface has these numbers of its own. Slope and curvature grow as finer waves are measured, without a limit
 for most machined surfaces: m4, the density and the radius of the summits belong to the sampling interval.
 
-Share of the load that asperities carry, against lambda: published fits by name.
-Lambda is the film thickness over the composite roughness sqrt(Rq1^2 + Rq2^2) of the undeformed surfaces.
-The fits agree within a factor of two below lambda 1.5 and differ by orders of magnitude above 2.
+Published fits give the share of the load that asperities carry against lambda. Lambda is the film thickness
+over the composite roughness sqrt(Rq1^2 + Rq2^2) of the undeformed surfaces. The fits agree within a factor of
+two below lambda 1.5 and differ by orders of magnitude above 2.
 """
 
 from __future__ import annotations

@@ -11,7 +11,6 @@ What the two-dimensional field leaves out adds to all of them: the end windings 
 the capacitance from winding to rotor is not small in short machines (Stockbruegger and Ponick, Energies 14
 (2021) 174, doi:10.3390/en14010174).
 
-Charge density on two conductors with a thin gap between them, quadrature nodes, and fit to a film.
 On a plane below a conductor at the voltage V and the gap h(x, y), the charge density is (eps0 eps V)/h to
 leading order. For the gap of a ball, h = rho^2/(2 r), the next order is constant over the whole tail. It adds
 some percent to the capacitance of a ball and is therefore included. Expanding the potential in powers of the
@@ -33,13 +32,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import epsilon_0
 
 from ehlectric.arrays import Array
+from ehlectric.formulas.polynomials import gauss_legendre
 
 # Modes of the slot, and waves of the gap for each of them and for each ratio of slot pitch to opening. The
 # field at the edges of the teeth is singular: capacitances are exact to 1e-3.
@@ -171,13 +170,6 @@ def charge_density(gap: ArrayLike, tilt: ArrayLike, far: ArrayLike, near: ArrayL
     return density
 
 
-@cache
-def _gauss(nodes: int) -> tuple[Array, Array]:
-    """Nodes and weights of Gauss-Legendre quadrature on the interval from 0 to 1."""
-    x, weights = np.polynomial.legendre.leggauss(nodes)
-    return 0.5 * (x + 1.0), 0.5 * weights
-
-
 def stretched(start: ArrayLike, end: ArrayLike, scale: ArrayLike, nodes: int) -> tuple[Array, Array]:
     """Quadrature nodes and weights from ``start`` to ``end`` for a function similar to 1/(scale^2 + x^2).
 
@@ -196,11 +188,11 @@ def stretched(start: ArrayLike, end: ArrayLike, scale: ArrayLike, nodes: int) ->
     >>> bool(np.isclose(1e-6 * np.sum(weights / (1e-12 + x**2)), np.arctan(1e6), rtol=1e-10))
     True
     """
-    t, weights = _gauss(nodes)
+    points, weights = gauss_legendre(nodes)
     scale = np.asarray(scale, dtype=float)[..., np.newaxis]
     first, last = (np.arcsinh(np.asarray(at, dtype=float)[..., np.newaxis] / scale) for at in (start, end))
-    at = first + (last - first) * t
-    return scale * np.sinh(at), (last - first) * weights * scale * np.cosh(at)
+    at = first + (last - first) * (0.5 * (points + 1.0))
+    return scale * np.sinh(at), (last - first) * (0.5 * weights) * scale * np.cosh(at)
 
 
 def matched_offset(missing: Callable[[Array], Array], thickness: Array) -> tuple[Array, Array]:

@@ -1,14 +1,6 @@
 """Hertz contact of two cylinders along a line, and of two bodies over an ellipse: size, pressure, approach
 and gap.
 
-Elliptic integrals of many arguments at once, faster than one by one.
-B. C. Carlson, Numer. Algorithms 10 (1995) 13-26, doi:10.1007/BF02198293: duplication brings the arguments
-closer together by a factor of four, until a series in their differences is exact to the last digit.
-
-Hertz contact of two parallel cylinders: reduced radius and modulus, half-width, pressure and gap.
-The reduced modulus E' has the factor two throughout: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-
-Hertz contact of two bodies over an ellipse: semi-axes, pressure and approach.
 The reduced modulus E' has the factor two throughout: 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. The x axis runs
 along entrainment and the y axis across it. Either may be the longer axis of the ellipse.
 
@@ -19,7 +11,9 @@ gap between the surfaces by (2/(pi E')) times the integral of p/r. This deflecti
 
 The three integrals in I are complete elliptic integrals in Carlson's symmetric form: 2 R_F(0, a^2, b^2), and
 (2/3) R_D(0, a^2, b^2) with a and b in both orders. This form needs no distinction of the longer axis, and
-loses no accuracy for a circle.
+loses no accuracy for a circle. Integrals of many arguments are computed at once, after B. C. Carlson, Numer.
+Algorithms 10 (1995) 13-26, doi:10.1007/BF02198293: duplication brings the arguments closer together by a
+factor of four, until a series in their differences is exact to the last digit.
 """
 
 from __future__ import annotations
@@ -124,8 +118,8 @@ def reduced_radius(radius_1: float, radius_2: float) -> float:
 
 
 def body_compliance(youngs_modulus: float, poissons_ratio: float) -> float:
-    """Plane-strain compliance of one body, (1 - nu^2)/E [1/Pa]. ``youngs_modulus``, young's modulus E [Pa];
-    ``poissons_ratio``, poisson's ratio nu, dimensionless.
+    """Plane-strain compliance of one body, (1 - nu^2)/E [1/Pa]. ``youngs_modulus``, Young's modulus E [Pa];
+    ``poissons_ratio``, Poisson's ratio nu, dimensionless.
 
     Examples
     --------

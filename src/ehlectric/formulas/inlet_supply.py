@@ -1,11 +1,11 @@
 """Reduction of films by heat in the inlet and by a short supply of oil, and hydrodynamic resistance to
 rolling.
 
-Supply of oil to the contacts of a rolling bearing: rule of a maker, and decay of a film without supply.
-The rule is the kinematic replenishment factor of SKF's model of the frictional moment. The decay is that of
-van Zoelen, Venner and Lugt, for a track to which no oil returns.
+The supply of oil to the contacts of a rolling bearing follows the kinematic replenishment factor of SKF's
+model of the frictional moment. The decay of a film without supply is that of van Zoelen, Venner and Lugt, for
+a track to which no oil returns.
 
-Hydrodynamic rolling resistance of flooded contacts in pure rolling, after Biboulet and Houpert.
+The hydrodynamic resistance to rolling of flooded contacts in pure rolling is that of Biboulet and Houpert.
 The force is the integral of h/2 dp/dx over the contact: the resistance of the oil on each of both surfaces.
 In pure rolling it takes the power 2 F u with the mean speed u of the surfaces. The formulas are fits to
 isothermal solutions. They run from rigid bodies in thin oil, of light loads, to bodies that deform.

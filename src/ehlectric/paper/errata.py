@@ -11,6 +11,7 @@ from ehlectric.contact.conditions import resolve
 from ehlectric.contact.problems import field_problem, film_problem
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.line_field import solve_field
+from ehlectric.film.mesh import trapezoidal_weights
 from ehlectric.film.problem import FilmProblem
 from ehlectric.lubricant.viscosity import roelands_exponent
 from ehlectric.paper import fas, paper_relaxation
@@ -73,8 +74,7 @@ def _cavitation(_: Study) -> str:
 def _unconstrained(equations: FilmEquations, at: Iterate) -> Iterate:
     """Film without cavitation: pressure and H00 by Newton's method, with pressures below ambient allowed."""
     n = equations.x.size
-    weights = np.full(n, equations.dx)
-    weights[[0, -1]] *= 0.5
+    weights = trapezoidal_weights(n, equations.dx)
     for _ in range(30):
         c = equations.coefficients(at)
         derivatives = equations.derivatives(at, c)

@@ -15,7 +15,8 @@ from scipy.interpolate import CubicSpline
 from ehlectric.arrays import Array
 from ehlectric.errors import ConvergenceError
 from ehlectric.field.line_field import Field, field_from_potential
-from ehlectric.field.poisson import FieldProblem, lobatto_nodes
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.formulas.polynomials import lobatto_nodes
 from ehlectric.paper.cartesian import EAST, NORTH, SOUTH, WEST, CartesianGrid, Stencil, stencil
 
 # Rows in the smallest gap. Eight are enough: across a film the potential is nearly linear, and the error

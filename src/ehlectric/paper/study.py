@@ -98,7 +98,7 @@ def run_study(parts: Iterable[str], *, progress: Callable[[int, int, str], None]
     requested = dict.fromkeys(parts)
     with measured_profile() as profile:
         tasks: dict[str, Callable[[PaperContact], object]] = {
-            "rough": partial(_rough, profile),
+            "rough": partial(_variant, partial(PaperContact.rough_case, profile=profile)),
             "placed": partial(_placed, profile),
             **_TASKS,
         }
@@ -153,14 +153,9 @@ def _line(case: Case, *, beside_smooth: bool = True) -> Result:
     return result
 
 
-def _smooth(contact: PaperContact) -> Result:
-    """Result of a smooth contact."""
-    return _line(contact.case())
-
-
-def _rough(profile: Path, contact: PaperContact) -> Result:
-    """Result of a rough contact."""
-    return _line(contact.rough_case(profile))
+def _variant(case: Callable[[PaperContact], Case], contact: PaperContact) -> Result:
+    """Result of a contact with the case that a function makes of it."""
+    return _line(case(contact))
 
 
 def _placed(profile: Path, contact: PaperContact) -> tuple[Placed, ...]:
@@ -172,21 +167,6 @@ def _moved(case: Case) -> Placed:
     """Result of a rough case; the smooth contact is not solved."""
     result = _line(case, beside_smooth=False)
     return Placed(result.film.minimum_thickness, result.max_dimensionless, result.converged)
-
-
-def _first_order(contact: PaperContact) -> Result:
-    """Result of a smooth contact with the first-order wedge."""
-    return _line(contact.case(wedge="first-order"))
-
-
-def _fine(contact: PaperContact) -> Result:
-    """Result of a smooth contact with twice the number of intervals."""
-    return _line(contact.case(nodes=2 * SMOOTH_NODES - 1))
-
-
-def _constant(contact: PaperContact) -> Result:
-    """Result of a smooth contact with a constant permittivity."""
-    return _line(contact.constant_case())
 
 
 def _methods(contact: PaperContact) -> Methods:
@@ -218,9 +198,9 @@ def _methods(contact: PaperContact) -> Methods:
 
 
 _TASKS: dict[str, Callable[[PaperContact], object]] = {
-    "smooth": _smooth,
-    "first_order": _first_order,
-    "fine": _fine,
-    "constant": _constant,
+    "smooth": partial(_variant, PaperContact.case),
+    "first_order": partial(_variant, partial(PaperContact.case, wedge="first-order")),
+    "fine": partial(_variant, partial(PaperContact.case, nodes=2 * SMOOTH_NODES - 1)),
+    "constant": partial(_variant, PaperContact.constant_case),
     "methods": _methods,
 }

@@ -6,7 +6,8 @@ import sympy
 from scipy.constants import epsilon_0
 
 from ehlectric.field.line_field import solve_field
-from ehlectric.field.poisson import FieldProblem, lobatto_nodes
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.formulas.polynomials import lobatto_nodes
 from tests.reference.field import (
     cylinder_plane_charge,
     cylinder_potential,

@@ -7,8 +7,9 @@ from scipy.constants import epsilon_0
 
 from ehlectric.field.line_field import solve_field
 from ehlectric.field.point_field import solve_point_field
-from ehlectric.field.poisson import Across, FieldProblem, lobatto_nodes
+from ehlectric.field.poisson import Across, FieldProblem
 from ehlectric.field.poisson_3d import PointFieldProblem
+from ehlectric.formulas.polynomials import lobatto_nodes
 from tests.reference.field import (
     egg_crate_wall,
     near,

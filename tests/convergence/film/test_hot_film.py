@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from ehlectric.film.heated_film import film_of
+from ehlectric.film.heated_film import solve_heated_film
 from ehlectric.film.mesh import Width
 from ehlectric.film.shear_laws import Rheology
 from tests.helpers.hot import ball, films, hot_contact, hot_oil, paper_line, random_contact
@@ -17,7 +17,7 @@ EYRING = Rheology("eyring", {"eyring_stress": 5e6})
 
 def table_line(**options):
     """Line contact of the tables: R = 10 mm, 1 GPa, 0.04 Pa s, Roelands z = 0.68, steel, 40 degC."""
-    return film_of(hot_contact(hot_oil(), nodes=301, **options))
+    return solve_heated_film(hot_contact(hot_oil(), nodes=301, **options))
 
 
 @pytest.mark.parametrize(
@@ -82,12 +82,12 @@ def test_traction_has_its_peak_at_a_tenth_of_slip():
     ],
 )
 def test_films_of_the_paper_oil(speed, thinnest, central, cold):
-    found = film_of(paper_line(speed=speed, nodes=401, rheology=EYRING))
+    found = solve_heated_film(paper_line(speed=speed, nodes=401, rheology=EYRING))
     assert films(found) == pytest.approx([central, thinnest, cold[1], cold[0]], rel=0.01)
 
 
 def test_film_without_heat_is_the_isothermal_film():
-    found = film_of(paper_line(speed=5.0, nodes=201, heat=False))
+    found = solve_heated_film(paper_line(speed=5.0, nodes=201, heat=False))
     fine, simple = found.refined.last, found.simple.last
     np.testing.assert_allclose(fine.state.thickness, simple.state.thickness, rtol=1e-9)
     np.testing.assert_allclose(fine.state.pressure, simple.state.pressure, atol=1e-9)
@@ -97,7 +97,7 @@ def test_film_without_heat_is_the_isothermal_film():
 
 def test_oil_that_keeps_its_temperature_has_the_isothermal_film():
     # An oil with a hundred thousand times the conductivity between bodies at its temperature stays cold.
-    found = film_of(
+    found = solve_heated_film(
         hot_contact(hot_oil(conductivity=1.4e4), nodes=201, speed=2.0, body={"thermal_conductivity": 1e9})
     )
     hot, thin, cold, cold_thin = films(found)
@@ -116,7 +116,7 @@ def test_oil_that_keeps_its_temperature_has_the_isothermal_film():
 )
 def test_reversed_slip_mirrors_the_temperature_across(ratio, film, kelvin):
     plus, minus = (
-        film_of(paper_line(speed=5.0, nodes=201, slide_to_roll_ratio=s, rheology=EYRING))
+        solve_heated_film(paper_line(speed=5.0, nodes=201, slide_to_roll_ratio=s, rheology=EYRING))
         for s in (ratio, -ratio)
     )
     assert films(plus) == pytest.approx(films(minus), rel=film)
@@ -127,7 +127,7 @@ def test_reversed_slip_mirrors_the_temperature_across(ratio, film, kelvin):
 
 def test_order_along_x_and_error_of_the_rise():
     speed = {"speed": 5.0, "slide_to_roll_ratio": 0.25, "rheology": EYRING}
-    *found, fine = (film_of(paper_line(nodes=n, **speed)) for n in (101, 201, 401, 801))
+    *found, fine = (solve_heated_film(paper_line(nodes=n, **speed)) for n in (101, 201, 401, 801))
     central = [films(each)[0] for each in found]
     order = np.log2((central[1] - central[0]) / (central[2] - central[1]))
     assert order > 1.0
@@ -140,14 +140,14 @@ def test_order_along_x_and_error_of_the_rise():
 
 @pytest.mark.parametrize("seed", range(6))
 def test_random_lines_converge(seed):
-    found = film_of(random_contact(seed, nodes=201))
+    found = solve_heated_film(random_contact(seed, nodes=201))
     assert found.status == "converged"
     assert found.energy_imbalance < 0.01
 
 
 def test_slow_body_under_simple_sliding():
     # One surface stands: it is heated on both sides of the contact, more than the moving one.
-    found = film_of(paper_line(speed=2.0, nodes=201, slide_to_roll_ratio=2.0, rheology=EYRING))
+    found = solve_heated_film(paper_line(speed=2.0, nodes=201, slide_to_roll_ratio=2.0, rheology=EYRING))
     assert found.status == "converged"
     standing, moving = found.surface_temperatures.max(axis=(1, 2))
     assert standing > moving + 10.0
@@ -156,15 +156,15 @@ def test_slow_body_under_simple_sliding():
 @pytest.mark.slow
 def test_half_of_a_point_contact_is_the_whole():
     whole = ball(nodes=33, slide_to_roll_ratio=0.2, rheology=EYRING)
-    half = film_of(whole)
-    both = film_of(replace(whole, width=Width(33, 3.0, symmetric=False)))
+    half = solve_heated_film(whole)
+    both = solve_heated_film(replace(whole, width=Width(33, 3.0, symmetric=False)))
     assert films(half) == pytest.approx(films(both), rel=1e-4)
     assert half.traction_coefficient == pytest.approx(both.traction_coefficient, rel=1e-3)
     assert half.power_loss == pytest.approx(both.power_loss, rel=1e-3)
 
 
 def test_random_point_converges():
-    found = film_of(random_contact(2, point=True, nodes=49))
+    found = solve_heated_film(random_contact(2, point=True, nodes=49))
     assert found.status == "converged"
     assert found.energy_imbalance < 0.01
 
@@ -173,7 +173,7 @@ def test_random_point_converges():
 @pytest.mark.parametrize("first", range(0, 200, 20))
 def test_two_hundred_random_lines_converge(first):
     for seed in share(range(first, first + 20), 10):
-        found = film_of(random_contact(seed))
+        found = solve_heated_film(random_contact(seed))
         assert found.status == "converged", seed
         assert found.energy_imbalance < 0.01, seed
 
@@ -182,11 +182,11 @@ def test_two_hundred_random_lines_converge(first):
 @pytest.mark.parametrize("first", range(0, 60, 10))
 def test_sixty_random_points_converge(first):
     for seed in share(range(first, first + 10), 10):
-        found = film_of(random_contact(seed, point=True))
+        found = solve_heated_film(random_contact(seed, point=True))
         assert found.status == "converged", seed
         if found.energy_imbalance > 0.01:
             # The balance is of first order; the hottest films, 200 K and more, need a finer grid for it.
-            coarse, found = found, film_of(random_contact(seed, point=True, nodes=97))
+            coarse, found = found, solve_heated_film(random_contact(seed, point=True, nodes=97))
             assert found.status == "converged", seed
             assert found.energy_imbalance < 0.75 * coarse.energy_imbalance, seed
         assert found.energy_imbalance < 0.01, seed
@@ -195,9 +195,9 @@ def test_sixty_random_points_converge(first):
 @pytest.mark.slow
 def test_a_very_hot_film_on_a_fine_grid():
     # Its spike, 208 K hot, moves by less than a node from loop to loop.
-    found = film_of(random_contact(1, nodes=1601))
+    found = solve_heated_film(random_contact(1, nodes=1601))
     assert found.status == "converged"
     assert found.energy_imbalance < 1e-3
     assert found.max_temperature_rise == pytest.approx(
-        film_of(random_contact(1)).max_temperature_rise, rel=0.01
+        solve_heated_film(random_contact(1)).max_temperature_rise, rel=0.01
     )

@@ -7,7 +7,7 @@ import pytest
 
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import State
-from ehlectric.film.touching_film import mixed_newton
+from ehlectric.film.touching_film import touching_newton
 from tests.helpers.mixed_films import (
     gaussian,
     mixed_film,
@@ -158,7 +158,7 @@ def test_solver_of_touching_surfaces_finds_a_thick_film(case):
     levels = levels_of(problem)
     exact = mixed_film(problem, boundary_film=0.0)
     raised = State.of(levels[0], without.pressure, without.last.state.h00 + 0.2 * float(without.gap.min()))
-    found = mixed_newton(
+    found = touching_newton(
         problem.fluid, levels, raised, asperities=problem.asperities, tolerance=1e-11, max_iterations=60
     )
     assert found.status == "converged"

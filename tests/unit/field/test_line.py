@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from scipy.constants import epsilon_0
 
 from ehlectric.field.line_field import solve_field
-from ehlectric.field.poisson import FieldProblem, lobatto_nodes
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.formulas.polynomials import lobatto_nodes
 from tests.helpers.each import each
 
 X = np.linspace(-1e-4, 1e-4, 201)

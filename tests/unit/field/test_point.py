@@ -11,9 +11,9 @@ from scipy.constants import epsilon_0
 from ehlectric.errors import ConvergenceError, InputError
 from ehlectric.field import poisson_3d
 from ehlectric.field.point_field import solve_point_field
-from ehlectric.field.poisson import lobatto_nodes
 from ehlectric.field.poisson_3d import PointFieldProblem
 from ehlectric.field.zones import area_above, node_areas, zone_areas
+from ehlectric.formulas.polynomials import lobatto_nodes
 from tests.helpers.each import each
 from tests.reference.field import near
 

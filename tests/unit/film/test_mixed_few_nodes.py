@@ -8,7 +8,7 @@ import pytest
 from ehlectric import Case, load, save, solve
 from ehlectric.film.nested import levels_of
 from ehlectric.film.newton import State
-from ehlectric.film.touching_film import mixed_newton
+from ehlectric.film.touching_film import touching_newton
 from ehlectric.film.touching_solver import dry_contact, relieved
 from tests.helpers.mixed_films import gaussian, posed, rough_point
 
@@ -32,7 +32,7 @@ LIGHT = {
 def test_dry_contact_on_a_node_or_two(nodes):
     """No node is pierced, those in contact have the gap of the boundary film, and the load is carried."""
     problem = replace(posed(Case.from_dict(LIGHT)), nodes=nodes)
-    level = levels_of(problem, roughness=1.0)[0]
+    level = levels_of(problem)[0]
     pressure = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y)
     ambient = problem.fluid.ambient_pressure
     dry = dry_contact(level, pressure, problem.boundary_film, ambient)
@@ -62,13 +62,13 @@ def test_surfaces_that_touch_at_the_edge_of_the_domain_are_told(tmp_path):
 def test_no_iterate_that_did_not_converge_is_given_with_a_film_below_the_boundary_film(steps):
     """After few Newton steps asperities are still pressed into each other; the gap is that of the flow."""
     problem = posed(rough_point(gaussian("100 nm", "35 um"), nodes=65))
-    levels = levels_of(problem, roughness=1.0)
+    levels = levels_of(problem)
     pressure = (
         problem.geometry.dry_pressure(levels[0].mesh.x, levels[0].mesh.y) + problem.fluid.ambient_pressure
     )
     pierced = State.of(levels[0], np.broadcast_to(pressure, levels[0].mesh.shape).copy(), -1.0)
     hs = problem.boundary_film
-    solution = mixed_newton(
+    solution = touching_newton(
         problem.fluid, levels, pierced, asperities=problem.asperities, tolerance=1e-6, max_iterations=steps
     )
     assert solution.status == "stalled"
@@ -80,7 +80,7 @@ def test_no_iterate_that_did_not_converge_is_given_with_a_film_below_the_boundar
 def test_asperities_that_pierce_a_film_are_relieved():
     """The rough surface pressed into a smooth film: no node is left pierced, and others push nowhere."""
     problem = posed(rough_point(gaussian("100 nm", "35 um"), nodes=65))
-    level = levels_of(problem, roughness=1.0)[0]
+    level = levels_of(problem)[0]
     pressure = problem.geometry.dry_pressure(level.mesh.x, level.mesh.y) + problem.fluid.ambient_pressure
     pierced = State.of(level, np.broadcast_to(pressure, level.mesh.shape).copy(), -1.0)
     hs, inner = problem.boundary_film, level.mesh.inner

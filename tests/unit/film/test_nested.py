@@ -56,15 +56,15 @@ def test_grids_that_are_kept_do_not_change(paper_case):
     after = solve_film(first)
     assert np.array_equal(before.pressure, after.pressure)
     assert before.discretisation_error == after.discretisation_error
-    kept, again = (nested.levels_of(problem, roughness=1.0) for problem in (first, other))
+    kept, again = (nested.levels_of(problem) for problem in (first, other))
     assert all(one is two for one, two in zip(kept, again, strict=True))
 
 
 def test_other_domains_and_wedges_have_other_grids(paper_case):
     problem = problem_of(paper_case)
-    kept = nested.levels_of(problem, roughness=1.0)[0]
+    kept = nested.levels_of(problem)[0]
     for changes in ({"grid.inlet": -5.0}, {"grid.wedge": "first-order"}, {"grid.nodes": 403}):
-        level = nested.levels_of(problem_of(paper_case, **changes), roughness=1.0)[0]
+        level = nested.levels_of(problem_of(paper_case, **changes))[0]
         assert level is not kept
         same = level.mesh.shape == kept.mesh.shape and np.array_equal(level.mesh.x, kept.mesh.x)
         assert not (same and np.array_equal(level.wedge.coefficients, kept.wedge.coefficients))

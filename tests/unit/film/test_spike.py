@@ -6,7 +6,6 @@ from ehlectric.film.flow import flow
 from ehlectric.film.gap import Gap
 from ehlectric.film.isothermal_film import solve_film
 from ehlectric.film.levels import hierarchy
-from ehlectric.film.newton import GAP_STEP, PRESSURE_STEP
 from ehlectric.film.reynolds import poiseuille_weight, residual
 from ehlectric.film.spike import relax_spike
 from tests.reference import film as exact
@@ -33,8 +32,6 @@ def relaxed(dent):
         pressure=pressure,
         full_film=~film.cavitated[:, np.newaxis],
         scaled_residual=r / diagonal,
-        pressure_step=PRESSURE_STEP,
-        gap_step=GAP_STEP,
     )
 
 

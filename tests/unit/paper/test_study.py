@@ -9,7 +9,8 @@ import pytest
 
 from ehlectric import solve
 from ehlectric.field.line_field import solve_field
-from ehlectric.field.poisson import FieldProblem, lobatto_nodes
+from ehlectric.field.poisson import FieldProblem
+from ehlectric.formulas.polynomials import lobatto_nodes
 from ehlectric.paper import errata, fas, paper_report
 from ehlectric.paper.paper_contacts import CONTACTS, LOADS, measured_profile, of_paper
 from ehlectric.paper.paper_figures import FIGURES

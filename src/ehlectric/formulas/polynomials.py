@@ -1,0 +1,78 @@
+"""Polynomials on a few nodes: quadrature, interpolation, derivative; linear interpolation between grids."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from scipy import sparse
+from scipy.special import eval_legendre, roots_jacobi
+
+from ehlectric.arrays import Array, IntArray
+
+
+@cache
+def gauss_legendre(number: int) -> tuple[Array, Array]:
+    """Points and weights of Gauss-Legendre quadrature between -1 and 1; their search takes a millisecond."""
+    points, weights = np.polynomial.legendre.leggauss(number)
+    return points, weights
+
+
+def lobatto_nodes(degree: int) -> Array:
+    """Gauss-Lobatto-Legendre nodes on [0, 1], ascending, shape (degree + 1,).
+
+    Examples
+    --------
+    >>> [float(s) for s in lobatto_nodes(2)]
+    [0.0, 0.5, 1.0]
+    """
+    interior = roots_jacobi(degree - 1, 1.0, 1.0)[0] if degree > 1 else np.empty(0)
+    return 0.5 * (1.0 + np.concatenate([[-1.0], interior, [1.0]]))
+
+
+def lobatto_weights(nodes: Array) -> Array:
+    """Weights of the quadrature on ``lobatto_nodes``, shape (n,)."""
+    degree = nodes.size - 1
+    weights: Array = 1.0 / (degree * (degree + 1) * eval_legendre(degree, 2.0 * nodes - 1.0) ** 2)
+    return weights
+
+
+def interpolation(nodes: Array, at: Array) -> Array:
+    """Values at ``at`` (n,) of the Lagrange polynomials of ``nodes`` (m,), shape (n, m)."""
+    columns = []
+    for k, node in enumerate(nodes):
+        others = np.delete(nodes, k)
+        columns.append(np.prod((at[:, np.newaxis] - others) / (node - others), axis=1))
+    return np.stack(columns, axis=1)
+
+
+def linear_interpolation(left: IntArray, share: Array, size: int) -> sparse.csr_array:
+    """Sparse matrix (n, size) of linear interpolation between the nodes ``left`` (n,) and the next ones.
+
+    ``share`` (n,) is the weight of the next node.
+    """
+    rows = np.repeat(np.arange(left.size), 2)
+    columns = np.stack([left, left + 1], axis=1).ravel()
+    values = np.stack([1.0 - share, share], axis=1).ravel()
+    matrix = sparse.csr_array((values, (rows, columns)), shape=(left.size, size))
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def derivative_matrix(nodes: Array) -> Array:
+    """Matrix (n, n) of the derivative at the nodes (n,), exact for their polynomial; its rows sum to zero.
+
+    J.-P. Berrut and L. N. Trefethen, SIAM Rev. 46 (2004) 501, doi:10.1137/S0036144502417715, section 9.3.
+
+    Examples
+    --------
+    >>> s = lobatto_nodes(4)
+    >>> bool(np.allclose(derivative_matrix(s) @ s**3, 3.0 * s**2))
+    True
+    """
+    apart = nodes[:, np.newaxis] - nodes + np.eye(nodes.size)
+    scale = 1.0 / np.prod(apart, axis=1)
+    matrix: Array = scale / scale[:, np.newaxis] / apart
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return matrix
