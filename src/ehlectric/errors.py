@@ -6,6 +6,7 @@ import reprlib
 import tomllib
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -197,6 +198,23 @@ class InputError(ValueError):
             joined: Any = self.together([error.under(table) for error in self.several])
             return joined  # type: ignore[no-any-return]
         return self.retold(".".join(filter(None, [table, self.key])) or None, self.text)
+
+
+@contextmanager
+def within(table: str) -> Iterator[None]:
+    """Context in which an InputError gets its key in a table, or the table as its key if it has none.
+
+    Examples
+    --------
+    >>> with within("bearing"):
+    ...     raise InputError("bore", got="2 m", takes="less")
+    Traceback (most recent call last):
+    ehlectric.errors.InputError: bearing.bore: got 2 m; expected less
+    """
+    try:
+        yield
+    except InputError as error:
+        raise error.under(table) from None
 
 
 class MemoryLimitError(InputError):

@@ -217,7 +217,7 @@ class Count:
         """Description of the values that are allowed, for messages."""
         return f"a whole number from {self.least} to {self.most}: {self.reason}"
 
-    def parse(self, entry: object) -> int:
+    def parse(self, entry: object, *, written: bool = False) -> int:  # noqa: ARG002
         """Check an entry of a case and return it as a whole number. Raises InputError if the entry is not a
         whole number or is out of bounds.
         """

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Required, Self, TypedDict, Unpack
 
 from pydantic import (
     ModelWrapValidatorHandler,
     ValidationError,
-    create_model,
     field_serializer,
     field_validator,
     model_validator,
@@ -26,16 +25,25 @@ from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.discharge_inputs import BearingDischarge
 from ehlectric.cases.grid_inputs import Solver
 from ehlectric.cases.key_names import refuse_deep
-from ehlectric.cases.keywords import Keys, tables, takes
+from ehlectric.cases.keywords import Keys, split, takes
 from ehlectric.cases.library.bearing_catalogue import with_class
 from ehlectric.cases.oil_inputs import displace_oil
-from ehlectric.cases.table import Table, Title, nearest_key, read_toml, table_of, with_further
+from ehlectric.cases.table import (
+    CaseFile,
+    Table,
+    Title,
+    nearest_key,
+    parser_of,
+    read_toml,
+    table_of,
+    with_further,
+)
 from ehlectric.errors import InputError, shown
 from ehlectric.quantities.alternatives import ALTERNATIVES, DIMENSIONS
 from ehlectric.quantities.formats import amount
 from ehlectric.quantities.rows import value_at
-from ehlectric.quantities.units import ROTATION, rpm
-from ehlectric.runtime.values import Tabled, headline, is_number
+from ehlectric.quantities.units import rpm
+from ehlectric.runtime.values import headline, is_number
 
 # Tables and keys of a bearing file that a case of a contact does not have.
 _TABLES = ("motor", "contacts", "ranges")
@@ -97,18 +105,12 @@ def _flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, An
 
 
 def _range(key: str, value: Any, model: type[Table]) -> InputRange:
-    field, (table, _, leaf) = _field(key, model), key.rpartition(".")
+    parse, leaf = parser_of(_field(key, model), key), key.rpartition(".")[2]
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
         raise InputError(key, got=shown(value), takes="a list of two values, the smaller one first")
-    annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
-    keys: Any = {leaf: (annotation, ...)}
-    one: type[Table] = create_model("Value", __base__=Table, **keys)
     ends = []
     for end in value:
-        try:
-            parsed = getattr(one.from_dict({leaf: end}), leaf)
-        except InputError as error:
-            raise error.under(table) if table else error from None
+        parsed = getattr(parse(end), leaf)
         if not is_number(parsed):
             raise InputError(key, got=shown(end), takes="numbers: only they have a range")
         # A whole number stays one: no other is allowed where it counts something.
@@ -164,7 +166,23 @@ _ADVICE = {
 }
 
 
-class BearingCase(Tabled, Table):
+class _Tables(TypedDict, total=False):
+    """Keys and tables of a bearing file besides ``bearing``, as ``BearingCase.of`` takes them."""
+
+    lubricant: Required[Lubricant | Keys | str]
+    title: str
+    contacts: Contacts
+    discharge: BearingDischarge | Keys | None
+    motor: Motor | Keys | None
+    solver: Solver | Keys | None
+    ranges: Keys | None
+
+
+class _BearingCaseKeys(_Tables, BearingKeys, total=False):
+    pass
+
+
+class BearingCase(CaseFile):
     """Rolling bearing in its machine: all inputs on which its capacitance and breakdown voltage depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
@@ -302,19 +320,8 @@ class BearingCase(Tabled, Table):
         )
 
     @classmethod
-    @takes(BearingKeys)
-    def of(
-        cls,
-        *,
-        lubricant: Lubricant | Keys | str,
-        title: str = "",
-        contacts: Contacts = "solved",
-        discharge: BearingDischarge | Keys | None = None,
-        motor: Motor | Keys | None = None,
-        solver: Solver | Keys | None = None,
-        ranges: Keys | None = None,
-        **bearing: Unpack[BearingKeys],
-    ) -> BearingCase:
+    @takes(_BearingCaseKeys)
+    def of(cls, **keys: Unpack[_BearingCaseKeys]) -> BearingCase:
         """Make a bearing case from the keys of its table ``bearing``.
 
         ``lubricant`` is the name of one of the library or its table. The keys of ``bearing`` are floats in SI
@@ -332,8 +339,8 @@ class BearingCase(Tabled, Table):
         ... )
         <BearingCase 6208, radial load 1 kN, 3000 rpm, 70 degC>
         """
-        given = tables(lubricant=lubricant, discharge=discharge, motor=motor, solver=solver, ranges=ranges)
-        return BearingCase.from_dict({"title": title, "contacts": contacts, "bearing": bearing, **given})
+        tables, bearing = split(keys, _Tables)
+        return BearingCase.from_dict({"bearing": bearing, **tables})
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -345,18 +352,8 @@ class BearingCase(Tabled, Table):
             )
         return cls.from_written(table)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return all values that are set as nested tables, in SI units."""
-        return self.model_dump(mode="json", exclude_none=True)
-
-    def to_toml(self) -> str:
-        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
-        import tomli_w
-
-        table = self.to_dict()
-        # A rotational speed without a unit is refused in a file.
-        table["bearing"]["inner_speed"] = f"{self.bearing.inner_speed!r} {ROTATION}"
-        return tomli_w.dumps(table)
+    def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
+        yield table["bearing"], "inner_speed"
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
         """Return a changed copy of the case; the title stays unless a new one is given.

@@ -7,9 +7,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from difflib import get_close_matches
+from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
 
-from pydantic import AfterValidator, BeforeValidator, model_validator
+from pydantic import BeforeValidator, model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, Count
@@ -25,7 +26,7 @@ from ehlectric.cases.library.bearing_catalogue import (
     with_class,
     with_clearance,
 )
-from ehlectric.cases.oil_inputs import Properties, library_name
+from ehlectric.cases.oil_inputs import Properties, library_choice, library_name
 from ehlectric.cases.table import Table
 from ehlectric.errors import InputError, shown
 from ehlectric.formulas.inlet_supply import SUPPLY_CONSTANTS
@@ -39,14 +40,7 @@ _Interference = Annotated[
 ]
 
 
-def _solid(name: str) -> str:
-    names = library.solid_names()
-    if name not in names:
-        raise InputError(got=shown(name), takes=f"one of the library: {', '.join(names)}")
-    return name
-
-
-_Solid = Annotated[str, AfterValidator(_solid)]
+_Solid = Annotated[str, library_choice(library.solid_names)]
 
 
 class Fits(Table):
@@ -119,12 +113,8 @@ class Summits(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.height_deviation is not None and self.bandwidth is not None:
-            raise InputError(
-                "height_deviation",
-                got="height_deviation and bandwidth together",
-                takes="one of the two, as it follows from bandwidth",
-            )
+        takes = "one of the two, as it follows from bandwidth"
+        self.check_one_of(("height_deviation", "bandwidth"), takes)
         return self
 
 
@@ -162,13 +152,6 @@ _CHOICES = {
 }
 
 
-def _material(name: str) -> str:
-    names = library.solid_names(rolling=True)
-    if name not in names:
-        raise InputError(got=shown(name), takes=f"one of the library: {', '.join(names)}")
-    return name
-
-
 def _film_factor(value: Any) -> float | str:
     if value in FILM_FACTORS:
         return str(value)
@@ -202,7 +185,7 @@ def _fill(value: Any) -> float | str:
     return float(part)
 
 
-_Material = Annotated[str, AfterValidator(_material)]
+_Material = Annotated[str, library_choice(partial(library.solid_names, rolling=True))]
 
 
 def _bearing_name(base: Any) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Required, Self, TypedDict, TypeVar, Unpack
 
 from pydantic import PrivateAttr, model_validator
 
@@ -20,21 +20,44 @@ from ehlectric.cases.discharge_inputs import Discharge
 from ehlectric.cases.film_inputs import FilmPhysics, Inlet, check_film
 from ehlectric.cases.grid_inputs import Electric, Grid, Motion, Solver, point_grid
 from ehlectric.cases.key_names import refuse_deep
-from ehlectric.cases.keywords import Keys, tables, takes
+from ehlectric.cases.keywords import Keys, split, takes
 from ehlectric.cases.meter_inputs import Meter
 from ehlectric.cases.roughness_inputs import Roughness, check_geometry, find_files
-from ehlectric.cases.table import Table, Title, read_toml
+from ehlectric.cases.table import CaseFile, Title, read_toml
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.oil import Oil
 from ehlectric.lubricant.python_laws import SampledLaws
 from ehlectric.quantities.formats import amount
-from ehlectric.runtime.values import Tabled, headline
+from ehlectric.runtime.values import headline
 
 # Units of the numbers in the representation of a case, by their key in the table ``contact``.
 _SHOWN = {"load_per_length": "N/m", "load": "N", "max_hertz_pressure": "Pa", "entrainment_speed": "m/s"}
 
 
-class Case(Tabled, Table):
+class _Tables(TypedDict, total=False):
+    """Keys and tables of a case besides its contact, as ``Case.line`` and ``Case.point`` take them."""
+
+    lubricant: Required[Lubricant | Keys | str]
+    title: str
+    roughness: Sequence[Roughness | Keys]
+    film: FilmPhysics | Keys | None
+    electric: Electric | Keys | None
+    discharge: Discharge | Keys | None
+    meter: Meter | Keys | None
+    inlet: Inlet | Keys | None
+    grid: Grid | Keys | None
+    solver: Solver | Keys | None
+
+
+class _LineCaseKeys(_Tables, LineKeys, total=False):
+    pass
+
+
+class _PointCaseKeys(_Tables, PointKeys, total=False):
+    pass
+
+
+class Case(CaseFile):
     """Charged line or point contact: all inputs on which film and electric field depend.
 
     A case is made from a file by ``from_toml``, from nested tables by ``from_dict`` or by keywords, and from
@@ -159,73 +182,32 @@ class Case(Tabled, Table):
         return headline(self.title, f"{self.contact.geometry} contact", *numbers, motion)
 
     @classmethod
-    @takes(LineKeys)
-    def line(
-        cls,
-        *,
-        lubricant: Lubricant | Keys | str,
-        title: str = "",
-        roughness: Sequence[Roughness | Keys] = (),
-        film: FilmPhysics | Keys | None = None,
-        electric: Electric | Keys | None = None,
-        discharge: Discharge | Keys | None = None,
-        meter: Meter | Keys | None = None,
-        inlet: Inlet | Keys | None = None,
-        grid: Grid | Keys | None = None,
-        solver: Solver | Keys | None = None,
-        **contact: Unpack[LineKeys],
-    ) -> LineCase:
+    @takes(_LineCaseKeys)
+    def line(cls, **keys: Unpack[_LineCaseKeys]) -> LineCase:
         """Make the case of a line contact from the keys of its table ``contact``.
 
-        ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
-        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact_inputs.LineKeys``); all
-        others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
+        Its keys (``ehlectric.cases.contact_inputs.LineKeys``) are floats in SI units, texts with units, or
+        quantities of pint; others are tables, ``lubricant`` also a name. Doubtful radii and moduli warn.
 
         >>> steel = {"reduced_radius": "14.1 mm", "reduced_modulus": 226e9}
         >>> Case.line(**steel, max_hertz_pressure="1 GPa", entrainment_speed=4.0, lubricant="paper")
         <LineCase line contact, max_hertz_pressure 1 GPa, entrainment_speed 4 m/s>
         """
-        given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
-        given |= tables(film=film, meter=meter, inlet=inlet, grid=grid, solver=solver)
-        table = {"geometry": "line", **contact}
-        case = LineCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
-        # One call more is that of the decorator.
-        warn_of(case.contact, level=3)
-        return case
+        return _of_keys(LineCase, "line", keys)
 
     @classmethod
-    @takes(PointKeys)
-    def point(
-        cls,
-        *,
-        lubricant: Lubricant | Keys | str,
-        title: str = "",
-        roughness: Sequence[Roughness | Keys] = (),
-        film: FilmPhysics | Keys | None = None,
-        electric: Electric | Keys | None = None,
-        discharge: Discharge | Keys | None = None,
-        meter: Meter | Keys | None = None,
-        inlet: Inlet | Keys | None = None,
-        grid: Grid | Keys | None = None,
-        solver: Solver | Keys | None = None,
-        **contact: Unpack[PointKeys],
-    ) -> PointCase:
+    @takes(_PointCaseKeys)
+    def point(cls, **keys: Unpack[_PointCaseKeys]) -> PointCase:
         """Make the case of a point contact from the keys of its table ``contact``.
 
-        ``lubricant`` is the name of one of the library or its table. The keys of ``contact`` are floats in
-        SI units, texts with units, or quantities of pint (``ehlectric.cases.contact_inputs.PointKeys``); all
-        others are tables of a case file. A radius or modulus that no machine has gives a ``UserWarning``.
+        Its keys (``ehlectric.cases.contact_inputs.PointKeys``) are floats in SI units, texts with units, or
+        quantities of pint; others are tables, ``lubricant`` also a name. Doubtful radii and moduli warn.
 
         >>> ball = {"radius_x": "10 mm", "radius_y": "10 mm", "reduced_modulus": "226 GPa"}
         >>> Case.point(**ball, load="20 N", entrainment_speed="2 m/s", lubricant="paper")
         <PointCase point contact, load 20 N, entrainment_speed 2 m/s>
         """
-        given = tables(lubricant=lubricant, electric=electric, discharge=discharge)
-        given |= tables(film=film, meter=meter, inlet=inlet, grid=grid, solver=solver)
-        table = {"geometry": "point", **contact}
-        case = PointCase.from_dict({"title": title, "contact": table, "roughness": roughness, **given})
-        warn_of(case.contact, level=3)
-        return case
+        return _of_keys(PointCase, "point", keys)
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -237,16 +219,6 @@ class Case(Tabled, Table):
             )
         find_files(table, Path(path).parent)
         return cls.from_written(table)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return all values that are set as nested tables, in SI units."""
-        return self.model_dump(mode="json", exclude_none=True)
-
-    def to_toml(self) -> str:
-        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
-        import tomli_w
-
-        return tomli_w.dumps(self.to_dict())
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
         """Return a changed copy of the case; the title stays unless a new one is given.
@@ -292,6 +264,15 @@ class PointCase(Case):
 
 
 C = TypeVar("C", bound=Case)
+
+
+def _of_keys(kind: type[C], geometry: str, keys: Mapping[str, Any]) -> C:
+    """Case of a kind from the keys of its contact and its other tables; its doubtful values are warned of."""
+    tables, contact = split(keys, _Tables)
+    case = kind.from_dict({"contact": {"geometry": geometry, **contact}, **tables})
+    # Two calls more are those of the constructor and of its decorator.
+    warn_of(case.contact, level=4)
+    return case
 
 
 def _of_kind(case: C, geometry: str) -> C:

@@ -33,7 +33,7 @@ from ehlectric.cases.oil_inputs import (
     refuse_missing,
 )
 from ehlectric.cases.table import nearest, read_toml
-from ehlectric.errors import InputError, ResultWarning, shown
+from ehlectric.errors import InputError, ResultWarning, shown, within
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.electrical_laws import CONDUCTIVITY, PERMITTIVITY_LAWS
 from ehlectric.lubricant.heat_laws import constant_thermal_conductivity
@@ -325,12 +325,8 @@ class Lubricant(Properties):
     def _check(self) -> Self:
         """Check that values are given in one way, and that no parameter of a law is missing."""
         refuse_missing(self)
-        if self.relative_permittivity is not None and self.permittivity_table is not None:
-            raise InputError(
-                "relative_permittivity",
-                got="it and permittivity_table together",
-                takes="either relative_permittivity or permittivity_table",
-            )
+        keys = ("relative_permittivity", "permittivity_table")
+        self.check_one_of(keys, f"either {' or '.join(keys)}")
         ends = self.temperature_range
         if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):
             raise InputError(
@@ -625,25 +621,21 @@ def _parsed(quantity: Amount, tables: Mapping[str, Any], name: str, key: str) ->
     value = table.get(key) if isinstance(table, Mapping) else None
     if value is None:
         return None
-    try:
+    with within(f"{name}.{key}"):
         return quantity.parse(value, written=True)
-    except InputError as error:
-        raise error.retold(f"{name}.{key}", error.text) from None
 
 
 def _of_table(
     name: str, title: str, given: Mapping[str, Any], temperatures: tuple[float, ...] = ()
 ) -> NamedOil:
     """Oil of a table; a table that contradicts itself is refused, and one that lacks values is not."""
-    try:
+    with within("lubricant"):
         try:
             table: Properties = Lubricant.from_written(given)
         except InputError as error:
             if not error.is_missing:
                 raise
             table = Properties.from_written(given)
-    except InputError as error:
-        raise error.under("lubricant") from None
     base = None if table.base is None else library_oil(table.base)
     return NamedOil(name, title, given, table, base, temperatures)
 
@@ -683,10 +675,8 @@ def oil(source: str | Path | Mapping[str, Any], temperature: str | float | None 
     found = named_oil(source)
     own = found.temperatures[0] if len(found.temperatures) == 1 else None
     kelvin = own if temperature is None else kelvin_of(temperature)
-    try:
+    with within("lubricant"):
         lubricant = Lubricant.from_dict(found.given)
-    except InputError as error:
-        raise error.under("lubricant") from None
     return lubricant.at(kelvin, "temperature")
 
 
@@ -699,7 +689,5 @@ def kelvin_of(temperature: str | float, key: str = "temperature") -> float:
     >>> kelvin_of("40 degC")
     313.15
     """
-    try:
+    with within(key):
         return TEMPERATURE.parse(temperature, written=isinstance(temperature, str))
-    except InputError as error:
-        raise error.retold(key, error.text) from None

@@ -65,10 +65,7 @@ class Coating(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.strength is not None and self.breakdown_voltage is not None:
-            raise InputError(
-                "strength", got="strength and breakdown_voltage together", takes="one of the two"
-            )
+        self.check_one_of(("strength", "breakdown_voltage"), "one of the two")
         return self
 
     @property

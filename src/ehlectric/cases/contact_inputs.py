@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Annotated, Any, Literal, Self, TypedDict
 
-from pydantic import AfterValidator, model_validator
+from pydantic import model_validator
 
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount
 from ehlectric.cases.defaults import BOUNDARY_FILM
 from ehlectric.cases.keywords import Keys, Value
+from ehlectric.cases.oil_inputs import library_choice
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError
 from ehlectric.quantities.alternatives import CONTACT_ALTERNATIVES, ONLY
 
 # Radius of contact above which a unit is probably wrong: the largest rolls and gears are near it [m].
@@ -70,13 +72,9 @@ _Speed = Annotated[float, Amount("m/s", least=-1e4, most=1e4, reason="surface sp
 _Surface = Annotated[float, Amount("K", least=200.0, most=700.0, reason="absolute, of a body far below")]
 
 
-def _material(name: str) -> str:
-    names = library.solid_names(thermal=True)
-    if name not in names:
-        raise InputError(
-            got=shown(name), takes=f"a solid with thermal properties in the library: {', '.join(names)}"
-        )
-    return name
+_THERMAL = library_choice(
+    partial(library.solid_names, thermal=True), "a solid with thermal properties in the library"
+)
 
 
 class Body(Table):
@@ -88,7 +86,7 @@ class Body(Table):
     ) = None
     radius_x: _SignedRadius | None = None
     radius_y: _SignedRadius | None = None
-    material: Annotated[str, AfterValidator(_material)] | None = None
+    material: Annotated[str, _THERMAL] | None = None
     thermal_conductivity: (
         Annotated[float, Amount("W/m/K", least=0.05, most=3000.0, reason="from polymers to diamond")] | None
     ) = None

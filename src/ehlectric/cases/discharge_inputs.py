@@ -42,9 +42,7 @@ class StrengthTable(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if (self.pressure is None) == (self.temperature is None):
-            both = None if self.pressure is None else "pressure and temperature together"
-            raise InputError("pressure", got=both, takes="either pressure or temperature")
+        self.check_one_of(("pressure", "temperature"), "either pressure or temperature", needed=True)
         if any(b <= a for a, b in zip(self.places, self.places[1:], strict=False)):
             raise InputError(self.over, got=list(self.places), takes="increasing values")
         if len(self.strength) != len(self.places):
@@ -108,10 +106,7 @@ class Discharge(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         names = [row[0] for row in ALTERNATIVES["discharge"][0]]
-        present = [name for name in names if getattr(self, name) is not None]
-        if len(present) > 1:
-            together, takes = " and ".join(present), ", ".join(names)
-            raise InputError(present[0], got=f"{together} together", takes=f"one of {takes}")
+        self.check_one_of(names, f"one of {', '.join(names)}")
         self._check_pit()
         self._check_temperature()
         return self

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -16,13 +16,13 @@ from ehlectric.cases.defaults import Contacts
 from ehlectric.cases.drive_inputs import Breakdown, Circuit, Source
 from ehlectric.cases.key_names import refuse_deep
 from ehlectric.cases.roughness_inputs import find_files
-from ehlectric.cases.table import Table, Title, read_toml
-from ehlectric.errors import InputError, shown
+from ehlectric.cases.table import CaseFile, Table, Title, read_toml
+from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.alternatives import ALTERNATIVES
 from ehlectric.quantities.inputs import BOTH as BOTH
 from ehlectric.quantities.inputs import ENDS as ENDS
-from ehlectric.quantities.units import ROTATION, rpm
-from ehlectric.runtime.values import Tabled, headline
+from ehlectric.quantities.units import rpm
+from ehlectric.runtime.values import headline
 
 
 class Operation(Table):
@@ -51,7 +51,7 @@ class Remedy(Table):
         return self
 
 
-class DriveCase(Tabled, Table):
+class DriveCase(CaseFile):
     """Drive: inverter, motor and both bearings; all inputs on which discharges over time depend.
 
     A case is made from a file by ``from_toml``, or from nested tables by ``from_dict``. Wrong inputs raise an
@@ -112,10 +112,8 @@ class DriveCase(Tabled, Table):
 
     @model_validator(mode="after")
     def _check_source(self) -> Self:
-        try:
+        with within("source"):
             self.running_source  # noqa: B018
-        except InputError as error:
-            raise error.under("source") from None
         return self
 
     def variants(self) -> tuple[Self, ...]:
@@ -123,10 +121,8 @@ class DriveCase(Tabled, Table):
         return tuple(self._changed(number, remedy) for number, remedy in enumerate(self.remedies, 1))
 
     def _changed(self, number: int, remedy: Remedy) -> Self:
-        try:
+        with within(f"remedies.{number}.changes"):
             return self.replace(remedy.changes)
-        except InputError as error:
-            raise error.under(f"remedies.{number}.changes") from None
 
     def _headline(self) -> str:
         bearing = self.bearings[0].bearing
@@ -142,22 +138,10 @@ class DriveCase(Tabled, Table):
         """Read a drive case from a TOML file; files that it names are looked for beside it."""
         return cls.from_written(with_files(read_toml(path), Path(path).parent))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return all values that are set as nested tables, in SI units."""
-        return self.model_dump(mode="json", exclude_none=True)
-
-    def to_toml(self) -> str:
-        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
-        import tomli_w
-
-        table = self.to_dict()
-        # A rotational speed without a unit is refused in a file.
-        for end in ENDS:
-            bearing = table[end]["bearing"]
-            bearing["inner_speed"] = f"{bearing['inner_speed']!r} {ROTATION}"
+    def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
+        yield from ((table[end]["bearing"], "inner_speed") for end in ENDS)
         if self.drive.speed is not None:
-            table["drive"]["speed"] = f"{self.drive.speed!r} {ROTATION}"
-        return tomli_w.dumps(table)
+            yield table["drive"], "speed"
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **tables: Any) -> Self:
         """Return a changed copy of the case.
@@ -178,10 +162,8 @@ class DriveCase(Tabled, Table):
         displace(table, own, {name: ALTERNATIVES[name] for name in ("source", "breakdown")})
         set_keys(table, own)
         for end, change in ends.items():
-            try:
+            with within(end):
                 table[end] = getattr(self, end).replace(change)
-            except InputError as error:
-                raise error.under(end) from None
         return self.from_dict(table)
 
 
@@ -231,11 +213,9 @@ def _bearing_of(table: Mapping[str, Any], folder: Path, end: str) -> BearingCase
         case = BearingCase.from_toml(folder / name)
     except InputError as error:
         raise error.retold(f"{end}.file, {error.key}", error.text) from None
-    try:
+    with within(end):
         changes = flattened({key: value for key, value in table.items() if key != "file"})
         return case.replace(changes) if changes else case
-    except InputError as error:
-        raise error.under(end) from None
 
 
 AnyCase = Case | BearingCase

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -29,6 +29,13 @@ CONFIDENCE = 0.95
 # Texts that say where the statistical part of an interval is from.
 STATED, RAISED, SCATTER = "stated uncertainty", "stated uncertainty, raised to the scatter", "scatter only"
 
+# Keys of a mean factor in measured.json that differ from its fields.
+_MEAN_KEYS = {
+    "value": "mean",
+    "statistical": "statistical_uncertainty",
+    "systematic": "systematic_uncertainty",
+}
+
 
 @dataclass(frozen=True)
 class MeanFactor:
@@ -52,16 +59,7 @@ class MeanFactor:
 
     def summary(self) -> dict[str, Any]:
         """Values as in measured.json."""
-        return {
-            "mean": self.value,
-            "low": self.low,
-            "high": self.high,
-            "statistical_uncertainty": self.statistical,
-            "systematic_uncertainty": self.systematic,
-            "scatter": self.scatter,
-            "basis": self.basis,
-            "rows": self.rows,
-        }
+        return {_MEAN_KEYS.get(name, name): value for name, value in asdict(self).items()}
 
 
 def mean_factor(

@@ -58,10 +58,7 @@ class Inlet(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         names = [row[0] for row in ALTERNATIVES["inlet"][0]]
-        given = [name for name in names if getattr(self, name) is not None]
-        if len(given) != 1:
-            together = f"{' and '.join(given)} together" if given else None
-            raise InputError(names[0], got=together, takes=f"one of {', '.join(names)}")
+        self.check_one_of(names, f"one of {', '.join(names)}", needed=True)
         return self
 
     def check(self, contact: Contact, *, beside: Collection[str]) -> None:

@@ -53,6 +53,10 @@ MOST_DEGREE = 40
 
 # Smallest number of film nodes in the field range that resolve the field.
 _LEAST_COLUMNS = 16
+_Nodes = Annotated[int, Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart")]
+_Error = Annotated[
+    float, Amount("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True)
+]
 _FieldEnd = Annotated[float, Amount("", least=-100.0, most=100.0, reason="in half-widths")]
 
 # Ends of the domain where they are not given, of a line and of a point contact; half-widths or semi-axes.
@@ -83,20 +87,8 @@ class Grid(Table):
     entrainment; for ``side`` and ``field_side`` it is the semi-axis across.
     """
 
-    nodes: (
-        Annotated[
-            int,
-            Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
-        ]
-        | None
-    ) = None
-    error: (
-        Annotated[
-            float,
-            Amount("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
-        ]
-        | None
-    ) = None
+    nodes: _Nodes | None = None
+    error: _Error | None = None
     nodes_y: (
         Annotated[int, Count(33, _MOST_AXIS, "fewer do not resolve the Hertz zone, more fill the memory")]
         | None
@@ -122,20 +114,8 @@ class Grid(Table):
         Annotated[int, Count(17, _MOST_AXIS, "fewer do not resolve the sides, more fill the memory")] | None
     ) = None
     field_degree: Annotated[int, Count(2, MOST_DEGREE, "the potential is nearly linear across the film")] = 6
-    refine: (
-        Annotated[
-            float,
-            Amount("", least=1e-4, most=0.5, reason="error of the film to refine to", fraction=True),
-        ]
-        | None
-    ) = None
-    most_nodes: (
-        Annotated[
-            int,
-            Count(65, 10_000_001, "fewer do not resolve the Hertz zone, more are atoms apart"),
-        ]
-        | None
-    ) = None
+    refine: _Error | None = None
+    most_nodes: _Nodes | None = None
 
     @property
     def of_point(self) -> bool:
@@ -338,9 +318,7 @@ class Motion(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if (self.passes is None) == (self.duration is None):
-            both = None if self.passes is None else "passes and duration together"
-            raise InputError("passes", got=both, takes="either passes or duration")
+        self.check_one_of(("passes", "duration"), "either passes or duration", needed=True)
         return self
 
     def check(self, grid: Grid, *, rough: bool) -> None:

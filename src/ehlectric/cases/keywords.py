@@ -67,15 +67,19 @@ def keys_of(keys: type) -> Sequence[str]:
     return list(keys.__annotations__)
 
 
-def tables(**named: Any) -> dict[str, Any]:
-    """Tables of a case by name, without those that are None; the name of a lubricant becomes its table.
+def split(keywords: Mapping[str, Any], names: type) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Keywords that a ``TypedDict`` names, and all others; the name of a lubricant becomes its table.
+
+    Keywords of the ``TypedDict`` that are None are left out.
 
     Examples
     --------
-    >>> tables(lubricant="paper", discharge=None)
-    {'lubricant': {'base': 'paper'}}
+    >>> from typing import TypedDict
+    >>> Tables = TypedDict("Tables", {"lubricant": str, "discharge": None})
+    >>> split({"lubricant": "paper", "discharge": None, "load": 1.0}, Tables)
+    ({'lubricant': {'base': 'paper'}}, {'load': 1.0})
     """
-    given = {name: table for name, table in named.items() if table is not None}
-    if isinstance(given.get("lubricant"), str):
-        given["lubricant"] = {"base": given["lubricant"]}
-    return given
+    tables = {name: keywords[name] for name in keys_of(names) if keywords.get(name) is not None}
+    if isinstance(tables.get("lubricant"), str):
+        tables["lubricant"] = {"base": tables["lubricant"]}
+    return tables, {name: value for name, value in keywords.items() if name not in names.__annotations__}

@@ -25,57 +25,59 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-# Amounts of a measurement by the names of their columns in the program, with SI unit and bounds.
-COLUMNS: Mapping[str, Amount] = MappingProxyType(
-    {
-        "time": Amount("s", least=0.0, most=1e9, reason="since the start of the measurement"),
-        "speed": Amount(units.ROTATION, above=0.0, most=1e5, reason="of the inner ring"),
-        "entrainment_speed": Amount("m/s", above=0.0, most=1e4, reason="(u1 + u2)/2"),
-        "temperature": Amount("K", least=200.0, most=600.0, reason="absolute, of the oil"),
-        "frequency": Amount("Hz", above=0.0, most=1e10, reason="of the meter"),
-        "capacitance": Amount("F", above=0.0, most=1e-3, reason="of a bearing or contact"),
-        "impedance": Amount("ohm", above=0.0, most=1e15, reason="magnitude"),
-        "phase": Amount("rad", least=-math.pi, most=math.pi, reason="negative for a capacitor"),
-        "film": Amount("m", above=0.0, most=1e-3, reason="central film thickness"),
-    }
-)
+@dataclass(frozen=True)
+class Measurable(Amount):
+    """Quantity of a measurement: SI unit and bounds, a usual unit, and names over a column."""
 
-# Names that people write over a column, in small letters and with spaces.
-_NAMES = {
-    "time": "time",
-    "elapsed time": "time",
-    "speed": "speed",
-    "inner speed": "speed",
-    "shaft speed": "speed",
-    "rotational speed": "speed",
-    "entrainment speed": "entrainment_speed",
-    "rolling speed": "entrainment_speed",
-    "mean speed": "entrainment_speed",
-    "temperature": "temperature",
-    "oil temperature": "temperature",
-    "frequency": "frequency",
-    "capacitance": "capacitance",
-    "parallel capacitance": "capacitance",
-    "cp": "capacitance",
-    "impedance": "impedance",
-    "impedance magnitude": "impedance",
-    "|z|": "impedance",
-    "z": "impedance",
-    "phase": "phase",
-    "phase angle": "phase",
-    "film": "film",
-    "film thickness": "film",
-    "central film": "film",
-    "central film thickness": "film",
-}
+    usual: str = ""  # unit that stands for the quantity in the advice of an error
+    names: tuple[str, ...] = ()  # further names that people write over a column, in small letters
+
+
+# Quantities of a measurement by the names of their columns in the program.
+COLUMNS: Mapping[str, Measurable] = MappingProxyType(
+    {
+        "time": Measurable(
+            "s", least=0.0, most=1e9, reason="since the start of the measurement",
+            usual="s", names=("elapsed time",),
+        ),
+        "speed": Measurable(
+            units.ROTATION, above=0.0, most=1e5, reason="of the inner ring",
+            usual="rpm", names=("inner speed", "shaft speed", "rotational speed"),
+        ),
+        "entrainment_speed": Measurable(
+            "m/s", above=0.0, most=1e4, reason="(u1 + u2)/2",
+            usual="m/s", names=("rolling speed", "mean speed"),
+        ),
+        "temperature": Measurable(
+            "K", least=200.0, most=600.0, reason="absolute, of the oil",
+            usual="degC", names=("oil temperature",),
+        ),
+        "frequency": Measurable("Hz", above=0.0, most=1e10, reason="of the meter", usual="Hz"),
+        "capacitance": Measurable(
+            "F", above=0.0, most=1e-3, reason="of a bearing or contact",
+            usual="pF", names=("parallel capacitance", "cp"),
+        ),
+        "impedance": Measurable(
+            "ohm", above=0.0, most=1e15, reason="magnitude",
+            usual="ohm", names=("impedance magnitude", "|z|", "z"),
+        ),
+        "phase": Measurable(
+            "rad", least=-math.pi, most=math.pi, reason="negative for a capacitor",
+            usual="deg", names=("phase angle",),
+        ),
+        "film": Measurable(
+            "m", above=0.0, most=1e-3, reason="central film thickness",
+            usual="nm", names=("film thickness", "central film", "central film thickness"),
+        ),
+    }
+)  # fmt: skip
+
+# Quantities by the names over a column, in small letters and with spaces.
+_NAMES = {name: key for key, one in COLUMNS.items() for name in (key.replace("_", " "), *one.names)}
 _UNCERTAINTY = "uncertainty"
 
 # Heads that an error names as examples.
 EXAMPLES = "'speed [rpm]' and 'capacitance [pF]', or 'entrainment speed [m/s]' and 'film [nm]'"
-
-# Unit that stands for each quantity in the advice of an error.
-_USUAL = {"time": "s", "speed": "rpm", "entrainment_speed": "m/s", "temperature": "degC", "frequency": "Hz"}
-_USUAL |= {"capacitance": "pF", "impedance": "ohm", "phase": "deg", "film": "nm"}
 
 # Longest head of a column [characters].
 _LONGEST = 200
@@ -151,7 +153,7 @@ def column_of(head: str) -> Column | None:
         return None
     known = _NAMES.get(words, "")
     if unit is None:
-        usual = "%" if uncertain else _USUAL[known]
+        usual = "%" if uncertain else COLUMNS[known].usual
         raise InputError(
             f"column {shown(text)}", "has no unit", takes=f"a unit in brackets, as '{name} [{usual}]'"
         )
@@ -184,7 +186,9 @@ def _checked(name: str, head: str, unit: str) -> Column:
         else:
             return column
     raise InputError(
-        f"column {shown(head)}", f"has the unit {shown(unit)} ({short(reasons[0])})", takes=_USUAL[name]
+        f"column {shown(head)}",
+        f"has the unit {shown(unit)} ({short(reasons[0])})",
+        takes=COLUMNS[name].usual,
     )
 
 
@@ -454,7 +458,7 @@ def _columns(source: str, heads: Sequence[str]) -> tuple[dict[int, Column], tupl
                 takes="one of the two",
             )
         columns[place] = column
-    if not any(not column.uncertainty for column in columns.values()):
+    if all(column.uncertainty for column in columns.values()):
         raise InputError(source, "has no heads of known columns", takes=f"heads such as {EXAMPLES}")
     return columns, tuple(head for head in ignored if head)
 

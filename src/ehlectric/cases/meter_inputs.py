@@ -79,8 +79,7 @@ class Meter(Table):
     def _check(self) -> Self:
         if self.fill is None and self.oil_radius is None:
             raise InputError.missing("fill", "either fill, as 'oil', or oil_radius")
-        if self.fill is not None and self.oil_radius is not None:
-            raise InputError("fill", got="fill and oil_radius together", takes="either of them")
+        self.check_one_of(("fill", "oil_radius"), "either of them")
         return self
 
     def check(self, contact: Contact, length: float | None, *, rough: bool, moves: bool) -> None:

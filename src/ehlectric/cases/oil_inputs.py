@@ -5,7 +5,7 @@ checks.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Optional, Self
@@ -27,7 +27,7 @@ from pydantic_core import CoreSchema, InitErrorDetails
 from ehlectric.cases import library
 from ehlectric.cases.amounts import Amount, Amounts
 from ehlectric.cases.library.library_oils import Grade
-from ehlectric.cases.table import Table, nearest
+from ehlectric.cases.table import Table, details_of, nearest
 from ehlectric.errors import InputError, shown
 from ehlectric.lubricant.data_sheet import Estimate, alpha_estimate, grade_middle, viscosity_at_100
 from ehlectric.lubricant.density import DENSITY_LAWS
@@ -66,10 +66,8 @@ def law_parameters(*choices: str) -> dict[str, Parameter]:
     >>> law_parameters("density_law")["density_c1"].unit
     'Pa'
     """
-    tables = [LAWS[key] for key in choices or LAWS]
-    return {
-        parameter.name: parameter for laws in tables for law in laws.values() for parameter in law.parameters
-    }
+    laws = (law for key in choices or LAWS for law in LAWS[key].values())
+    return {parameter.name: parameter for law in laws for parameter in law.parameters}
 
 
 def is_parameter(name: str) -> bool:
@@ -80,12 +78,7 @@ def is_parameter(name: str) -> bool:
     >>> is_parameter("roelands_z"), is_parameter("roelands_x")
     (True, False)
     """
-    return any(
-        parameter.name == name
-        for laws in LAWS.values()
-        for law in laws.values()
-        for parameter in law.parameters
-    )
+    return name in law_parameters()
 
 
 @dataclass(frozen=True)
@@ -111,15 +104,19 @@ def law_name(laws: Mapping[str, object]) -> Named:
 
 def quantity_of(parameter: Parameter) -> Amount:
     """Quantity with the unit and the bounds of a parameter, which parses its values."""
-    return Amount(
-        parameter.unit,
-        above=parameter.above,
-        below=parameter.below,
-        least=parameter.least,
-        most=parameter.most,
-        reason=parameter.reason,
-        difference=parameter.difference,
-    )
+    common = {field.name for field in fields(Amount)} & {field.name for field in fields(Parameter)}
+    return Amount(**{name: getattr(parameter, name) for name in common})
+
+
+def library_choice(names: Callable[[], Sequence[str]], what: str = "one of the library") -> AfterValidator:
+    """Pydantic annotation of a text that is one of the names of the library."""
+
+    def known(name: str) -> str:
+        if name not in names():
+            raise InputError(got=shown(name), takes=f"{what}: {', '.join(names())}")
+        return name
+
+    return AfterValidator(known)
 
 
 def library_name(base: Any, names: Sequence[str]) -> str:
@@ -149,38 +146,32 @@ TEMPERATURE = Amount("K", least=100.0, most=1000.0, reason="absolute, of the oil
 _Temperatures = Annotated[tuple[float, ...], Amounts(TEMPERATURE, least=2)]
 
 
-def _check(temperatures: tuple[float, ...], name: str, values: tuple[float, ...]) -> None:
-    """Check that temperatures increase, and that there are as many values of a property."""
-    if any(b <= a for a, b in pairwise(temperatures)):
-        raise InputError("temperature", got=list(temperatures), takes="increasing values")
-    if len(values) != len(temperatures):
-        raise InputError(
-            name, got=f"{len(values)} values over {len(temperatures)} of temperature", takes="as many"
-        )
+class _OverTemperature(Table):
+    """Measured property of an oil over temperature, whose other key has as many values."""
+
+    temperature: _Temperatures
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        (name,) = set(type(self).model_fields) - {"temperature"}
+        if any(b <= a for a, b in pairwise(self.temperature)):
+            raise InputError("temperature", got=list(self.temperature), takes="increasing values")
+        if (count := len(getattr(self, name))) != len(self.temperature):
+            got = f"{count} values over {len(self.temperature)} of temperature"
+            raise InputError(name, got=got, takes="as many")
+        return self
 
 
-class PermittivityTable(Table):
+class PermittivityTable(_OverTemperature):
     """Measured relative permittivity over temperature at ambient pressure, interpolated linearly."""
 
-    temperature: _Temperatures
     relative_permittivity: Annotated[tuple[float, ...], Amounts(quantity_of(RELATIVE_PERMITTIVITY), least=2)]
 
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        _check(self.temperature, "relative_permittivity", self.relative_permittivity)
-        return self
 
-
-class ConductivityTable(Table):
+class ConductivityTable(_OverTemperature):
     """Measured electrical conductivity over temperature; its logarithm is interpolated over 1/T."""
 
-    temperature: _Temperatures
     conductivity: Annotated[tuple[float, ...], Amounts(quantity_of(CONDUCTIVITY), least=2)]
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        _check(self.temperature, "conductivity", self.conductivity)
-        return self
 
 
 _Viscosity = Annotated[float, Amount("m**2/s", least=1e-7, most=1.0, reason="kinematic")]
@@ -215,22 +206,13 @@ class OilTemperature(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for keys, hint in (
-            (("kinematic_viscosity_40", "iso_vg"), ""),
-            (
-                ("kinematic_viscosity_100", "viscosity_index"),
-                "; an index of 95 to 100 is usual for mineral oils",
-            ),
+        hint = "; an index of 95 to 100 is usual for mineral oils"
+        for first, second, more in (
+            ("kinematic_viscosity_40", "iso_vg", ""),
+            ("kinematic_viscosity_100", "viscosity_index", hint),
         ):
-            given = [key for key in keys if getattr(self, key) is not None]
-            if len(given) == 2:
-                raise InputError(
-                    keys[0],
-                    got=" and ".join((*keys, "")).removesuffix(" and ") + " together",
-                    takes="one of the two",
-                )
-            if not given:
-                raise InputError.missing(keys[0], f"either {keys[0]} or {keys[1]}{hint}")
+            self.check_one_of((first, second), "one of the two")
+            self.check_one_of((first, second), f"either {first} or {second}{more}", needed=True)
         self.at_100()
         return self
 
@@ -536,19 +518,11 @@ class Properties(Table):
         table = with_base(source)
         if not isinstance(table, Mapping):
             return handler(table)
-        fields, errors = _parsed(cls, table)
+        parsed, errors = _parsed(cls, table)
         try:
-            lubricant = handler(fields)
+            lubricant = handler(parsed)
         except ValidationError as error:
-            errors += [
-                InitErrorDetails(
-                    type=detail["type"],
-                    loc=detail["loc"],
-                    input=detail["input"],
-                    ctx=detail.get("ctx", {}),
-                )
-                for detail in error.errors()
-            ]
+            errors += details_of(error)
         if errors:
             place = {name: k for k, name in enumerate(cls.known_keys())}
             errors.sort(key=lambda error: place.get(str(*error["loc"][:1]), len(place)))
@@ -569,20 +543,20 @@ def _parsed(
 
     Returns the table with parsed parameters, and the errors of parameters and of unknown keys.
     """
-    known, fields = law_parameters(), dict(table)
+    known, parsed = law_parameters(), dict(table)
     errors: list[InitErrorDetails] = []
     for name in [name for name in table if isinstance(name, str) and name not in model.model_fields]:
-        value = fields.pop(name)
+        value = parsed.pop(name)
         try:
             if name not in known:
                 errors.append(InitErrorDetails(type="extra_forbidden", loc=(name,), input=value))
             elif value is not None:
-                fields[name] = quantity_of(known[name]).parse(value)
+                parsed[name] = quantity_of(known[name]).parse(value)
         except ValueError as error:
             errors.append(
                 InitErrorDetails(type="value_error", loc=(name,), input=value, ctx={"error": error})
             )
-    return fields, errors
+    return parsed, errors
 
 
 # Ways to give the viscosity, for messages.

@@ -18,7 +18,7 @@ from ehlectric.cases.amounts import Amount
 from ehlectric.cases.case_oil import CELSIUS, KnownOil, NamedOil, kelvin_of, known_oil, named_oil
 from ehlectric.cases.library.library_oils import KINDS, Source
 from ehlectric.cases.oil_inputs import ALPHA, LAWS, SHEET_VISCOSITY, Properties, of_base_oil
-from ehlectric.errors import InputError, ResultWarning
+from ehlectric.errors import InputError, ResultWarning, within
 from ehlectric.lubricant.data_sheet import BASE_OILS
 from ehlectric.lubricant.density import DENSITY_LAWS
 from ehlectric.lubricant.viscosity import VISCOSITY_LAWS
@@ -533,10 +533,8 @@ def celsius(temperature: float | None) -> str:
 
 
 def _pascal(pressure: str | float) -> float:
-    try:
+    with within("--pressure"):
         return PRESSURE.parse(pressure)
-    except InputError as error:
-        raise error.retold("--pressure", error.text) from None
 
 
 def _warnings(oils: Sequence[KnownOil], pressure: float) -> Iterator[ResultWarning | str]:

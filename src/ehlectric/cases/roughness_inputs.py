@@ -10,7 +10,7 @@ from pydantic import AfterValidator, model_validator
 
 from ehlectric.cases.amounts import Amount, Count
 from ehlectric.cases.table import Table
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError, shown, within
 from ehlectric.quantities.units import length_unit
 
 _Height = Annotated[float, Amount("m", least=1e-12, most=1e-3, reason="of a surface, not of a body")]
@@ -77,9 +77,7 @@ class Roughness(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if (self.file is None) == (self.generator is None):
-            both = None if self.file is None else "file and generator together"
-            raise InputError("file", got=both, takes="either file or generator")
+        self.check_one_of(("file", "generator"), "either file or generator", needed=True)
         allowed = {"surface", "shift", "shift_y"}
         allowed |= {"file", *_FILE_KEYS, *_STEPS} if self.generator is None else self._check_generator()
         for name in sorted(self._given() - allowed):
@@ -144,10 +142,8 @@ def check_geometry(tables: Iterable[Roughness], geometry: str) -> None:
     Raises InputError if a key does not fit; the message names the key, its value, and what is allowed.
     """
     for table in tables:
-        try:
+        with within("roughness"):
             table.check_geometry(geometry)
-        except InputError as error:
-            raise error.under("roughness") from None
 
 
 def find_files(table: dict[str, Any], folder: Path) -> None:

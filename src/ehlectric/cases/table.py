@@ -6,7 +6,8 @@ import difflib
 import re
 import tomllib
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from inspect import Parameter, Signature
 from pathlib import Path
 from types import UnionType
@@ -19,6 +20,7 @@ from pydantic import (
     GetJsonSchemaHandler,
     ValidationError,
     ValidationInfo,
+    create_model,
 )
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
@@ -26,11 +28,14 @@ from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails
 from ehlectric.cases.amounts import WRITTEN
 from ehlectric.cases.key_names import ALIASES, refuse_deep, refuse_long_keys
 from ehlectric.errors import InputError, printable, short, shown, unseen
+from ehlectric.quantities.units import ROTATION
 from ehlectric.runtime.reading import read_text
+from ehlectric.runtime.values import Tabled
 
 # Names that completion need not list: those of pydantic, many of them deprecated, and internal ones.
 _HIDDEN = frozenset(name for name in dir(BaseModel) if not name.startswith("__")) | {
     "ADVICE",
+    "check_one_of",
     "first_grid",
     "from_written",
     "known_keys",
@@ -150,6 +155,13 @@ class Table(BaseModel, metaclass=_Listed):
         except ValidationError as error:
             raise first_error(error, cls) from None
 
+    def check_one_of(self, keys: Sequence[str], takes: str, *, needed: bool = False) -> None:
+        """Raise an InputError where several of some keys are given, or none though one is needed."""
+        given = [key for key in keys if getattr(self, key) is not None]
+        if len(given) > 1 or (needed and not given):
+            got = f"{' and '.join(given)} together" if given else None
+            raise InputError(given[0] if given else keys[0], got=got, takes=takes)
+
     @classmethod
     def sign_of(cls, key: str, given: Mapping[str, Any]) -> str:  # noqa: ARG003
         """Text that tells why a missing key is expected beside the given keys; empty by default."""
@@ -159,6 +171,28 @@ class Table(BaseModel, metaclass=_Listed):
     def known_keys(cls) -> dict[str, FieldInfo]:
         """Keys of the table, each with its field (annotation and default)."""
         return dict(cls.model_fields)
+
+
+class CaseFile(Tabled, Table):
+    """Table of a whole file: a case of a contact, a bearing or a drive."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all values that are set as nested tables, in SI units."""
+        return self.model_dump(mode="json", exclude_none=True)
+
+    def to_toml(self) -> str:
+        """Return the case as TOML text, which ``from_toml`` reads back to an equal case."""
+        import tomli_w
+
+        table = self.to_dict()
+        # A rotational speed without a unit is refused in a file.
+        for within, key in self._speeds(table):
+            within[key] = f"{within[key]!r} {ROTATION}"
+        return tomli_w.dumps(table)
+
+    def _speeds(self, table: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:  # noqa: ARG002
+        """Tables that hold a rotational speed, each with its key; none by default."""
+        yield from ()
 
 
 def _frozen(name: str) -> InputError:
@@ -231,14 +265,18 @@ def first_error(error: ValidationError, model: type[Table]) -> InputError:
 
 def with_further(error: ValidationError, loc: tuple[str, ...], further: InputError) -> ValidationError:
     """Validation error with a further error of the table at a location."""
-    details = [
+    added = InitErrorDetails(type="value_error", loc=loc, input=None, ctx={"error": further})
+    return ValidationError.from_exception_data(error.title, [*details_of(error), added])
+
+
+def details_of(error: ValidationError) -> list[InitErrorDetails]:
+    """Errors in a validation error, from which another one can be made."""
+    return [
         InitErrorDetails(
             type=detail["type"], loc=detail["loc"], input=detail["input"], ctx=detail.get("ctx", {})
         )
         for detail in error.errors()
     ]
-    details.append(InitErrorDetails(type="value_error", loc=loc, input=None, ctx={"error": further}))
-    return ValidationError.from_exception_data(error.title, details)
 
 
 def _error(detail: ErrorDetails, model: type[Table]) -> InputError:
@@ -335,7 +373,7 @@ def meant(key: str, model: type[Table]) -> list[str]:
     key in the same table.
     """
     table, _, leaf = key.rpartition(".")
-    known = list(_keys(model))
+    known = list(_fields(model))
     for before, name in (("", key), tuple(key.partition(".")[::2])):
         prefix = f"{before}." if before else ""
         alias = [prefix + one for one in ALIASES.get(name.lower(), ()) if prefix + one in known]
@@ -352,10 +390,6 @@ def _nearest_of(key: str, table: str, leaf: str, known: Sequence[str]) -> str:
     return nearest(key, [name for name in known if name.rpartition(".")[0] == table] or known)
 
 
-def _keys(model: type[Table]) -> Iterator[str]:
-    yield from _fields(model)
-
-
 def _fields(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
     """Fields of a table and of the tables in it, by dotted key."""
     fields: dict[str, FieldInfo] = {}
@@ -369,7 +403,23 @@ def _fields(model: type[Table], prefix: str = "") -> dict[str, FieldInfo]:
 
 def _kind(key: str, model: type[Table]) -> str:
     """Kind of a key: "table" or "value"."""
-    return "table" if any(name.startswith(key + ".") for name in _keys(model)) else "value"
+    return "table" if any(name.startswith(key + ".") for name in _fields(model)) else "value"
+
+
+def parser_of(field: FieldInfo, key: str) -> Callable[..., Table]:
+    """Function that makes a table of one value by the rules of a field, under the last part of its key."""
+    annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    keys: Any = {key.rpartition(".")[2]: (annotation, ...)}
+    model: type[Table] = create_model("Value", __base__=Table, **keys)
+    return partial(_parsed, model, key)
+
+
+def _parsed(model: type[Table], key: str, value: object, *, written: bool = False) -> Table:
+    table, _, leaf = key.rpartition(".")
+    try:
+        return model.from_written({leaf: value}) if written else model.from_dict({leaf: value})
+    except InputError as error:
+        raise error.under(table) if table else error from None
 
 
 def table_of(annotation: Any) -> type[Table] | None:

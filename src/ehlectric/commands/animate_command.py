@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, files_ending
+from ehlectric.commands.options import Quiet, files_ending, option
 from ehlectric.commands.terminal import progress_bar, say, user_errors
 from ehlectric.runtime.progress import Progress
 
@@ -53,12 +53,11 @@ def animate(
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "FILE",
+            "Write this file, a GIF or an MP4 by its suffix; by default motion.gif in DIR.",
             "--output",
             "-o",
-            metavar="FILE",
-            help="Write this file, a GIF or an MP4 by its suffix; by default motion.gif in DIR.",
-            show_default=False,
         ),
     ] = None,
     fps: Annotated[

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ehlectric.commands.options import Json
+from ehlectric.commands.options import Json, option
 from ehlectric.commands.terminal import print_rows, user_errors
 from ehlectric.errors import InputError, shown
 
@@ -25,28 +25,23 @@ _UNITS = {"radius": "m", "radius_across": "m", "modulus": "Pa", "speed": "m/s"}
 _FILMS = {"central": "central film", "minimum": "minimum film", "mean": "mean film over the Hertz zone"}
 
 
-def _option(metavar: str, help_text: str) -> typer.models.OptionInfo:
-    option: typer.models.OptionInfo = typer.Option(metavar=metavar, help=help_text, show_default=False)
-    return option
-
-
 def film(
-    m: Annotated[float | None, _option("M", "Moes' load group M.")] = None,
-    l: Annotated[float | None, _option("L", "Moes' lubricant group L.")] = None,  # noqa: E741
+    m: Annotated[float | None, option("M", "Moes' load group M.")] = None,
+    l: Annotated[float | None, option("L", "Moes' lubricant group L.")] = None,  # noqa: E741
     k: Annotated[
-        float | None, _option("K", "Semi-axis across over that along entrainment; without it, a line.")
+        float | None, option("K", "Semi-axis across over that along entrainment; without it, a line.")
     ] = None,
-    oil: Annotated[str | None, _option("NAME", "Oil of the library, or a file with [lubricant].")] = None,
-    temperature: Annotated[str | None, _option("TEMPERATURE", 'Of the oil, such as "70 degC".')] = None,
-    radius: Annotated[str | None, _option("LENGTH", "Reduced radius along entrainment.")] = None,
+    oil: Annotated[str | None, option("NAME", "Oil of the library, or a file with [lubricant].")] = None,
+    temperature: Annotated[str | None, option("TEMPERATURE", 'Of the oil, such as "70 degC".')] = None,
+    radius: Annotated[str | None, option("LENGTH", "Reduced radius along entrainment.")] = None,
     radius_across: Annotated[
-        str | None, _option("LENGTH", "Reduced radius across; without it, a line.")
+        str | None, option("LENGTH", "Reduced radius across; without it, a line.")
     ] = None,
     modulus: Annotated[
-        str | None, _option("PRESSURE", "Reduced modulus E', 226 GPa for steel on steel.")
+        str | None, option("PRESSURE", "Reduced modulus E', 226 GPa for steel on steel.")
     ] = None,
-    load: Annotated[str | None, _option("LOAD", "Load of a point in N, of a line in N/m.")] = None,
-    speed: Annotated[str | None, _option("SPEED", "Mean (u1 + u2)/2 of the surface speeds.")] = None,
+    load: Annotated[str | None, option("LOAD", "Load of a point in N, of a line in N/m.")] = None,
+    speed: Annotated[str | None, option("SPEED", "Mean (u1 + u2)/2 of the surface speeds.")] = None,
     as_json: Json = False,
 ) -> None:
     """Print the films of a smooth contact at once, interpolated between solved ones, each with its error.
@@ -60,8 +55,8 @@ def film(
             given_too = {"oil": oil, "temperature": temperature, "load": load} | given
             for name, value in given_too.items():
                 if value is not None:
-                    option = f"--{name.replace('_', '-')}"
-                    raise InputError(option, got="it beside --m, --l or --k", takes="one way of the two")
+                    flag = f"--{name.replace('_', '-')}"
+                    raise InputError(flag, got="it beside --m, --l or --k", takes="one way of the two")
             groups, result, found = _by_groups(m, l, k)
         else:
             found = _by_numbers(given, load, oil, temperature)
@@ -112,15 +107,15 @@ def _number(name: str, text: str | None, unit: str) -> float:
     """Number above zero in an SI unit."""
     from ehlectric.quantities.units import to_si
 
-    option = f"--{name.replace('_', '-')}"
+    flag = f"--{name.replace('_', '-')}"
     if text is None:
-        raise InputError(option, got="nothing", takes=f"a number in {unit}")
+        raise InputError(flag, got="nothing", takes=f"a number in {unit}")
     try:
         value = to_si(text, unit)
     except ValueError as error:
-        raise InputError(option, got=shown(text), takes=f"a number in {unit}: {error}") from None
+        raise InputError(flag, got=shown(text), takes=f"a number in {unit}: {error}") from None
     if not 0.0 < value < math.inf:
-        raise InputError(option, got=shown(text), takes="a number above 0")
+        raise InputError(flag, got=shown(text), takes="a number above 0")
     return value
 
 

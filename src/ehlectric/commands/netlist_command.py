@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
-from ehlectric.commands.options import Quiet, file_argument, files_ending, one_of
+from ehlectric.commands.options import Contacts, Quiet, file_argument, files_ending, option
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
@@ -38,59 +38,44 @@ def spice(
     input_file: Annotated[Path, file_argument("FILE", "Bearing file or drive file, in TOML.", ".toml")],
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            "FILE",
+            "Write the subcircuit into this file.",
             "--output",
             "-o",
-            metavar="FILE",
-            help="Write the subcircuit into this file.",
-            autocompletion=files_ending(".lib", ".cir"),
+            complete=files_ending(".lib", ".cir"),
         ),
     ] = Path("bearing.lib"),
     bench: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Write a test bench with the drive into this file: that of the drive file, or of the table "
+        option(
+            "FILE",
+            "Write a test bench with the drive into this file: that of the drive file, or of the table "
             "[motor] of a bearing file.",
-            show_default=False,
-            autocompletion=files_ending(".cir"),
+            complete=files_ending(".cir"),
         ),
     ] = None,
     arc_resistance: Annotated[
         str | None,
-        typer.Option(
-            metavar="R",
-            help='Resistance of a discharge through the films, as "1 ohm"; the subcircuit then has a switch.',
-            show_default=False,
+        option(
+            "R", 'Resistance of a discharge through the films, as "1 ohm"; the subcircuit then has a switch.'
         ),
     ] = None,
     extinction_voltage: Annotated[
         str | None,
-        typer.Option(
-            metavar="V",
-            help='Voltage across the films below which a discharge ends, as "2 V"; the switch needs it too.',
-            show_default=False,
+        option(
+            "V", 'Voltage across the films below which a discharge ends, as "2 V"; the switch needs it too.'
         ),
     ] = None,
     speeds: Annotated[
         str | None,
-        typer.Option(
-            metavar="SPEEDS",
-            help='Make the speed a parameter: a table at "500 rpm, 1000 rpm", or at a number of speeds of a '
+        option(
+            "SPEEDS",
+            'Make the speed a parameter: a table at "500 rpm, 1000 rpm", or at a number of speeds of a '
             'range, "500 rpm : 3000 rpm : 7". The speed of the file is always in it.',
-            show_default=False,
         ),
     ] = None,
-    contacts: Annotated[
-        str,
-        typer.Option(
-            metavar="HOW",
-            help="Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
-            "(formula). Without this option the file decides.",
-            show_default=False,
-            autocompletion=one_of("solved", "atlas", "formula"),
-        ),
-    ] = "",
+    contacts: Contacts = "",
     quiet: Quiet = False,
 ) -> None:
     """Write a bearing as a netlist for ngspice and LTspice: a subcircuit from shaft to housing.

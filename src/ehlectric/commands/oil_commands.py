@@ -19,6 +19,7 @@ from ehlectric.commands.options import (
     Style,
     figure_options,
     files_ending,
+    option,
 )
 from ehlectric.commands.terminal import echo_files, print_table, say, user_errors, warn
 
@@ -71,30 +72,27 @@ def oil(
     ],
     temperature: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="TEMPERATURE",
-            help='Compute at this temperature, such as "90 degC". Repeat the option for several. By default '
+        option(
+            "TEMPERATURE",
+            'Compute at this temperature, such as "90 degC". Repeat the option for several. By default '
             "that of the file, or 40, 60, 80 and 100 degC as far as the oil has values there.",
-            show_default=False,
         ),
     ] = None,
     pressure: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="PRESSURE",
-            help='Compute at this pressure, such as "1 GPa", and at ambient pressure. Repeat the option for '
+        option(
+            "PRESSURE",
+            'Compute at this pressure, such as "1 GPa", and at ambient pressure. Repeat the option for '
             "several. By default ambient pressure alone.",
-            show_default=False,
         ),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "DIR",
+            "Write oil.csv and the figures over pressure and temperature into this folder.",
             "--output",
             "-o",
-            metavar="DIR",
-            help="Write oil.csv and the figures over pressure and temperature into this folder.",
-            show_default=False,
         ),
     ] = None,
     plots: Plots = True,

@@ -8,6 +8,7 @@ from typing import Annotated, TypedDict
 
 import typer
 
+from ehlectric.cases.defaults import QUICK
 from ehlectric.errors import InputError, shown
 
 
@@ -42,6 +43,19 @@ def chosen(option: str, value: str, names: Sequence[str]) -> str:
     return value
 
 
+def option(
+    metavar: str,
+    help_text: str,
+    *names: str,
+    complete: Callable[[str], list[str]] | Callable[[typer.Context, str], list[str]] | None = None,
+) -> typer.models.OptionInfo:
+    """Option with a value; without names it is named after its parameter. ``complete`` lists its values."""
+    made: typer.models.OptionInfo = typer.Option(
+        *names, metavar=metavar, help=help_text, autocompletion=complete
+    )
+    return made
+
+
 def file_argument(metavar: str, help_text: str, *suffixes: str) -> typer.models.ArgumentInfo:
     """Argument for a file, whose name the shell completes."""
     argument: typer.models.ArgumentInfo = typer.Argument(
@@ -64,59 +78,61 @@ Quiet = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the numbers as JSON in place of tables.")]
 Output = Annotated[
-    Path,
-    typer.Option(
-        "--output", "-o", metavar="DIR", help="Write the results into this folder; it is made if missing."
-    ),
+    Path, option("DIR", "Write the results into this folder; it is made if missing.", "--output", "-o")
 ]
 Plots = Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figures, or leave them out.")]
 Formats = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
+        "FORMAT",
+        "Write figures as png (the default), svg or pdf. Repeat the option for several formats.",
         "--format",
-        metavar="FORMAT",
-        help="Write figures as png (the default), svg or pdf. Repeat the option for several formats.",
-        show_default=False,
-        autocompletion=one_of("png", "svg", "pdf"),
+        complete=one_of("png", "svg", "pdf"),
     ),
 ]
 Style = Annotated[
     str,
-    typer.Option(
+    option(
+        "STYLE",
+        "Draw figures in the style screen, or journal for a column of a journal.",
         "--style",
-        metavar="STYLE",
-        help="Draw figures in the style screen, or journal for a column of a journal.",
-        autocompletion=one_of("screen", "journal"),
+        complete=one_of("screen", "journal"),
     ),
 ]
 
 
+Contacts = Annotated[
+    str,
+    option(
+        "HOW",
+        "Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
+        "(formula). Without this option the file decides.",
+        complete=one_of("solved", *QUICK),
+    ),
+]
 Measured = Annotated[
     Path | None,
-    typer.Option(
+    option(
+        "DATA",
+        "Compare with a measurement, a text file of columns with units, and give its film factor.",
         "--measured",
-        metavar="DATA",
-        help="Compare with a measurement, a text file of columns with units, and give its film factor.",
-        show_default=False,
-        autocompletion=files_ending(".csv", ".txt", ".dat"),
+        complete=files_ending(".csv", ".txt", ".dat"),
     ),
 ]
 Background = Annotated[
     str | None,
-    typer.Option(
+    option(
+        "C",
+        'Capacitance of leads and cage in parallel, as "1.3 pF", taken off the measured one.',
         "--background",
-        metavar="C",
-        help='Capacitance of leads and cage in parallel, as "1.3 pF", taken off the measured one.',
-        show_default=False,
     ),
 ]
 Uncertainty = Annotated[
     str | None,
-    typer.Option(
+    option(
+        "PART",
+        'Standard uncertainty of the measured values, as "3 %"; a column of the file wins.',
         "--uncertainty",
-        metavar="PART",
-        help='Standard uncertainty of the measured values, as "3 %"; a column of the file wins.',
-        show_default=False,
     ),
 ]
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Formats, Output, Quiet, Style, figure_options
+from ehlectric.commands.options import Formats, Output, Quiet, Style, figure_options, option
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
     echo_files,
@@ -23,14 +23,9 @@ def reproduce(
     words: Annotated[list[str] | None, typer.Argument(hidden=True)] = None,
     output: Output = Path("reproduced"),
     figure: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NUMBER", help="Make this figure only, 2 to 11; without it, all.", show_default=False
-        ),
+        str | None, option("NUMBER", "Make this figure only, 2 to 11; without it, all.")
     ] = None,
-    table: Annotated[
-        str | None, typer.Option(metavar="NUMBER", help="Make this table only, 3.", show_default=False)
-    ] = None,
+    table: Annotated[str | None, option("NUMBER", "Make this table only, 3.")] = None,
     formats: Formats = None,
     style: Style = "screen",
     quiet: Quiet = False,

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ehlectric.commands.options import option
 from ehlectric.commands.terminal import say, user_errors
 from ehlectric.errors import InputError
 
@@ -25,11 +26,11 @@ def app(
     ] = None,
     host: Annotated[
         str,
-        typer.Option(
-            "--host",
-            metavar="ADDRESS",
-            help="Address to bind to. Any other than this machine's own, such as 0.0.0.0 for all, asks for a "
+        option(
+            "ADDRESS",
+            "Address to bind to. Any other than this machine's own, such as 0.0.0.0 for all, asks for a "
             "token, which is printed with the address.",
+            "--host",
         ),
     ] = "127.0.0.1",
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open a browser.")] = True,

@@ -16,6 +16,7 @@ from ehlectric.commands.animate_command import tell_where_it_stops
 from ehlectric.commands.options import (
     Background,
     CaseFile,
+    Contacts,
     Formats,
     Json,
     Measured,
@@ -28,6 +29,7 @@ from ehlectric.commands.options import (
     figure_options,
     file_argument,
     one_of,
+    option,
 )
 from ehlectric.commands.terminal import (
     echo_files,
@@ -91,10 +93,10 @@ def run(
     style: Style = "screen",
     solver: Annotated[
         str,
-        typer.Option(
-            metavar="NAME",
-            help="Solve with ehlectric, or with paper, the multigrid and over-relaxation of the paper.",
-            autocompletion=one_of("ehlectric", "paper"),
+        option(
+            "NAME",
+            "Solve with ehlectric, or with paper, the multigrid and over-relaxation of the paper.",
+            complete=one_of("ehlectric", "paper"),
         ),
     ] = "ehlectric",
     measured: Measured = None,
@@ -166,9 +168,7 @@ def plot(
     result: ResultFile,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "--output", "-o", metavar="DIR", help="Write the figures into this folder, not beside the result."
-        ),
+        option("DIR", "Write the figures into this folder, not beside the result.", "--output", "-o"),
     ] = None,
     formats: Formats = None,
     style: Style = "screen",
@@ -218,16 +218,7 @@ def bearings(as_json: Json = False) -> None:
 def bearing(
     bearing_file: Annotated[Path, file_argument("FILE", "Bearing file, in TOML.", ".toml")],
     output: Output = Path("bearing"),
-    contacts: Annotated[
-        str,
-        typer.Option(
-            metavar="HOW",
-            help="Solve the contacts (solved), or take films at once from the atlas (atlas) or a formula "
-            "(formula). Without this option the file decides.",
-            show_default=False,
-            autocompletion=one_of("solved", "atlas", "formula"),
-        ),
-    ] = "",
+    contacts: Contacts = "",
     measured: Measured = None,
     background: Background = None,
     uncertainty: Uncertainty = None,
@@ -280,16 +271,7 @@ def _bearing_tables(outcome: RunOutcome[object]) -> Iterator[Table]:
 def drive(
     drive_file: Annotated[Path, file_argument("FILE", "Drive file, in TOML.", ".toml")],
     output: Output = Path("drive"),
-    contacts: Annotated[
-        str,
-        typer.Option(
-            metavar="HOW",
-            help="Solve the contacts of both bearings (solved), or take films at once from the atlas (atlas) "
-            "or a formula (formula). Without this option the files decide.",
-            show_default=False,
-            autocompletion=one_of("solved", "atlas", "formula"),
-        ),
-    ] = "",
+    contacts: Contacts = "",
     plots: Plots = True,
     formats: Formats = None,
     style: Style = "screen",

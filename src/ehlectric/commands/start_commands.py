@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, one_of
+from ehlectric.commands.options import Quiet, chosen, one_of, option
 from ehlectric.commands.terminal import echo_files, say, user_errors
 from ehlectric.errors import InputError, shown
 from ehlectric.runs.example_files import examples_folder
@@ -42,9 +42,7 @@ _SURFACES = "surfaces"
 
 def template(kind: str) -> Path:
     """File of a template. Raises InputError if there is no such kind."""
-    if kind not in TEMPLATES:
-        raise InputError("--kind", got=shown(kind), takes=f"one of {', '.join(TEMPLATES)}")
-    folder, _, name = TEMPLATES[kind].partition("/")
+    folder, _, name = TEMPLATES[chosen("--kind", kind, tuple(TEMPLATES))].partition("/")
     return (examples_folder() if folder == "examples" else _HERE / folder) / name
 
 
@@ -52,11 +50,7 @@ def init(
     path: Annotated[Path, typer.Argument(metavar="FILE", help="Write this file.")] = Path("case.toml"),
     kind: Annotated[
         str,
-        typer.Option(
-            metavar="KIND",
-            help=f"Write a file of this kind: {', '.join(TEMPLATES)}.",
-            autocompletion=one_of(*TEMPLATES),
-        ),
+        option("KIND", f"Write a file of this kind: {', '.join(TEMPLATES)}.", complete=one_of(*TEMPLATES)),
     ] = "line",
     geometry: Annotated[str, typer.Option(hidden=True)] = "",
     force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it exists.")] = False,
@@ -107,10 +101,7 @@ def examples(
         ),
     ] = None,
     output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output", "-o", metavar="DIR", help="Copy into this folder; by default, into this one."
-        ),
+        Path | None, option("DIR", "Copy into this folder; by default, into this one.", "--output", "-o")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
     quiet: Quiet = False,
@@ -152,9 +143,7 @@ def _names() -> list[str]:
 def _known(name: str) -> str:
     """Name of an example, also where its suffix was typed. Raises InputError if there is no such example."""
     stem = name.removesuffix(".toml")
-    if stem not in _names():
-        raise InputError("examples", got=shown(name), takes=f"one of {', '.join(_names())}")
-    return stem
+    return chosen("examples", stem, _names())
 
 
 def _about(name: str) -> str:

@@ -9,17 +9,11 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Formats, Json, Style, figure_options, file_argument, one_of
+from ehlectric.commands.options import Formats, Json, Style, figure_options, file_argument, one_of, option
 from ehlectric.commands.terminal import echo_files, print_table, user_errors, warn
 from ehlectric.errors import InputError, shown
 
 _UNITS = "such as um or nm, for a file that does not state it"
-
-
-def _length(help_text: str) -> typer.models.OptionInfo:
-    """Option that takes a length with its unit."""
-    option: typer.models.OptionInfo = typer.Option(metavar="LENGTH", help=help_text, show_default=False)
-    return option
 
 
 def surface(
@@ -35,51 +29,37 @@ def surface(
             ".al3d",
         ),
     ],
-    x_unit: Annotated[
-        str | None,
-        typer.Option(metavar="UNIT", help=f"Take positions in this unit, {_UNITS}.", show_default=False),
-    ] = None,
-    z_unit: Annotated[
-        str | None,
-        typer.Option(metavar="UNIT", help=f"Take heights in this unit, {_UNITS}.", show_default=False),
-    ] = None,
+    x_unit: Annotated[str | None, option("UNIT", f"Take positions in this unit, {_UNITS}.")] = None,
+    z_unit: Annotated[str | None, option("UNIT", f"Take heights in this unit, {_UNITS}.")] = None,
     line: Annotated[
-        int | None,
-        typer.Option(
-            metavar="NUMBER",
-            help="Take this line of a map, counted from 0; without it, the first.",
-            show_default=False,
-        ),
+        int | None, option("NUMBER", "Take this line of a map, counted from 0; without it, the first.")
     ] = None,
     along: Annotated[
-        str,
-        typer.Option(
-            metavar="HOW", help="Take a row or a column of a map.", autocompletion=one_of("row", "column")
-        ),
+        str, option("HOW", "Take a row or a column of a map.", complete=one_of("row", "column"))
     ] = "row",
     whole: Annotated[
         bool, typer.Option("--map", help="Take the whole map, as point contacts do, not one line of it.")
     ] = False,
     form: Annotated[
         str,
-        typer.Option(
-            metavar="FORM",
-            help="Remove this form: none, mean, line or parabola.",
-            autocompletion=one_of("none", "mean", "line", "parabola"),
+        option(
+            "FORM",
+            "Remove this form: none, mean, line or parabola.",
+            complete=one_of("none", "mean", "line", "parabola"),
         ),
     ] = "none",
-    cutoff_long: Annotated[str | None, _length("Remove waves that are longer than this.")] = None,
-    cutoff_short: Annotated[str | None, _length("Remove waves that are shorter than this.")] = None,
-    trim: Annotated[str | None, _length("Cut this length off each end.")] = None,
-    rescale_rq: Annotated[str | None, _length("Scale the heights to this Rq.")] = None,
-    truncate: Annotated[str | None, _length("Limit heights to plus and minus this.")] = None,
+    cutoff_long: Annotated[str | None, option("LENGTH", "Remove waves that are longer than this.")] = None,
+    cutoff_short: Annotated[str | None, option("LENGTH", "Remove waves that are shorter than this.")] = None,
+    trim: Annotated[str | None, option("LENGTH", "Cut this length off each end.")] = None,
+    rescale_rq: Annotated[str | None, option("LENGTH", "Scale the heights to this Rq.")] = None,
+    truncate: Annotated[str | None, option("LENGTH", "Limit heights to plus and minus this.")] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "FILE",
+            "Draw the profile or map into this .png, .svg or .pdf file, or into this folder.",
             "--output",
             "-o",
-            metavar="FILE",
-            help="Draw the profile or map into this .png, .svg or .pdf file, or into this folder.",
         ),
     ] = None,
     formats: Formats = None,

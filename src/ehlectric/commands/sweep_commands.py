@@ -21,6 +21,7 @@ from ehlectric.commands.options import (
     figure_options,
     file_argument,
     files_ending,
+    option,
 )
 from ehlectric.commands.terminal import (
     NOT_CONVERGED,
@@ -54,19 +55,11 @@ def sweep(
     output: Output = Path("sweep"),
     workers: Annotated[
         str | None,
-        typer.Option(
-            metavar="N",
-            help="Solve in this number of processes; without it, in as many as there are cores.",
-            show_default=False,
-        ),
+        option("N", "Solve in this number of processes; without it, in as many as there are cores."),
     ] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option(
-            metavar="ADDRESS",
-            help='Solve on the Dask cluster with this address, such as "tcp://10.0.0.1:8786".',
-            show_default=False,
-        ),
+        option("ADDRESS", 'Solve on the Dask cluster with this address, such as "tcp://10.0.0.1:8786".'),
     ] = None,
     formats: Formats = None,
     style: Style = "screen",
@@ -289,16 +282,14 @@ SweepFolder = Annotated[
 ]
 Value = Annotated[
     str,
-    typer.Option(
-        metavar="KEY",
-        help="Draw this key of summary.json, such as film.minimum_thickness. Without it, the breakdown "
+    option(
+        "KEY",
+        "Draw this key of summary.json, such as film.minimum_thickness. Without it, the breakdown "
         "voltage is drawn.",
-        show_default=False,
     ),
 ]
 OtherFolder = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="DIR", help="Write into this folder, not into that of the sweep."),
+    Path | None, option("DIR", "Write into this folder, not into that of the sweep.", "--output", "-o")
 ]
 
 
@@ -306,24 +297,22 @@ def draw_maps(
     folder: SweepFolder,
     x: Annotated[
         str,
-        typer.Option(
-            metavar="KEY", help="Draw this varied key along the horizontal axis.", autocompletion=_varied_keys
-        ),
+        option("KEY", "Draw this varied key along the horizontal axis.", complete=_varied_keys),
     ],
     y: Annotated[
         str | None,
-        typer.Option(
-            metavar="KEY",
-            help="Draw this varied key along the vertical axis. Without it there are lines and no map.",
-            autocompletion=_varied_keys,
+        option(
+            "KEY",
+            "Draw this varied key along the vertical axis. Without it there are lines and no map.",
+            complete=_varied_keys,
         ),
     ] = None,
     value: Value = "",
     at: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="KEY=VALUE",
-            help='Hold a further varied key at a value, as in "bearing.temperature=70 degC". Repeat the '
+        option(
+            "KEY=VALUE",
+            'Hold a further varied key at a value, as in "bearing.temperature=70 degC". Repeat the '
             "option for several keys. The cut is part of the names of the figures.",
         ),
     ] = None,

@@ -8,23 +8,22 @@ from typing import Annotated
 
 import typer
 
-from ehlectric.commands.options import Quiet, ResultFile, files_ending, one_of
+from ehlectric.commands.options import Quiet, ResultFile, chosen, files_ending, one_of, option
 from ehlectric.commands.terminal import echo_files, progress_line, user_errors
-from ehlectric.errors import InputError, shown
+from ehlectric.errors import InputError
 
 
 def export(
     result: ResultFile,
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            "FILE",
+            "Write this file. Its name ends in .mat (MATLAB, Octave), .xlsx (spreadsheets) or .vtkhdf "
+            "(ParaView).",
             "--output",
             "-o",
-            metavar="FILE",
-            help="Write this file. Its name ends in .mat (MATLAB, Octave), .xlsx (spreadsheets) or .vtkhdf "
-            "(ParaView).",
-            show_default=False,
-            autocompletion=files_ending(".mat", ".xlsx", ".vtkhdf"),
+            complete=files_ending(".mat", ".xlsx", ".vtkhdf"),
         ),
     ],
     quiet: Quiet = False,
@@ -53,22 +52,21 @@ def report(
     result: ResultFile,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "FILE",
+            "Write the report into this file, which ends in .html or .pdf, and not beside the result.",
             "--output",
             "-o",
-            metavar="FILE",
-            help="Write the report into this file, which ends in .html or .pdf, and not beside the result.",
-            autocompletion=files_ending(".html", ".pdf"),
+            complete=files_ending(".html", ".pdf"),
         ),
     ] = None,
     formats: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "FORMAT",
+            "Write the report as html or as pdf. Without this option, both are written.",
             "--format",
-            metavar="FORMAT",
-            help="Write the report as html or as pdf. Without this option, both are written.",
-            show_default=False,
-            autocompletion=one_of(*_FORMATS),
+            complete=one_of(*_FORMATS),
         ),
     ] = None,
     quiet: Quiet = False,
@@ -105,16 +103,14 @@ def _wanted(output: Path | None, formats: list[str] | None) -> tuple[str, ...]:
     """Formats that are wanted. Raises InputError if there is no such format, or a file is named too, whose
     ending decides.
     """
-    for name in formats or ():
-        if name not in _FORMATS:
-            raise InputError("--format", got=shown(name), takes=f"one of {', '.join(_FORMATS)}")
+    wanted = tuple(chosen("--format", name, _FORMATS) for name in dict.fromkeys(formats or _FORMATS))
     if output is not None and formats:
         raise InputError(
             "--format",
             "cannot be combined with --output",
             takes="one of them: the file ends in .html or .pdf",
         )
-    return tuple(dict.fromkeys(formats or _FORMATS))
+    return wanted
 
 
 KINDS = ("contact", "bearing", "drive", "sweep")
@@ -131,12 +127,12 @@ def schema(
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "FILE",
+            "Write the schema into this file; by default, it is printed.",
             "--output",
             "-o",
-            metavar="FILE",
-            help="Write the schema into this file; by default, it is printed.",
-            autocompletion=files_ending(".json"),
+            complete=files_ending(".json"),
         ),
     ] = None,
 ) -> None:
@@ -163,8 +159,7 @@ def schema_text(kind: str) -> str:
     """Text of the JSON Schema of a kind of file, made from the tables by which files are checked. Raises
     InputError if there is no such kind.
     """
-    if kind not in KINDS:
-        raise InputError("KIND", got=shown(kind), takes=f"one of {', '.join(KINDS)}")
+    chosen("KIND", kind, KINDS)
     from ehlectric.runs.json_schema import schema_of
 
     return json.dumps(schema_of(kind), indent=1, ensure_ascii=False) + "\n"

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.law import Law, Parameter, refused, required
+from ehlectric.lubricant.law import Law, parameter, parameters_of, refused, required
 
 # Smallest volume over that at zero pressure. The volume of Tait's equation vanishes at a finite pressure, and
 # no contact compresses a liquid to its half.
@@ -184,66 +184,12 @@ def murnaghan_pressure(
     return np.asarray(modulus * np.expm1(murnaghan_k0_prime * logarithm) / murnaghan_k0_prime)
 
 
-REFERENCE_TEMPERATURE = Parameter(
-    "reference_temperature",
-    "K",
-    least=100.0,
-    most=1000.0,
-    reason="absolute, of the oil",
-)
-
-
-def _constants(law: str, name: str) -> tuple[Parameter, ...]:
-    """Parameters of an equation of state with the bulk modulus K00 exp(-beta_K T)."""
-    of = f"of {name}'s equation of state"
-    return (
-        Parameter(
-            f"{law}_k0_prime",
-            "",
-            title=f"{name}'s pressure derivative of the bulk modulus",
-            symbol="$K_0'$",
-            meaning=f"$K_0'$ {of}, the pressure derivative of the bulk modulus",
-            least=2.0,
-            most=30.0,
-            reason="oils have 9 to 12",
-        ),
-        Parameter(
-            f"{law}_k00",
-            "Pa",
-            title=f"{name}'s bulk modulus",
-            symbol="$K_{00}$",
-            meaning=f"$K_{{00}}$ {of}, the bulk modulus extrapolated to zero temperature",
-            least=1e8,
-            most=1e12,
-            reason="oils have 6 to 12 GPa",
-        ),
-        Parameter(
-            f"{law}_beta_k",
-            "1/K",
-            title=f"{name}'s temperature coefficient of the bulk modulus",
-            symbol=r"$\beta_K$",
-            meaning=rf"$\beta_K$ {of}, the temperature coefficient of the bulk modulus",
-            least=0.0,
-            most=2e-2,
-            reason="oils have 5e-3 to 7e-3 1/K",
-        ),
-        Parameter(
-            f"{law}_expansion",
-            "1/K",
-            title=f"{name}'s thermal expansion",
-            symbol="$a_V$",
-            meaning=f"$a_V$ {of}, the thermal expansion of the volume over that at `reference_temperature`",
-            least=0.0,
-            most=5e-3,
-            reason="oils have 6e-4 to 9e-4 1/K",
-        ),
-        REFERENCE_TEMPERATURE,
-    )
+REFERENCE_TEMPERATURE = parameter("reference_temperature")
 
 
 TAIT = Law(
     tait,
-    _constants("tait", "Tait"),
+    parameters_of(tait),
     warnings=_tait_warnings,
     needs_temperature=True,
     thermal_expansion="tait_expansion",
@@ -251,7 +197,7 @@ TAIT = Law(
 )
 MURNAGHAN = Law(
     murnaghan,
-    _constants("murnaghan", "Murnaghan"),
+    parameters_of(murnaghan),
     needs_temperature=True,
     thermal_expansion="murnaghan_expansion",
     inverse=murnaghan_pressure,
@@ -317,29 +263,10 @@ def incompressible(pressure: ArrayLike, temperature: ArrayLike | None = None) ->
     return np.ones_like(p), np.zeros_like(p)
 
 
-_C1 = Parameter(
-    "density_c1",
-    "Pa",
-    title="Dowson and Higginson's first constant",
-    symbol="$C_1$",
-    meaning="$C_1$ of Dowson and Higginson",
-    least=1e7,
-    most=1e11,
-    reason="an oil has 0.59 GPa",
-)
-_C2 = Parameter(
-    "density_c2",
-    "",
-    title="Dowson and Higginson's second constant",
-    symbol="$C_2$",
-    meaning="$C_2$ of Dowson and Higginson",
-    least=1.0,
-    most=3.0,
-    reason="the density ratio at unlimited pressure",
-)
-
 DENSITY_LAWS = {
-    "dowson-higginson": Law(dowson_higginson, (_C1, _C2), inverse=dowson_higginson_pressure),
+    "dowson-higginson": Law(
+        dowson_higginson, parameters_of(dowson_higginson), inverse=dowson_higginson_pressure
+    ),
     "incompressible": Law(incompressible),
     "tait": TAIT,
     "murnaghan": MURNAGHAN,

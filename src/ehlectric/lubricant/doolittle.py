@@ -10,8 +10,15 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.density import LEAST_VOLUME, TAIT, tait, tait_pressure
-from ehlectric.lubricant.law import GLASS_VISCOSITY, Law, Parameter, glass_warnings, required, within
+from ehlectric.lubricant.density import LEAST_VOLUME, tait, tait_pressure
+from ehlectric.lubricant.law import (
+    GLASS_VISCOSITY,
+    Law,
+    glass_warnings,
+    parameters_of,
+    required,
+    within,
+)
 
 _NAME = "viscosity_law 'doolittle'"
 
@@ -223,49 +230,7 @@ def _warnings(
 
 DOOLITTLE = Law(
     doolittle,
-    (
-        Parameter(
-            "doolittle_viscosity",
-            "Pa*s",
-            title="Doolittle's reference viscosity",
-            symbol=r"$\eta_\mathrm{R}$",
-            meaning=r"$\eta_R$ of Doolittle's law, at ambient pressure and `reference_temperature`",
-            least=1e-6,
-            most=1e6,
-            reason="at ambient pressure",
-        ),
-        Parameter(
-            "doolittle_b",
-            "",
-            title="Doolittle's constant",
-            symbol="$B$",
-            meaning="$B$ of Doolittle's law",
-            least=0.1,
-            most=100.0,
-            reason="oils have 2 to 6",
-        ),
-        Parameter(
-            "doolittle_r0",
-            "",
-            title="occupied volume of Doolittle's law",
-            symbol="$R_0$",
-            meaning="$R_0$ of Doolittle's law, the occupied part of the volume at `reference_temperature`",
-            least=0.1,
-            most=0.99,
-            reason="oils have 0.6 to 0.75",
-        ),
-        Parameter(
-            "doolittle_epsilon",
-            "1/K",
-            title="expansion of the occupied volume of Doolittle's law",
-            symbol=r"$\epsilon$",
-            meaning=r"$\epsilon$ of Doolittle's law, the thermal expansion of the occupied volume",
-            least=-1e-2,
-            most=5e-3,
-            reason="oils have about -1e-3 1/K",
-        ),
-        *TAIT.parameters,
-    ),
+    parameters_of(doolittle),
     warnings=_warnings,
     needs_temperature=True,
     atmospheric=doolittle_ambient,

@@ -12,7 +12,7 @@ from scipy.constants import R as GAS_CONSTANT
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
-from ehlectric.lubricant.law import Law, Parameter, refused, required
+from ehlectric.lubricant.law import Law, parameter, parameters_of, refused, required
 
 
 def clausius_mossotti(
@@ -63,17 +63,11 @@ def constant_permittivity(
     return np.full_like(np.asarray(density_ratio, dtype=float), relative_permittivity)
 
 
-RELATIVE_PERMITTIVITY = Parameter(
-    "relative_permittivity",
-    "",
-    least=1.0,
-    most=1e3,
-    reason="vacuum has 1, oils 2 to 5, water 80",
-)
+RELATIVE_PERMITTIVITY = parameter("relative_permittivity")
 
 PERMITTIVITY_LAWS = {
-    "clausius-mossotti": Law(clausius_mossotti, (RELATIVE_PERMITTIVITY,)),
-    "constant": Law(constant_permittivity, (RELATIVE_PERMITTIVITY,)),
+    "clausius-mossotti": Law(clausius_mossotti, parameters_of(clausius_mossotti)),
+    "constant": Law(constant_permittivity, parameters_of(constant_permittivity)),
 }
 
 
@@ -145,42 +139,14 @@ def arrhenius_temperature(
     return np.asarray(1.0 / reciprocal)
 
 
-CONDUCTIVITY = Parameter(
-    "conductivity",
-    "S/m",
-    title="electrical conductivity",
-    symbol=r"$\sigma$",
-    meaning=r"electrical conductivity $\sigma$ of the oil",
-    least=1e-20,
-    most=1e2,
-    reason="of the lubricant, at its temperature",
-)
-_ACTIVATION = Parameter(
-    "conductivity_activation",
-    "J/mol",
-    title="activation energy of the conductivity",
-    symbol="$E$",
-    meaning="activation energy $E$ of the electrical conductivity",
-    above=0.0,
-    most=5e5,
-    reason="oils have 20 to 80 kJ/mol",
-)
-_TEMPERATURE = Parameter(
-    "conductivity_temperature",
-    "K",
-    title="temperature of the given conductivity",
-    symbol=r"$T_\sigma$",
-    meaning="temperature of the given electrical conductivity",
-    least=100.0,
-    most=1000.0,
-    reason="absolute, of the oil",
-)
+CONDUCTIVITY = parameter("conductivity")
+_TEMPERATURE = parameter("conductivity_temperature")
 
 CONDUCTIVITY_LAWS = {
-    "constant": Law(constant_conductivity, (CONDUCTIVITY,)),
+    "constant": Law(constant_conductivity, parameters_of(constant_conductivity)),
     "arrhenius": Law(
         arrhenius,
-        (CONDUCTIVITY, _ACTIVATION, _TEMPERATURE),
+        parameters_of(arrhenius),
         needs_temperature=True,
         inverse=arrhenius_temperature,
     ),

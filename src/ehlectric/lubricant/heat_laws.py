@@ -1,8 +1,7 @@
 """Thermal conductivity and volumetric heat capacity of an oil over pressure and temperature.
 
-Volumetric heat capacity of an oil over pressure and temperature.
-All laws give the capacity of a volume, rho c [J/(m^3 K)], which the energy equation of the
-film contains and which the sources print. The specific heat capacity c is this value over the density.
+The laws of heat capacity give that of a volume, rho c [J/(m^3 K)], which the energy equation of the film
+contains and which the sources print. The specific heat capacity c is this value over the density.
 """
 
 from __future__ import annotations
@@ -14,8 +13,8 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.density import TAIT, tait
-from ehlectric.lubricant.law import Law, Parameter, required
+from ehlectric.lubricant.density import tait
+from ehlectric.lubricant.law import Law, parameters_of, required
 
 # Largest pressure [Pa] and temperature [K] of the measurements behind the laws of Larsson et al.
 LARSSON_PRESSURE, LARSSON_TEMPERATURE = 1.1e9, 380.15
@@ -37,29 +36,6 @@ def beyond_larsson(law: str, max_pressure: float, temperature: float | None) -> 
             f"{law} 'larsson' was measured up to {LARSSON_PRESSURE / 1e9:g} GPa and 107 degC and is "
             "extrapolated in this contact",
         )
-
-
-def number(
-    name: str, unit: str, title: str, symbol: str, meaning: str, bounds: tuple[float, float], reason: str
-) -> Parameter:
-    """Parameter of a law from its name, unit, title, symbol, meaning, bounds and their reason."""
-    least, most = bounds
-    return Parameter(
-        name, unit, title=title, symbol=symbol, meaning=meaning, least=least, most=most, reason=reason
-    )
-
-
-def larsson_constant(letter: str, k: int, of: str) -> Parameter:
-    """Constant of the laws of Larsson et al., such as c1 [1/Pa]."""
-    return number(
-        f"larsson_{letter}{k}",
-        "1/Pa",
-        f"constant {letter}{k} of Larsson et al.",
-        f"${letter}_{k}$",
-        f"${letter}_{k}$ of the {of} by Larsson et al.",
-        (0.0, 1e-7),
-        "oils have 0.3 to 2 1/GPa",
-    )
 
 
 def constant_thermal_conductivity(
@@ -173,64 +149,16 @@ def _conductivity_warnings(
     yield from beyond_larsson("thermal_conductivity_law", max_pressure, temperature)
 
 
-THERMAL_CONDUCTIVITY = Parameter("thermal_conductivity", "W/m/K", least=0.01, most=1.0, reason="of an oil")
-_C1, _C2 = (larsson_constant("c", k, "thermal conductivity") for k in (1, 2))
-
 THERMAL_CONDUCTIVITY_LAWS = {
-    "constant": Law(constant_thermal_conductivity, (THERMAL_CONDUCTIVITY,)),
+    "constant": Law(constant_thermal_conductivity, parameters_of(constant_thermal_conductivity)),
     "larsson": Law(
-        larsson_thermal_conductivity, (THERMAL_CONDUCTIVITY, _C1, _C2), warnings=_conductivity_warnings
+        larsson_thermal_conductivity,
+        parameters_of(larsson_thermal_conductivity),
+        warnings=_conductivity_warnings,
     ),
     "scaling": Law(
         scaled_thermal_conductivity,
-        (
-            number(
-                "scaling_k_base",
-                "W/m/K",
-                "base of the scaled thermal conductivity",
-                "$B$",
-                "$B$ of the scaled thermal conductivity",
-                (0.0, 1.0),
-                "an oil has 0.05",
-            ),
-            number(
-                "scaling_k_factor",
-                "W/m/K",
-                "factor of the scaled thermal conductivity",
-                "$C$",
-                "$C$ of the scaled thermal conductivity",
-                (0.0, 1.0),
-                "an oil has 0.03",
-            ),
-            number(
-                "scaling_k_exponent",
-                "",
-                "exponent of the scaled thermal conductivity",
-                "$s$",
-                "$s$ of the scaled thermal conductivity",
-                (0.0, 30.0),
-                "an oil has 7.7",
-            ),
-            number(
-                "scaling_a",
-                "",
-                "temperature factor of the scaled thermal conductivity",
-                "$A$",
-                "$A$ of the scaled thermal conductivity",
-                (-1.0, 1.0),
-                "an oil has -0.1",
-            ),
-            number(
-                "scaling_q",
-                "",
-                "volume exponent of the scaled thermal conductivity",
-                "$q$",
-                "$q$ of the scaled thermal conductivity",
-                (0.0, 20.0),
-                "an oil has 3",
-            ),
-            *TAIT.parameters,
-        ),
+        parameters_of(scaled_thermal_conductivity),
         needs_temperature=True,
     ),
 }
@@ -358,99 +286,17 @@ def _capacity_warnings(
     yield from beyond_larsson("heat_capacity_law", max_pressure, temperature)
 
 
-HEAT_CAPACITY = Parameter("heat_capacity", "J/kg/K", least=500.0, most=5000.0, reason="of an oil")
-DENSITY = Parameter("density", "kg/m**3", least=500.0, most=3000.0, reason="of an oil")
-
-_K1, _K2 = (larsson_constant("k", k, "heat capacity") for k in (1, 2))
-
 HEAT_CAPACITY_LAWS = {
-    "constant": Law(constant_heat_capacity, (HEAT_CAPACITY, DENSITY)),
+    "constant": Law(constant_heat_capacity, parameters_of(constant_heat_capacity)),
     "larsson": Law(
         larsson_heat_capacity,
-        (
-            number(
-                "volumetric_heat_capacity",
-                "J/m**3/K",
-                "volumetric heat capacity",
-                r"$(\rho c)_0$",
-                r"volumetric heat capacity $(\rho c)_0$ at ambient pressure and `larsson_temperature`",
-                (3e5, 1e7),
-                "of an oil",
-            ),
-            number(
-                "larsson_temperature",
-                "K",
-                "temperature of the given volumetric heat capacity",
-                "$T_0$",
-                "temperature $T_0$ of the given volumetric heat capacity",
-                (100.0, 1000.0),
-                "absolute, of the oil",
-            ),
-            number(
-                "larsson_beta",
-                "1/K",
-                "temperature coefficient of the heat capacity",
-                r"$\beta_0$",
-                r"$\beta_0$ of the heat capacity by Larsson et al.",
-                (0.0, 1e-2),
-                "oils have 7e-4 to 1e-3 1/K",
-            ),
-            number(
-                "larsson_b1",
-                "1/Pa",
-                "constant b1 of Larsson et al.",
-                "$b_1$",
-                "$b_1$ of the heat capacity by Larsson et al.",
-                (0.0, 1e-7),
-                "oils have 1 to 3 1/GPa",
-            ),
-            number(
-                "larsson_b2",
-                "1/Pa**2",
-                "constant b2 of Larsson et al.",
-                "$b_2$",
-                "$b_2$ of the heat capacity by Larsson et al.",
-                (-1e-16, 1e-16),
-                "oils have -2 to -0.5 1/GPa^2",
-            ),
-            _K1,
-            _K2,
-        ),
+        parameters_of(larsson_heat_capacity),
         warnings=_capacity_warnings,
         needs_temperature=True,
     ),
     "scaling": Law(
         scaled_heat_capacity,
-        (
-            number(
-                "scaling_c_base",
-                "J/m**3/K",
-                "base of the scaled heat capacity",
-                "$C_0$",
-                "$C_0$ of the scaled volumetric heat capacity",
-                (0.0, 1e7),
-                "an oil has 1.2 MJ/(m^3 K)",
-            ),
-            number(
-                "scaling_c_factor",
-                "J/m**3/K",
-                "factor of the scaled heat capacity",
-                "$m$",
-                "$m$ of the scaled volumetric heat capacity",
-                (0.0, 1e7),
-                "an oil has 0.4 MJ/(m^3 K)",
-            ),
-            number(
-                "scaling_c_exponent",
-                "",
-                "exponent of the scaled heat capacity",
-                "$g$",
-                "$g$ of the scaled volumetric heat capacity",
-                (0.0, 20.0),
-                "an oil has 4",
-            ),
-            *TAIT.parameters,
-        ),
+        parameters_of(scaled_heat_capacity),
         needs_temperature=True,
     ),
 }

@@ -11,16 +11,21 @@ isothermal law always does so, in the shape of the first argument. A law that ch
 
 To add a law, write its function and add a ``Law`` to the table of its module: ``VISCOSITY_LAWS``,
 ``ATMOSPHERIC_LAWS``, ``DENSITY_LAWS``, ``PERMITTIVITY_LAWS``, ``CONDUCTIVITY_LAWS``,
-``THERMAL_CONDUCTIVITY_LAWS`` or ``HEAT_CAPACITY_LAWS``. Add a ``Parameter`` to that entry for each new
-parameter. Nothing else needs an edit: the keys of ``[lubricant]``, their bounds and messages, the labels of
-figures and the table of keys in the documentation are all read from these tables.
+``THERMAL_CONDUCTIVITY_LAWS`` or ``HEAT_CAPACITY_LAWS``. Add a line to ``parameters.toml`` for each new
+parameter, or give the entry a ``Parameter``. Nothing else needs an edit: the keys of ``[lubricant]``, their
+bounds and messages, the labels of figures and the table of keys in the documentation are read from these
+tables.
 """
 
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from inspect import signature
 from typing import Any, Protocol
 
 import numpy as np
@@ -85,6 +90,24 @@ class Parameter:
     def quantity(self) -> Quantity:
         """Meaning, unit, label and symbol of the parameter."""
         return Quantity(self.meaning, self.unit, self.title or self.name.replace("_", " "), self.symbol)
+
+
+@cache
+def _parameters() -> dict[str, Parameter]:
+    """Parameters of ``parameters.toml`` by their names."""
+    text = resources.files("ehlectric.lubricant").joinpath("parameters.toml").read_text(encoding="utf-8")
+    return {name: Parameter(name, **entry) for name, entry in tomllib.loads(text).items()}
+
+
+def parameter(name: str) -> Parameter:
+    """Parameter of ``parameters.toml`` by its name."""
+    return _parameters()[name]
+
+
+def parameters_of(function: Callable[..., Any]) -> tuple[Parameter, ...]:
+    """Parameters of a law, which are the arguments of its function that are given by keyword."""
+    keywords = (one for one in signature(function).parameters.values() if one.kind is one.KEYWORD_ONLY)
+    return tuple(parameter(keyword.name) for keyword in keywords)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,14 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.law import LARGEST_EXPONENT, Law, Parameter, glass_warnings, required, within
+from ehlectric.lubricant.law import (
+    LARGEST_EXPONENT,
+    Law,
+    glass_warnings,
+    parameters_of,
+    required,
+    within,
+)
 
 _NAME = "viscosity_law 'modulus'"
 
@@ -86,48 +93,7 @@ def _warnings(
 
 MODULUS = Law(
     modulus,
-    (
-        Parameter(
-            "modulus_a1",
-            "Pa",
-            title="first constant of the modulus law",
-            symbol="$a_1$",
-            meaning="$a_1$ of the modulus law, for temperatures in kelvin",
-            least=-1e9,
-            most=1e9,
-            reason="mineral oils have about -50 MPa with temperatures in kelvin",
-        ),
-        Parameter(
-            "modulus_a2",
-            "Pa/K",
-            title="second constant of the modulus law",
-            symbol="$a_2$",
-            meaning="$a_2$ of the modulus law",
-            least=-1e7,
-            most=1e7,
-            reason="mineral oils have about 0.3 MPa/K",
-        ),
-        Parameter(
-            "modulus_b1",
-            "",
-            title="third constant of the modulus law",
-            symbol="$b_1$",
-            meaning="$b_1$ of the modulus law, for temperatures in kelvin",
-            least=-1.0,
-            most=1.0,
-            reason="mineral oils have about -0.08 with temperatures in kelvin",
-        ),
-        Parameter(
-            "modulus_b2",
-            "1/K",
-            title="fourth constant of the modulus law",
-            symbol="$b_2$",
-            meaning="$b_2$ of the modulus law",
-            least=-1e-2,
-            most=1e-2,
-            reason="mineral oils have about 3e-4 1/K",
-        ),
-    ),
+    parameters_of(modulus),
     warnings=_warnings,
     needs_temperature=True,
 )

@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError
-from ehlectric.lubricant.density import REFERENCE_TEMPERATURE
-from ehlectric.lubricant.law import Law, Parameter, refused, required, within
+from ehlectric.lubricant.law import Law, parameters_of, refused, required, within
 from ehlectric.lubricant.viscosity import ROELANDS_CONSTANT
 
 # Temperature of the pole of Roelands' law [K], -135 degC.
@@ -176,70 +175,17 @@ def roelands_temperature(
     return np.asarray(ROELANDS_TEMPERATURE + _distance(reference_temperature) * ratio ** (-1.0 / roelands_s0))
 
 
-VISCOSITY = Parameter(
-    "viscosity",
-    "Pa*s",
-    least=1e-7,
-    most=1e6,
-    reason="at ambient pressure",
-)
-
 ATMOSPHERIC_LAWS = {
     "vogel": Law(
         vogel,
-        (
-            Parameter(
-                "vogel_viscosity",
-                "Pa*s",
-                title="Vogel's constant of viscosity",
-                symbol="$K$",
-                meaning="$K$ of Vogel's law, the viscosity at unlimited temperature",
-                least=1e-9,
-                most=1e-1,
-                reason="oils have 0.02 to 0.3 mPa s",
-            ),
-            Parameter(
-                "vogel_b",
-                "K",
-                title="Vogel's constant $B$",
-                symbol="$B$",
-                meaning="$B$ of Vogel's law, a difference of temperatures",
-                least=10.0,
-                most=2e4,
-                reason="oils have 600 to 2000 K",
-                difference=True,
-            ),
-            Parameter(
-                "vogel_c",
-                "K",
-                title="temperature of the pole of Vogel's law",
-                symbol="$C$",
-                meaning="$C$ of Vogel's law, the absolute temperature of its pole",
-                least=0.0,
-                most=400.0,
-                reason="oils have 140 to 200 K",
-            ),
-        ),
+        parameters_of(vogel),
         needs_temperature=True,
         coefficient=vogel_coefficient,
         inverse=vogel_temperature,
     ),
     "roelands": Law(
         roelands_over_temperature,
-        (
-            VISCOSITY,
-            REFERENCE_TEMPERATURE,
-            Parameter(
-                "roelands_s0",
-                "",
-                title="Roelands' slope index",
-                symbol="$S_0$",
-                meaning="Roelands' slope index $S_0$ of the viscosity over temperature",
-                least=0.1,
-                most=5.0,
-                reason="oils have 0.8 to 1.6",
-            ),
-        ),
+        parameters_of(roelands_over_temperature),
         needs_temperature=True,
         coefficient=roelands_coefficient,
         inverse=roelands_temperature,

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike
 from ehlectric.arrays import Array
 from ehlectric.errors import ResultWarning
 from ehlectric.lubricant.doolittle import DOOLITTLE
-from ehlectric.lubricant.law import Derivation, Law, Parameter, PressureLaw
+from ehlectric.lubricant.law import Derivation, Law, PressureLaw, parameter
 from ehlectric.lubricant.modulus import MODULUS
 from ehlectric.lubricant.yasutomi import YASUTOMI
 
@@ -180,31 +181,12 @@ def _roelands_hint(viscosity: float, given: Mapping[str, float]) -> str:
     )
 
 
-_ALPHA = Parameter(
-    "pressure_viscosity_coefficient",
-    "1/Pa",
-    least=1e-11,
-    most=2e-7,
-    reason="an oil has 5 to 40 1/GPa",
+_ALPHA = replace(
+    parameter("pressure_viscosity_coefficient"),
     derivation=Derivation(roelands_alpha, ("roelands_z", "roelands_pressure")),
 )
-_ROELANDS_Z = Parameter(
-    "roelands_z",
-    "",
-    least=0.01,
-    most=2.0,
-    reason="an oil has 0.3 to 1",
-)
-_ROELANDS_PRESSURE = Parameter(
-    "roelands_pressure",
-    "Pa",
-    title="Roelands' constant",
-    symbol="$p_0$",
-    meaning="Roelands' constant $p_0$",
-    least=1e7,
-    most=1e10,
-    reason="Roelands' constant is 0.196 GPa",
-)
+_ROELANDS_Z = parameter("roelands_z")
+_ROELANDS_PRESSURE = parameter("roelands_pressure")
 
 VISCOSITY_LAWS = {
     "roelands": Law(

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ehlectric.arrays import Array
 from ehlectric.errors import InputError, ResultWarning
-from ehlectric.lubricant.law import Law, Parameter, glass_warnings, refused, required, within
+from ehlectric.lubricant.law import Law, glass_warnings, parameters_of, refused, required, within
 
 _NAME = "viscosity_law 'yasutomi'"
 
@@ -174,90 +174,7 @@ def _warnings(
 
 YASUTOMI = Law(
     yasutomi,
-    (
-        Parameter(
-            "yasutomi_glass_viscosity",
-            "Pa*s",
-            title="viscosity at the glass transition",
-            symbol=r"$\eta_\mathrm{g}$",
-            meaning=r"$\eta_g$ of Yasutomi's law, the viscosity at the glass transition",
-            least=1e3,
-            most=1e15,
-            reason="1e12 Pa s by the usual definition",
-        ),
-        Parameter(
-            "yasutomi_glass_temperature",
-            "K",
-            title="glass transition temperature",
-            symbol=r"$T_\mathrm{g0}$",
-            meaning="$T_{g0}$ of Yasutomi's law, the glass transition temperature at ambient pressure",
-            least=50.0,
-            most=500.0,
-            reason="absolute; an oil has 180 to 250 K",
-        ),
-        Parameter(
-            "yasutomi_a1",
-            "K",
-            title="Yasutomi's constant $A_1$",
-            symbol="$A_1$",
-            meaning="$A_1$ of Yasutomi's law, a difference of temperatures",
-            least=1.0,
-            most=2000.0,
-            reason="oils have 20 to 400 K",
-            difference=True,
-        ),
-        Parameter(
-            "yasutomi_a2",
-            "1/Pa",
-            title="Yasutomi's constant $A_2$",
-            symbol="$A_2$",
-            meaning="$A_2$ of Yasutomi's law",
-            least=1e-12,
-            most=1e-7,
-            reason="oils have 0.3 to 5 1/GPa",
-        ),
-        Parameter(
-            "yasutomi_b1",
-            "1/Pa",
-            title="Yasutomi's constant $b_1$",
-            symbol="$b_1$",
-            meaning="$b_1$ of Yasutomi's law",
-            least=1e-12,
-            most=1e-6,
-            reason="oils have 3 to 30 1/GPa",
-        ),
-        Parameter(
-            "yasutomi_b2",
-            "",
-            title="Yasutomi's constant $b_2$",
-            symbol="$b_2$",
-            meaning="$b_2$ of Yasutomi's law, an exponent of at most zero",
-            least=-3.0,
-            most=0.0,
-            reason="oils have -0.6 to -0.1",
-        ),
-        Parameter(
-            "yasutomi_c1",
-            "",
-            title="Yasutomi's constant $C_1$",
-            symbol="$C_1$",
-            meaning="$C_1$ of Yasutomi's law",
-            least=1.0,
-            most=50.0,
-            reason="oils have 15 to 17",
-        ),
-        Parameter(
-            "yasutomi_c2",
-            "K",
-            title="Yasutomi's constant $C_2$",
-            symbol="$C_2$",
-            meaning="$C_2$ of Yasutomi's law, a difference of temperatures",
-            least=0.1,
-            most=1000.0,
-            reason="oils have 10 to 50 K",
-            difference=True,
-        ),
-    ),
+    parameters_of(yasutomi),
     warnings=_warnings,
     needs_temperature=True,
     atmospheric=yasutomi_viscosity,

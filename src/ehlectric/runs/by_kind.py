@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -151,10 +152,7 @@ def run_contact(
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         factors = None if measured is None else measured.factors(case, progress)
-        further = None if factors is None else factors.contents()
-        others = files_of_results(folder)
-        outcome = run(case, folder, progress, solvers=SOLVERS[solver], others=others, further=further)
-    return with_factors(outcome, factors)
+        return _with_factors(partial(run, case, folder, progress, solvers=SOLVERS[solver]), folder, factors)
 
 
 def run_motion(
@@ -204,10 +202,7 @@ def run_bearing(
     with alone_in(folder, locks=[RESULT_LOCK]) as folder:
         protect(folder)
         factors = None if measured is None else measured.factors(case, progress, workers)
-        further = None if factors is None else factors.contents()
-        others = files_of_results(folder)
-        outcome = run(case, folder, progress, workers=workers, others=others, further=further)
-    return with_factors(outcome, factors)
+        return _with_factors(partial(run, case, folder, progress, workers=workers), folder, factors)
 
 
 def run_drive(
@@ -227,8 +222,12 @@ def run_drive(
         return run(case, folder, progress, workers=workers, others=files_of_results(folder))
 
 
-def with_factors(outcome: RunOutcome[R], factors: FilmFactors | None) -> RunOutcome[R]:
-    """Outcome of a run with the film factors of a measurement beside its result; unchanged without them."""
+def _with_factors(
+    run: Callable[..., RunOutcome[R]], folder: Path, factors: FilmFactors | None
+) -> RunOutcome[R]:
+    """Outcome of a run, with the film factors of a measurement next to its result if there are any."""
+    further = None if factors is None else factors.contents()
+    outcome = run(others=files_of_results(folder), further=further)
     if factors is None:
         return outcome
     return replace(

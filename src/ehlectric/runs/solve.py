@@ -9,7 +9,7 @@ from functools import partial
 from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypedDict, TypeVar, Unpack, overload
 
 from ehlectric.bearing import run as of_bearings
 from ehlectric.bearing.result import BearingResult, solve_bearing
@@ -148,63 +148,37 @@ def save(result: Result | PointResult | BearingResult | DriveResult, folder: str
 Solvable: TypeAlias = Case | BearingCase | DriveCase | Mapping[str, Any] | str | PathLike[str]
 
 
+class _Options(TypedDict, total=False):
+    progress: Progress | None
+    require_convergence: bool
+
+
+class _ContactOptions(_Options, total=False):
+    solvers: str | Solvers
+    beside_smooth: bool
+    laws: Laws | None
+
+
+class _BearingOptions(_Options, total=False):
+    workers: int | None
+
+
+class _AnyOptions(_ContactOptions, _BearingOptions, total=False):
+    pass
+
+
 @overload
-def solve(
-    case: LineCase,
-    *,
-    progress: Progress | None = None,
-    require_convergence: bool = False,
-    solvers: str | Solvers = "ehlectric",
-    beside_smooth: bool = True,
-    laws: Laws | None = None,
-) -> Result: ...
+def solve(case: LineCase, **options: Unpack[_ContactOptions]) -> Result: ...
 @overload
-def solve(
-    case: PointCase,
-    *,
-    progress: Progress | None = None,
-    require_convergence: bool = False,
-    solvers: str | Solvers = "ehlectric",
-    beside_smooth: bool = True,
-    laws: Laws | None = None,
-) -> PointResult: ...
+def solve(case: PointCase, **options: Unpack[_ContactOptions]) -> PointResult: ...
 @overload
-def solve(
-    case: Case,
-    *,
-    progress: Progress | None = None,
-    require_convergence: bool = False,
-    solvers: str | Solvers = "ehlectric",
-    beside_smooth: bool = True,
-    laws: Laws | None = None,
-) -> Result | PointResult: ...
+def solve(case: Case, **options: Unpack[_ContactOptions]) -> Result | PointResult: ...
 @overload
-def solve(
-    case: BearingCase,
-    *,
-    progress: Progress | None = None,
-    require_convergence: bool = False,
-    workers: int | None = None,
-) -> BearingResult: ...
+def solve(case: BearingCase, **options: Unpack[_BearingOptions]) -> BearingResult: ...
 @overload
-def solve(
-    case: DriveCase,
-    *,
-    progress: Progress | None = None,
-    require_convergence: bool = False,
-    workers: int | None = None,
-) -> DriveResult: ...
+def solve(case: DriveCase, **options: Unpack[_BearingOptions]) -> DriveResult: ...
 @overload
-def solve(
-    case: Mapping[str, Any] | str | PathLike[str],
-    *,
-    progress: Progress | None = None,
-    require_convergence: bool = False,
-    solvers: str | Solvers = "ehlectric",
-    beside_smooth: bool = True,
-    laws: Laws | None = None,
-    workers: int | None = None,
-) -> Any: ...
+def solve(case: Mapping[str, Any] | str | PathLike[str], **options: Unpack[_AnyOptions]) -> Any: ...
 
 
 def solve(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -92,22 +92,11 @@ class Sensitivity:
             "rows": self.rows,
             "rows_dropped": self.dropped,
             "rows_doubtful": self.doubtful,
-            "spread": {
-                "samples": spread.samples,
-                "mean": spread.mean,
-                "standard_deviation": spread.standard_deviation,
-                "minimum": spread.minimum,
-                "maximum": spread.maximum,
-                "quantiles": {f"{q:g}": value for q, value in spread.quantiles.items()},
-            },
+            "spread": asdict(spread)
+            | {"quantiles": {f"{q:g}": value for q, value in spread.quantiles.items()}},
             "share_below_voltage": self.share_below_voltage,
             "indices": {
-                index.key: {
-                    "first_order": index.first_order,
-                    "first_order_interval": list(index.first_order_interval),
-                    "total": index.total,
-                    "total_interval": list(index.total_interval),
-                }
+                index.key: {key: value for key, value in asdict(index).items() if key != "key"}
                 for index in self.indices
             },
             "bootstrap": {"level": LEVEL, "resamples": self.resamples, "seed": self.seed},

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
-from pydantic import ValidationInfo, create_model, field_validator, model_validator
+from pydantic import ValidationInfo, field_validator, model_validator
 from pydantic.fields import FieldInfo
 
 from ehlectric.arrays import Array
@@ -27,8 +27,8 @@ from ehlectric.cases.drive_case import (
     with_found_files,
 )
 from ehlectric.cases.input_keys import input_field, is_of_drive, kind_of, number_of
-from ehlectric.cases.table import Table, Title, nearest, nearest_key, read_toml
-from ehlectric.errors import InputError, printable, short, shown
+from ehlectric.cases.table import Table, Title, nearest, nearest_key, parser_of, read_toml
+from ehlectric.errors import InputError, printable, short, shown, within
 from ehlectric.quantities.inputs import BOTH, ENDS, end_and_key
 from ehlectric.runtime.values import Tabled, headline
 from ehlectric.sweep.points import Range
@@ -540,18 +540,10 @@ def _axis(key: str, value: Any, design: str, *, written: bool) -> tuple[Any, ...
 
 def _values(key: str, field: FieldInfo, values: Sequence[Any], *, written: bool) -> Iterator[Any]:
     """Values of a varied key as a case stores them; numbers are in SI units."""
-    table, _, leaf = key.rpartition(".")
-    annotation = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
-    keys: Any = {leaf: (annotation, ...)}
-    value_of: type[Table] = create_model("Value", __base__=Table, **keys)
+    parse = parser_of(field, key)
     for each in values:
         value = each.item() if isinstance(each, np.generic) else each
-        try:
-            made = value_of.from_written({leaf: value}) if written else value_of.from_dict({leaf: value})
-            parsed = made.model_dump(mode="json")[leaf]
-        except InputError as error:
-            raise error.under(table) from None
-        yield parsed
+        yield parse(value, written=written).model_dump(mode="json")[key.rpartition(".")[2]]
 
 
 def _range(
@@ -594,13 +586,8 @@ def _over(key: str, table: Mapping[str, Any], number: Amount | Count, *, written
     for name in ("from", "to"):
         if name not in table:
             raise InputError.missing(f"{key}.{name}", number.takes)
-        try:
-            end = table[name]
-            ends.append(
-                number.parse(end, written=written) if isinstance(number, Amount) else number.parse(end)
-            )
-        except InputError as error:
-            raise error.under(f"{key}.{name}") from None
+        with within(f"{key}.{name}"):
+            ends.append(number.parse(table[name], written=written))
     start, stop = ends
     spacing = table.get("spacing", "linear")
     if spacing not in _SPACINGS:

@@ -231,7 +231,9 @@ def test_a_table_that_contradicts_itself_is_refused_also_where_it_lacks_a_value(
     with pytest.raises(InputError, match=r"lubricant.viscosity: got viscosity and temperature together"):
         named_oil(OWN | {"viscosity": "40 mPa s"})
     both = {"temperature": ["40 degC", "70 degC"], "relative_permittivity": [2.1, 2.0]}
-    with pytest.raises(InputError, match="relative_permittivity: got it and permittivity_table"):
+    with pytest.raises(
+        InputError, match="relative_permittivity: got relative_permittivity and permittivity_table"
+    ):
         named_oil(OWN | {"permittivity_table": both})
 
 
